@@ -1,0 +1,6 @@
+"""The module itself: parametric geometry, the modes, and the one table of variables and outputs."""
+
+from tvimdesign.device.modes import MODES, table_for
+from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Rule, Scalar, Table
+
+__all__ = ["MODES", "Choice", "Event", "Input", "Output", "Path", "Rule", "Scalar", "Table", "table_for"]

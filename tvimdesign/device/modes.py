@@ -1,0 +1,21 @@
+"""Which modes a module can have, each with its table."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from tvimdesign.device.rows import Table
+from tvimdesign.errors import InputError
+
+MODES = ("shear",)
+"""The modes a study may name."""
+
+
+@cache
+def table_for(mode: str) -> Table:
+    """Return the table of a mode; raises InputError for a mode that does not exist."""
+    if mode == "shear":
+        from tvimdesign.device.shear import TABLE
+
+        return TABLE
+    raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")

@@ -1,0 +1,200 @@
+"""The machinery of the one table: what a row is, and how a table of rows is evaluated.
+
+A table says what a module is. `Input` rows are numbers that a study may set, `Choice` rows are words (a catalogue record
+or an option), `Output` rows are what follows. An output's function names what it needs by its parameters: the parameter
+`wire_diameter` is the row `wire_diameter`. So the table is also the dependency graph, and floats, arrays and CasADi
+symbols go through the same functions.
+
+A row with `per_point=True` has one value at each operating point and is written `name@point`; another row asks for it
+at a certain point with a parameter `name_at_point`. A row with `instant=True` has a value at each instant of the switch.
+`Event` rows are the times at which something that rises passes zero; `Path` rows reduce an instant's value over the
+switch. The solver, or a simulation, supplies those two; everything else is arithmetic.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Literal, TypeAlias
+
+from tvimdesign.errors import InputError
+
+Scalar: TypeAlias = Any
+"""A float, a numpy array or a CasADi expression."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rule:
+    """A limit that belongs to the machine and holds in every study unless the study says otherwise."""
+
+    sense: Literal["<=", ">="]
+    value: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Input:
+    """A number the study may set. Values are SI; `unit` is what people read and write."""
+
+    name: str
+    unit: str
+    description: str
+    group: str
+    default: float | None = None
+    lower: float = float("-inf")
+    upper: float = float("inf")
+    variable: bool = False
+    integer: bool = False
+    per_point: bool = False
+    record: tuple[str, str] | None = None
+    """(choice, field): where the default comes from when the study does not set it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    """A word the study may set: the name of a record on a catalogue shelf, or one of a few options."""
+
+    name: str
+    description: str
+    group: str
+    default: str
+    shelf: str | None = None
+    options: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Output:
+    """A named result. `function` takes the rows it names as parameters and returns SI."""
+
+    name: str
+    unit: str
+    description: str
+    group: str
+    function: Callable[..., Scalar]
+    per_point: bool = False
+    instant: bool = False
+    rule: Rule | None = None
+
+    @cached_property
+    def needs(self) -> tuple[str, ...]:
+        """The rows this one is computed from, `name@point` where the parameter says `name_at_point`."""
+        return tuple(name.replace("_at_", "@") for name in inspect.signature(self.function).parameters)
+
+    def call(self, arguments: Iterable[Any]) -> Scalar:
+        """Apply the function to the values of `needs`, in order."""
+        return self.function(*arguments)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event(Output):
+    """A time in seconds: the first instant of the switch at which `function`, which rises, passes zero."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Path(Output):
+    """What `function` adds up to, or reaches, from the start of the switch to its `response_time`."""
+
+    reduce: Literal["integral", "maximum"]
+
+
+Row: TypeAlias = Input | Choice | Output
+STATE = "state"
+"""The one name that is no row: the thermal state of the stack at an instant, a list of scalars."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Every row of one kind of module, looked up by name."""
+
+    rows: tuple[Row, ...]
+    by_name: dict[str, Row] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Index the rows and refuse a name said twice or a parameter that is no row."""
+        index: dict[str, Row] = {}
+        for row in self.rows:
+            if row.name in index:
+                raise ValueError(f"the table has two rows named {row.name!r}")
+            index[row.name] = row
+        object.__setattr__(self, "by_name", index)
+        for row in self.outputs:
+            for need in row.needs:
+                if need.partition("@")[0] not in index and need != STATE:
+                    raise ValueError(f"row {row.name!r} needs {need!r}, which is no row")
+
+    @cached_property
+    def inputs(self) -> tuple[Input, ...]:
+        """The numbers a study may set."""
+        return tuple(row for row in self.rows if isinstance(row, Input))
+
+    @cached_property
+    def choices(self) -> tuple[Choice, ...]:
+        """The words a study may set."""
+        return tuple(row for row in self.rows if isinstance(row, Choice))
+
+    @cached_property
+    def outputs(self) -> tuple[Output, ...]:
+        """What follows from the inputs."""
+        return tuple(row for row in self.rows if isinstance(row, Output))
+
+    def names(self, points: Iterable[str]) -> list[str]:
+        """Full name (`row` or `row@point`) of every output a study can ask for, in the table's order."""
+        points = list(points)
+        return [
+            name
+            for row in self.outputs
+            if not row.instant
+            for name in ([f"{row.name}@{point}" for point in points] if row.per_point else [row.name])
+        ]
+
+    def row(self, name: str) -> Row:
+        """Return the row of a full name; raises InputError where there is none."""
+        base = name.partition("@")[0]
+        if base not in self.by_name:
+            raise InputError(f"no row is named {base!r}")
+        return self.by_name[base]
+
+    def evaluate(self, given: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
+        """Compute the wanted outputs from the given rows, each row once.
+
+        `given` holds SI numbers, arrays or symbols by full name, and the chosen records and options. Returns the wanted
+        values by name. Raises InputError where a row is missing from `given`.
+        """
+        known = dict(given)
+        return {name: self._resolve(name, known) for name in wanted}
+
+    def _resolve(self, name: str, known: dict[str, Any]) -> Any:
+        if name in known:
+            return known[name]
+        base, _, point = name.partition("@")
+        row = self.row(base)
+        if not isinstance(row, Output) or isinstance(row, Event | Path):
+            raise InputError(f"{name!r} has no value")
+        known[name] = row.call([self._resolve(self._at(need, point), known) for need in row.needs])
+        return known[name]
+
+    def criterion(self, row: Event | Path, given: Mapping[str, Any]) -> Scalar:
+        """Value at one instant of what an event waits for or a path reduces; `given` must hold the state."""
+        known = dict(given)
+        return row.call([self._resolve(need, known) for need in row.needs])
+
+    def _at(self, need: str, point: str) -> str:
+        if need == STATE or "@" in need:
+            return need
+        row = self.by_name[need]
+        per_point = not isinstance(row, Choice) and row.per_point
+        return f"{need}@{point}" if per_point and point else need
+
+    def ancestors(self, name: str) -> frozenset[str]:
+        """Every row, by base name, that the named one depends on."""
+        seen: set[str] = set()
+        todo = [name.partition("@")[0]]
+        while todo:
+            row = self.by_name[todo.pop()]
+            for need in row.needs if isinstance(row, Output) else ():
+                base = need.partition("@")[0]
+                if base not in seen and base != STATE:
+                    seen.add(base)
+                    todo.append(base)
+        return frozenset(seen)

@@ -1,0 +1,33 @@
+"""The package's exceptions: one small tree, each with the exit code the command line answers with."""
+
+from __future__ import annotations
+
+
+class TvimError(Exception):
+    """Anything tvimdesign says no to; the message names the thing, the value, the limit and the next step."""
+
+    exit_code = 2
+
+
+class InputError(TvimError):
+    """The user's input is wrong: a study, a record, a file, an option."""
+
+
+class CatalogError(InputError):
+    """A catalogue record is missing, malformed or lacks a value."""
+
+
+class UnitError(InputError):
+    """A unit is unknown or has the wrong dimension."""
+
+
+class InfeasibleError(TvimError):
+    """No design meets the requirements, or the solver did not converge."""
+
+    exit_code = 3
+
+
+class GeometryError(TvimError):
+    """A part could not be built, or a built part is not what the model says it is."""
+
+    exit_code = 4
