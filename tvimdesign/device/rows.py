@@ -27,10 +27,11 @@ Scalar: TypeAlias = Any
 
 @dataclass(frozen=True, kw_only=True)
 class Rule:
-    """A limit that belongs to the machine and holds in every study unless the study says otherwise."""
+    """A limit that belongs to the machine, in SI, with the reason people are told."""
 
     sense: Literal["<=", ">="]
     value: float
+    reason: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +75,12 @@ class Output:
     function: Callable[..., Scalar]
     per_point: bool = False
     instant: bool = False
-    rule: Rule | None = None
+    hidden: bool = False
+    """An intermediate result, of any type, that other rows use and nobody asks for."""
+    rules: tuple[Rule, ...] = ()
+    """Limits that hold in every study, unless the study sets its own for this row in the same sense."""
+    advice: tuple[Rule, ...] = ()
+    """Limits that are reported where they are broken, and enforced only where a study requires them."""
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
@@ -144,7 +150,7 @@ class Table:
         return [
             name
             for row in self.outputs
-            if not row.instant
+            if not (row.instant or row.hidden)
             for name in ([f"{row.name}@{point}" for point in points] if row.per_point else [row.name])
         ]
 

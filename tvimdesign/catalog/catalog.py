@@ -1,0 +1,88 @@
+"""The catalogue: finds records by shelf and name, the user's folder before the shipped one, and reads them when asked."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from pathlib import Path
+
+from tvimdesign.catalog.record import Record
+from tvimdesign.catalog.shelves import SHELVES
+from tvimdesign.catalog.validate import build_record
+from tvimdesign.catalog.yaml_file import read_tree
+from tvimdesign.errors import CatalogError
+
+_SHIPPED = Path(__file__).with_name("data")
+
+
+class Catalog:
+    """The shipped records, and those of a user's folder `<shelf>/<name>.yaml`, which add to them or replace them."""
+
+    def __init__(self, extra: Path | None = None) -> None:
+        """Note the folders; no record is read yet. Raises CatalogError where `extra` is no folder of shelves."""
+        self._folders = [_SHIPPED] if extra is None else [extra, _SHIPPED]
+        self._records: dict[tuple[str, str], Record] = {}
+        if extra is None:
+            return
+        try:
+            folders = [item.name for item in extra.iterdir() if item.is_dir()]
+        except (OSError, ValueError):
+            raise CatalogError(f"{str(extra)[:200]}: the catalogue folder is not there or cannot be read") from None
+        for folder in folders:
+            close = get_close_matches(folder, SHELVES, n=1)
+            if close and folder not in SHELVES:
+                raise CatalogError(f"{extra / folder}: this is no shelf; did you mean {close[0]}?")
+
+    def shelves(self) -> list[str]:
+        """Return the names of the shelves."""
+        return list(SHELVES)
+
+    def names(self, shelf: str) -> list[str]:
+        """Return the names of a shelf's records, sorted; raises CatalogError for an unknown shelf."""
+        if shelf not in SHELVES:
+            raise CatalogError(f"no shelf is named {shelf[:60]!r}; {_nearest(shelf, list(SHELVES))}")
+        try:
+            return sorted({path.stem for folder in self._folders for path in (folder / shelf).glob("*.yaml")})
+        except OSError as error:
+            raise CatalogError(f"shelf {shelf}: its folder cannot be read ({type(error).__name__})") from None
+
+    def path(self, shelf: str, name: str) -> Path:
+        """Return the file of a record; raises CatalogError with the nearest names where there is none."""
+        names = self.names(shelf)
+        # Only a listed name is made into a path, so no name can leave the shelf.
+        if name not in names:
+            raise CatalogError(f"{shelf} has no record {name[:60]!r}; {_nearest(name, names)}")
+        candidates = (folder / shelf / f"{name}.yaml" for folder in self._folders)
+        return next((path for path in candidates if path.exists()), self._folders[0] / shelf / f"{name}.yaml")
+
+    def record(self, shelf: str, name: str) -> Record:
+        """Return a record, read once; raises CatalogError naming every problem of its file."""
+        if (shelf, name) not in self._records:
+            path = self.path(shelf, name)
+            record, problems = build_record(shelf, name, _shown(path), read_tree(path))
+            if problems:
+                raise CatalogError("\n".join(problems))
+            self._records[shelf, name] = record
+        return self._records[shelf, name]
+
+
+def check_records(catalog: Catalog) -> list[str]:
+    """Read every record and name everything that lacks a unit, a source, a status, or what its shelf requires."""
+    problems: list[str] = []
+    for shelf in catalog.shelves():
+        for name in catalog.names(shelf):
+            try:
+                catalog.record(shelf, name)
+            except CatalogError as error:
+                problems += str(error).splitlines()
+    return problems
+
+
+def _shown(path: Path) -> str:
+    """Name a shipped file by its place in the catalogue, which is the same on every machine, and a user's by its path."""
+    return f"catalog/{path.relative_to(_SHIPPED).as_posix()}" if path.is_relative_to(_SHIPPED) else str(path)
+
+
+def _nearest(name: str, names: list[str]) -> str:
+    close = get_close_matches(name.lower(), names, n=1)
+    listed = f"there are: {', '.join(names)}" if names else "it is empty"
+    return f"did you mean {close[0]}? {listed}" if close else listed

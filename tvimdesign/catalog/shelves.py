@@ -1,0 +1,98 @@
+"""The shelves, and what every record on each must say: the one list of required values, tables and words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Columns:
+    """The columns a table must have, with a unit of the kind each needs.
+
+    `exact` wants these very units, where a formula goes with them. `rising` columns must rise within each row.
+    """
+
+    units: Mapping[str, str]
+    exact: bool = False
+    rising: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """What a record must say. Every required number is greater than zero; `rising` values must rise in that order."""
+
+    values: Mapping[str, str] = field(default_factory=dict)
+    tables: Mapping[str, Columns] = field(default_factory=dict)
+    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    rising: tuple[str, ...] = ()
+
+
+SHELVES: Mapping[str, Shelf] = {
+    "spring_materials": Shelf(
+        values={"youngs_modulus": "GPa", "density": "kg/m^3", "yield_ratio": "1", "fatigue_strength_ratio": "1"},
+        tables={
+            "strength": Columns(
+                {"wire_diameter_from": "mm", "wire_diameter_to": "mm", "coefficient": "MPa", "exponent": "1"},
+                exact=True,
+                rising=("wire_diameter_from", "wire_diameter_to"),
+            )
+        },
+    ),
+    "structure_materials": Shelf(
+        values={
+            "youngs_modulus": "GPa",
+            "poissons_ratio": "1",
+            "density": "kg/m^3",
+            "thermal_conductivity": "W/m/K",
+            "specific_heat": "J/kg/K",
+            "yield_strength": "MPa",
+            "service_temperature": "degC",
+        }
+    ),
+    "polymers": Shelf(
+        values={
+            "density_solid": "kg/m^3",
+            "density_melt": "kg/m^3",
+            "specific_heat_solid": "J/kg/K",
+            "specific_heat_melt": "J/kg/K",
+            "conductivity_solid": "W/m/K",
+            "conductivity_melt": "W/m/K",
+            "latent_heat": "kJ/kg",
+            "melting_start": "degC",
+            "melting_end": "degC",
+            "flexural_modulus": "MPa",
+            "reference_temperature": "degC",
+            "softening_slope": "1/K",
+            "softening_onset": "degC",
+            "softening_width": "K",
+            "poissons_ratio": "1",
+            "solid_loss_factor": "1",
+            "tensile_yield": "MPa",
+            "bond_strength": "MPa",
+            "melt_strain_limit": "1",
+            "flow_activation_energy": "kJ/mol",
+            "melt_reference_temperature": "degC",
+            "zero_shear_viscosity": "Pa*s",
+            "plateau_modulus": "MPa",
+            "decomposition_temperature": "degC",
+        },
+        tables={"melt_spectrum": Columns({"relaxation_time": "s", "modulus": "Pa"})},
+        rising=("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),
+    ),
+    "peltiers": Shelf(
+        values={
+            "seebeck": "mV/K",
+            "resistance": "ohm",
+            "conductance": "W/K",
+            "thickness": "mm",
+            "area": "mm^2",
+            "mass": "g",
+            "specific_heat": "J/kg/K",
+            "max_current": "A",
+            "max_temperature": "degC",
+        },
+        words={"form": ("flexible", "rigid")},
+    ),
+    "wires": Shelf(tables={"sizes": Columns({"wire_diameter": "mm"})}),
+}

@@ -1,0 +1,205 @@
+"""Turns a file's tree into a record, and names everything that is wrong with it: field, and what was expected."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from difflib import get_close_matches
+from itertools import pairwise
+from typing import Any
+
+from tvimdesign import units
+from tvimdesign.catalog.record import STATUSES, Entry, Record, Sheet
+from tvimdesign.catalog.shelves import SHELVES, Columns
+from tvimdesign.catalog.yaml_file import Tree
+from tvimdesign.errors import UnitError
+
+_ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")
+_TABLE_FIELDS = ("columns", "rows", "source", "status", "range")
+_SECTIONS = ("title", "values", "tables", "words")
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,60}")
+
+
+def build_record(shelf: str, name: str, file: str, tree: dict[str, Tree]) -> tuple[Record, list[str]]:
+    """Build the record; the list names every problem, and the record is only to be used where there is none."""
+    check = _Check(shelf, file)
+    check.unknown("", tree, _SECTIONS)
+    title = check.text("title", tree, "a line that says what this is")
+    entries = {key: entry for key, item in check.section(tree, "values") if (entry := check.entry(key, item))}
+    sheets = {key: sheet for key, item in check.section(tree, "tables") if (sheet := check.sheet(key, item))}
+    words = {key: item for key, item in check.section(tree, "words") if check.word(key, item) and isinstance(item, str)}
+    check.required(tree, entries)
+    return Record(shelf, name, title, entries, sheets, words, file), check.problems
+
+
+class _Check:
+    """Gathers the problems of one file."""
+
+    def __init__(self, shelf: str, file: str) -> None:
+        self.shelf = SHELVES[shelf]
+        self.file = file
+        self.problems: list[str] = []
+
+    def no(self, field: str, message: str) -> None:
+        self.problems.append(f"{self.file}: {field}: {message}")
+
+    def unknown(self, field: str, tree: dict[str, Tree], allowed: Iterable[str]) -> None:
+        allowed = list(allowed)
+        for key in tree:
+            if key not in allowed:
+                close = get_close_matches(key, allowed, n=1)
+                hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(allowed)}"
+                self.no(f"{field}.{key[:40]}".lstrip("."), f"unknown; {hint}")
+
+    def section(self, tree: dict[str, Tree], name: str) -> list[tuple[str, Tree]]:
+        part = tree.get(name, {})
+        if not isinstance(part, dict):
+            if part != "":
+                self.no(name, "expected a mapping of names")
+            return []
+        for key in part:
+            if not _NAME.fullmatch(key):
+                self.no(f"{name}.{key[:40]}", "a name is small letters, digits and underscores")
+        return list(part.items())
+
+    def text(self, field: str, tree: dict[str, Tree], expected: str) -> str:
+        found = tree.get(field.rpartition(".")[2])
+        if not isinstance(found, str) or not found.strip():
+            self.no(field, f"missing; expected {expected}")
+            return ""
+        return found.strip()
+
+    def number(self, field: str, text: Tree, unit: str, wanted: str) -> float | None:
+        """Read a number in `unit` where a quantity of the kind of `wanted` belongs."""
+        if not isinstance(text, str) or not re.match(r"[+-]?[0-9]", text) or re.search(r"[^0-9eE.,+-]", text):
+            self.no(field, "expected a number")
+            return None
+        try:
+            return units.parse_quantity(text if unit == "1" else f"{text} {unit}", wanted)
+        except UnitError as error:
+            self.no(field, str(error))
+            return None
+
+    def provenance(self, field: str, tree: dict[str, Tree]) -> tuple[str, str]:
+        """Check that a source is named, and that it says what its status promises."""
+        source = self.text(f"{field}.source", tree, "the handbook, data sheet, paper or test it comes from")
+        status = self.text(f"{field}.status", tree, f"one of {', '.join(STATUSES)}")
+        if status and status not in STATUSES:
+            self.no(f"{field}.status", f"{status[:40]!r} is not one of {', '.join(STATUSES)}")
+        if status == "calibrated" and source and not re.search(r"\b(to|from|against)\b", source):
+            self.no(f"{field}.source", 'a calibrated value must say to what, as in "calibrated to ..."')
+        if status == "assumed" and source and not source.startswith("assumed: "):
+            self.no(f"{field}.source", 'an assumed value must say why, as in "assumed: the reason"')
+        return source, status
+
+    def entry(self, name: str, item: Tree) -> Entry | None:
+        field = f"values.{name}"
+        if not isinstance(item, dict):
+            self.no(field, "expected {value: , unit: , source: , status: }")
+            return None
+        before = len(self.problems)
+        self.unknown(field, item, _ENTRY_FIELDS)
+        source, status = self.provenance(field, item)
+        unit = self.text(f"{field}.unit", item, 'a unit such as MPa, or "1" for a plain number')
+        wanted = self.shelf.values.get(name, unit)
+        numbers: dict[str, float | None] = {"low": None, "high": None}
+        for part in ("value", "low", "high"):
+            if unit and (part == "value" or part in item):
+                numbers[part] = self.number(f"{field}.{part}", item.get(part, ""), unit, wanted)
+        value, low, high = (numbers.get(part) for part in ("value", "low", "high"))
+        if value is not None and name in self.shelf.values and value <= 0.0:
+            self.no(f"{field}.value", "must be greater than zero")
+        if status == "assumed" and not {"low", "high"} <= set(item):
+            self.no(field, "an assumed value needs its plausible range, low and high")
+        if any(a is not None and b is not None and a > b for a, b in ((low, value), (value, high), (low, high))):
+            self.no(field, "expected low <= value <= high")
+        if len(self.problems) > before or value is None:
+            return None
+        return Entry(value, unit, source, status, low, high)
+
+    def sheet(self, name: str, item: Tree) -> Sheet | None:
+        field = f"tables.{name}"
+        if not isinstance(item, dict):
+            self.no(field, "expected {columns: , rows: , source: , status: }")
+            return None
+        before = len(self.problems)
+        self.unknown(field, item, _TABLE_FIELDS)
+        source, status = self.provenance(field, item)
+        bound = self.text(f"{field}.range", item, "how far an assumed table may be off") if status == "assumed" else ""
+        needed = self.shelf.tables.get(name, Columns({}))
+        before_columns = len(self.problems)
+        columns = self.columns(field, item.get("columns"), needed)
+        # With a column wrong, every row would be wrong in the same way: say it once.
+        rows = self.rows(field, item.get("rows"), columns, needed) if len(self.problems) == before_columns else []
+        if len(self.problems) > before:
+            return None
+        return Sheet(columns, tuple(rows), source, status, bound)
+
+    def columns(self, field: str, item: Tree | None, needed: Columns) -> dict[str, str]:
+        field = f"{field}.columns"
+        if not isinstance(item, dict) or not item:
+            self.no(field, "expected a mapping of column to unit")
+            return {}
+        columns: dict[str, str] = {}
+        for key, unit in item.items():
+            columns[key] = unit if isinstance(unit, str) else ""
+            wanted = needed.units.get(key, columns[key])
+            if self.number(f"{field}.{key}", "1", columns[key], wanted) is None:
+                continue
+            if needed.exact and columns[key] != wanted:
+                self.no(f"{field}.{key}", f"must be in {wanted}, for the formula goes with it")
+        for key in needed.units:
+            if key not in item:
+                self.no(f"{field}.{key}", f"missing; expected a column in {needed.units[key]}")
+        return columns
+
+    def rows(self, field: str, item: Tree | None, columns: dict[str, str], needed: Columns) -> list[tuple[float, ...]]:
+        field = f"{field}.rows"
+        if not isinstance(item, list) or not item:
+            self.no(field, "expected a list of rows")
+            return []
+        rows: list[tuple[float, ...]] = []
+        for index, cells in enumerate(item, start=1):
+            here = f"{field}[{index}]"
+            if not isinstance(cells, list) or len(cells) != len(columns):
+                self.no(here, f"expected {len(columns)} numbers: {', '.join(columns)}")
+                continue
+            pairs = zip(columns.items(), cells, strict=True)
+            values = {key: self.number(f"{here}.{key}", cell, unit, unit) for (key, unit), cell in pairs}
+            row = [value for value in values.values() if value is not None]
+            if len(row) < len(columns):
+                continue
+            rows.append(tuple(row))
+            for key in needed.units:
+                if (values[key] or 0.0) <= 0.0:
+                    self.no(f"{here}.{key}", "must be greater than zero")
+            if any((values[a] or 0.0) >= (values[b] or 0.0) for a, b in pairwise(needed.rising)):
+                self.no(here, f"expected {' < '.join(needed.rising)}")
+        return rows
+
+    def word(self, name: str, item: Tree) -> bool:
+        allowed = self.shelf.words.get(name)
+        if not isinstance(item, str) or not item or (allowed and item not in allowed):
+            self.no(f"words.{name}", f"expected {' or '.join(allowed) if allowed else 'a word'}")
+            return False
+        return True
+
+    def required(self, tree: dict[str, Tree], entries: dict[str, Entry]) -> None:
+        """Name what the shelf wants and the file does not have at all; what is there but wrong is named already."""
+        wanted: dict[str, dict[str, Any]] = {
+            "values": dict(self.shelf.values),
+            "tables": {name: "see the shipped records" for name in self.shelf.tables},
+            "words": {name: " or ".join(allowed) for name, allowed in self.shelf.words.items()},
+        }
+        for section, names in wanted.items():
+            part = tree.get(section)
+            present = part if isinstance(part, dict) else {}
+            for name, expected in names.items():
+                if name not in present:
+                    close = get_close_matches(name, set(present) - set(names), n=1)
+                    hint = f"; is {close[0]} meant to be it?" if close else ""
+                    self.no(f"{section}.{name}", f"missing; expected {expected}{hint}")
+        found = [(name, entries[name].value) for name in self.shelf.rising if name in entries]
+        for (one, low), (other, high) in pairwise(found):
+            if low >= high:
+                self.no(f"values.{other}", f"must be above {one}")

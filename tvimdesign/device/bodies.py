@@ -1,0 +1,250 @@
+"""Volume, mass and inertia of every part, from the same dimensions the solids are built from."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.book import Book
+from tvimdesign.device.rows import Scalar
+from tvimdesign.physics import layer
+from tvimdesign.physics.shapes import Section, disc_at, ring, sector, slot
+
+book = Book("Size and weight")
+LINK_SCREWS = 4
+
+
+@book.output("mm^2")
+def pcl_area(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Contact area of all PCL arcs together."""
+    return layer.area(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+
+
+@book.output("mm^3")
+def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Volume of all PCL arcs together."""
+    return pcl_area * pcl_thickness
+
+
+@book.output("mm^3")
+def peltier_volume(pcl_area: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Volume of all Peltier pads together; they have the outline of the arcs."""
+    return pcl_area * peltier_thickness
+
+
+@book.output("mm")
+def helix_length(coil_count: Scalar, coil_diameter: Scalar, coil_pitch: Scalar) -> Scalar:
+    """Length of the wire in the coils of one spring."""
+    return coil_count * np.sqrt((np.pi * coil_diameter) ** 2 + coil_pitch**2)
+
+
+@book.output("mm")
+def wire_length(
+    helix_length: Scalar, leg_length: Scalar, wire_diameter: Scalar, helix_slope: Scalar, tang_length: Scalar
+) -> Scalar:
+    """Length of the wire of one spring: leg, coils, bend of radius d, and tang."""
+    # The leg rises with the helix, so it is a little longer than its plan view; the bend turns from the helix to -z.
+    leg = leg_length * np.sqrt(1.0 + helix_slope**2)
+    bend = wire_diameter * (0.5 * np.pi - np.arctan(helix_slope))
+    return leg + helix_length + bend + tang_length
+
+
+@book.output("mm^3")
+def spring_volume(wire_length: Scalar, wire_diameter: Scalar) -> Scalar:
+    """Volume of one spring."""
+    return 0.25 * np.pi * wire_diameter**2 * wire_length
+
+
+@book.helper()
+def window_section(
+    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar, window_ledge: Scalar
+) -> Section:
+    """Windows below the Peltier pads: the arcs, smaller by the ledge on every side."""
+    span = arc_span - 2.0 * window_ledge / pcl_inner_radius
+    return sector(span, pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge).times(arc_count)
+
+
+@book.output("mm^3")
+def housing_volume(
+    housing_inner_radius: Scalar,
+    housing_outer_radius: Scalar,
+    core_radius: Scalar,
+    running_clearance: Scalar,
+    hub_radius: Scalar,
+    floor_thickness: Scalar,
+    floor_web: Scalar,
+    foot_height: Scalar,
+    pin_top_level: Scalar,
+    pcl_thickness: Scalar,
+    peltier_volume: Scalar,
+    window_section: Section,
+    spring_count: Scalar,
+    post_radius: Scalar,
+    coil_end_level: Scalar,
+    wire_diameter: Scalar,
+    tang_clearance: Scalar,
+) -> Scalar:
+    """Volume of the housing: floor, wall and skirt, hub, spring posts; less pad pockets, windows and tang holes."""
+    bore = core_radius + running_clearance
+    floor = ring(bore, housing_outer_radius).area * floor_thickness
+    wall = ring(housing_inner_radius, housing_outer_radius).area * (pin_top_level + foot_height)
+    hub = ring(bore, hub_radius).area * pcl_thickness
+    posts = spring_count * np.pi * post_radius**2 * (coil_end_level + 0.5 * wire_diameter)
+    windows = window_section.area * floor_web
+    tang_holes = spring_count * np.pi * (0.5 * wire_diameter + tang_clearance) ** 2 * floor_thickness
+    return floor + wall + hub + posts - peltier_volume - windows - tang_holes
+
+
+@book.helper()
+def rotor_moments(
+    rotor_radius: Scalar,
+    rotor_thickness: Scalar,
+    core_radius: Scalar,
+    link_bottom_level: Scalar,
+    floor_thickness: Scalar,
+    running_clearance: Scalar,
+    spring_count: Scalar,
+    pin_diameter: Scalar,
+    pin_radius: Scalar,
+    pin_top_level: Scalar,
+    rotor_top_level: Scalar,
+    link_screw_pilot: Scalar,
+    link_screw_depth: Scalar,
+    link_bolt_circle_radius: Scalar,
+    retainer_screw_pilot: Scalar,
+    retainer_screw_depth: Scalar,
+) -> Section:
+    """Volume and its polar moment about the axis, of the rotor: plate, core and pins less the screw holes."""
+    prisms = (
+        (ring(core_radius, rotor_radius), rotor_thickness),
+        (ring(0.0, core_radius), link_bottom_level + floor_thickness + running_clearance),
+        (disc_at(0.5 * pin_diameter, pin_radius).times(spring_count), pin_top_level - rotor_top_level),
+        (disc_at(0.5 * link_screw_pilot, link_bolt_circle_radius).times(LINK_SCREWS), -link_screw_depth),
+        (ring(0.0, 0.5 * retainer_screw_pilot), -retainer_screw_depth),
+    )
+    return Section(
+        area=sum(section.area * height for section, height in prisms),
+        polar=sum(section.polar * height for section, height in prisms),
+    )
+
+
+@book.helper()
+def link_section(
+    link_half_width: Scalar,
+    link_length: Scalar,
+    link_screw_clearance: Scalar,
+    link_bolt_circle_radius: Scalar,
+    link_tool_hole: Scalar,
+) -> Section:
+    """Plan view of the output link: an obround from the core to the housing's edge, less its holes."""
+    screws = disc_at(0.5 * link_screw_clearance, link_bolt_circle_radius).times(LINK_SCREWS)
+    return slot(link_half_width, link_length) - screws - disc_at(0.5 * link_tool_hole, link_length)
+
+
+@book.helper()
+def retainer_section(core_radius: Scalar, retainer_lip: Scalar, retainer_screw_clearance: Scalar) -> Section:
+    """Plan view of the retainer."""
+    return ring(0.5 * retainer_screw_clearance, core_radius + retainer_lip)
+
+
+@book.output("mm^3")
+def rotor_volume(rotor_moments: Section) -> Scalar:
+    """Volume of the rotor with its core and pins."""
+    return rotor_moments.area
+
+
+@book.output("mm^3")
+def link_volume(link_section: Section, link_thickness: Scalar) -> Scalar:
+    """Volume of the output link."""
+    return link_section.area * link_thickness
+
+
+@book.output("mm^3")
+def retainer_volume(retainer_section: Section, retainer_thickness: Scalar) -> Scalar:
+    """Volume of the retainer."""
+    return retainer_section.area * retainer_thickness
+
+
+@book.output("g")
+def housing_mass(housing_volume: Scalar, structure_density: Scalar) -> Scalar:
+    """Mass of the housing."""
+    return housing_volume * structure_density
+
+
+@book.output("g")
+def rotor_mass(rotor_volume: Scalar, structure_density: Scalar) -> Scalar:
+    """Mass of the rotor."""
+    return rotor_volume * structure_density
+
+
+@book.output("g")
+def link_mass(link_volume: Scalar, structure_density: Scalar) -> Scalar:
+    """Mass of the output link."""
+    return link_volume * structure_density
+
+
+@book.output("g")
+def retainer_mass(retainer_volume: Scalar, structure_density: Scalar) -> Scalar:
+    """Mass of the retainer."""
+    return retainer_volume * structure_density
+
+
+@book.output("g")
+def springs_mass(spring_count: Scalar, spring_volume: Scalar, spring_density: Scalar) -> Scalar:
+    """Mass of all springs together."""
+    return spring_count * spring_volume * spring_density
+
+
+@book.output("g")
+def pcl_mass(pcl_volume: Scalar, pcl_density: Scalar) -> Scalar:
+    """Mass of all PCL arcs together."""
+    return pcl_volume * pcl_density
+
+
+@book.output("kg/m^3")
+def peltier_density(peltier_unit_mass: Scalar, peltier_area: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Mass of the Peltier module over its volume."""
+    return peltier_unit_mass / (peltier_area * peltier_thickness)
+
+
+@book.output("g")
+def peltier_mass(peltier_volume: Scalar, peltier_density: Scalar) -> Scalar:
+    """Mass of all Peltier pads together."""
+    return peltier_volume * peltier_density
+
+
+@book.output("g")
+def module_mass(
+    housing_mass: Scalar,
+    rotor_mass: Scalar,
+    link_mass: Scalar,
+    retainer_mass: Scalar,
+    springs_mass: Scalar,
+    pcl_mass: Scalar,
+    peltier_mass: Scalar,
+) -> Scalar:
+    """Mass of the module, without screws and wires."""
+    return housing_mass + rotor_mass + link_mass + retainer_mass + springs_mass + pcl_mass + peltier_mass
+
+
+@book.output("kg*mm^2")
+def rotor_inertia(rotor_moments: Section, structure_density: Scalar) -> Scalar:
+    """Moment of inertia of the rotor about the axis."""
+    return rotor_moments.polar * structure_density
+
+
+@book.output("kg*mm^2")
+def link_inertia(link_section: Section, link_thickness: Scalar, structure_density: Scalar) -> Scalar:
+    """Moment of inertia of the output link about the axis."""
+    return link_section.polar * link_thickness * structure_density
+
+
+@book.output("kg*mm^2")
+def parts_inertia(
+    rotor_inertia: Scalar,
+    link_inertia: Scalar,
+    retainer_section: Section,
+    retainer_thickness: Scalar,
+    structure_density: Scalar,
+) -> Scalar:
+    """Moment of inertia of everything in the module that turns: rotor, link and retainer."""
+    return rotor_inertia + link_inertia + retainer_section.polar * retainer_thickness * structure_density

@@ -1,0 +1,217 @@
+"""Stiffness and damping of the joint at its operating points: layer, structure and springs together."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.catalog import Record
+from tvimdesign.device.book import Book
+from tvimdesign.device.rows import Rule, Scalar
+from tvimdesign.physics import dynamics, layer, polymer, structure
+
+book = Book("Impedance")
+
+book.condition("temperature", "degC", 303.15, 253.15, 473.15, "Temperature of the PCL layer", per_point=True)
+book.condition("frequency", "Hz", 1.0, 0.001, 1000.0, "Frequency at which the impedance is stated", per_point=True)
+book.condition("moving_inertia", "kg*mm^2", 415.6e-6, 1e-9, 100.0, "Moment of inertia of all that turns, load included")
+book.condition("enthalpy_smoothing", "kJ/kg", 1e3, 10.0, 1e4, "Rounding of the corners of the melting curve")
+
+POINT_TEMPERATURES = {"cold": 303.15, "hot": 373.15}
+"""The two operating points every study has: the layer frozen and molten, at the paper's temperatures."""
+
+
+@book.helper()
+def pcl_melting(
+    pcl_specific_heat_solid: Scalar,
+    pcl_specific_heat_melt: Scalar,
+    pcl_latent_heat: Scalar,
+    pcl_melting_start: Scalar,
+    pcl_melting_end: Scalar,
+    enthalpy_smoothing: Scalar,
+) -> polymer.Melting:
+    """Melting curve of the PCL."""
+    return polymer.Melting(pcl_specific_heat_solid, pcl_specific_heat_melt, pcl_latent_heat, pcl_melting_start,
+                           pcl_melting_end, enthalpy_smoothing)  # fmt: skip
+
+
+@book.helper()
+def pcl_solid_modulus(
+    pcl_flexural_modulus: Scalar,
+    pcl_reference_temperature: Scalar,
+    pcl_softening_slope: Scalar,
+    pcl_softening_onset: Scalar,
+    pcl_softening_width: Scalar,
+    pcl_poissons_ratio: Scalar,
+    pcl_loss_factor: Scalar,
+) -> polymer.SolidModulus:
+    """Modulus of the frozen PCL."""
+    return polymer.SolidModulus(pcl_flexural_modulus, pcl_reference_temperature, pcl_softening_slope,
+                                pcl_softening_onset, pcl_softening_width, pcl_poissons_ratio,
+                                pcl_loss_factor)  # fmt: skip
+
+
+@book.helper()
+def pcl_rheology(
+    pcl_solid_modulus: polymer.SolidModulus,
+    pcl_grade: Record,
+    pcl_flow_activation_energy: Scalar,
+    pcl_melt_reference: Scalar,
+) -> polymer.Rheology:
+    """Complex modulus of the PCL at any temperature, solid fraction and frequency."""
+    modes = [(row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")]
+    return polymer.Rheology(pcl_solid_modulus, modes, pcl_flow_activation_energy, pcl_melt_reference)
+
+
+@book.output("m^4")
+def layer_polar_moment(
+    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
+) -> Scalar:
+    """Polar second moment of area of the PCL layer."""
+    return layer.polar_moment(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+
+
+@book.output("1", per_point=True)
+def solid_fraction(temperature: Scalar, pcl_melting: polymer.Melting) -> Scalar:
+    """Share of the PCL that is frozen, on the equilibrium melting curve."""
+    return polymer.solid_fraction(polymer.enthalpy(temperature, pcl_melting), pcl_melting)
+
+
+@book.helper(per_point=True)
+def pcl_moduli(
+    temperature: Scalar, frequency: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology
+) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of the PCL [Pa]."""
+    return polymer.moduli(temperature, solid_fraction, 2.0 * np.pi * frequency, pcl_rheology)
+
+
+@book.output("Pa", per_point=True)
+def storage_modulus(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+    """Storage shear modulus of the PCL, G'."""
+    return pcl_moduli[0]
+
+
+@book.output("Pa", per_point=True)
+def loss_modulus(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+    """Loss shear modulus of the PCL, G''."""
+    return pcl_moduli[1]
+
+
+@book.output("1", per_point=True)
+def loss_factor(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+    """Loss factor of the PCL, tan(delta)."""
+    return pcl_moduli[1] / pcl_moduli[0]
+
+
+@book.output("N*m/rad", per_point=True)
+def pcl_stiffness(storage_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Stiffness of the PCL layer alone, K_PCL."""
+    return storage_modulus * layer_polar_moment / pcl_thickness
+
+
+@book.output("N*m*s/rad", per_point=True)
+def pcl_damping(
+    loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar, frequency: Scalar
+) -> Scalar:
+    """Damping of the PCL layer alone, b_PCL."""
+    return loss_modulus * layer_polar_moment / pcl_thickness / (2.0 * np.pi * frequency)
+
+
+@book.output("N*m/rad")
+def structure_stiffness(
+    structure_youngs_modulus: Scalar,
+    structure_poissons_ratio: Scalar,
+    core_radius: Scalar,
+    rotor_thickness: Scalar,
+    rotor_top_level: Scalar,
+    link_bottom_level: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    housing_inner_radius: Scalar,
+    floor_web: Scalar,
+) -> Scalar:
+    """Stiffness of what stands in series with the layer: core, rotor plate and floor."""
+    modulus = structure.shear_modulus(structure_youngs_modulus, structure_poissons_ratio)
+    middle = 0.5 * (pcl_inner_radius + pcl_outer_radius)
+    return structure.series(
+        structure.shaft_stiffness(modulus, core_radius, link_bottom_level - rotor_top_level),
+        structure.ring_stiffness(modulus, rotor_thickness, core_radius, middle),
+        # The floor is weakest where pockets and windows thin it; its web counts.
+        structure.ring_stiffness(modulus, floor_web, middle, housing_inner_radius),
+    )
+
+
+@book.helper(per_point=True)
+def branch_stiffness(
+    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, structure_stiffness: Scalar
+) -> tuple[Scalar, Scalar]:
+    """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
+    return layer.series_stiffness(pcl_stiffness, 2.0 * np.pi * frequency * pcl_damping, structure_stiffness)
+
+
+@book.output("N*m/rad", per_point=True)
+def joint_stiffness(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
+    """Stiffness of the joint: springs, parallel to the layer in series with the structure."""
+    return spring_stiffness + branch_stiffness[0]
+
+
+@book.output("N*m*s/rad", per_point=True)
+def joint_damping(branch_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
+    """Damping of the joint: layer in series with the structure."""
+    return branch_stiffness[1] / (2.0 * np.pi * frequency)
+
+
+@book.output("Hz", per_point=True)
+def natural_frequency(joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+    """Undamped natural frequency of the joint with its load."""
+    return dynamics.natural_frequency(joint_stiffness, moving_inertia)
+
+
+@book.output("1", per_point=True)
+def damping_ratio(joint_damping: Scalar, joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+    """Damping ratio of the joint with its load; above one it creeps back without ringing."""
+    return dynamics.damping_ratio(joint_damping, joint_stiffness, moving_inertia)
+
+
+@book.output("Hz")
+def spring_natural_frequency(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+    """Undamped natural frequency on the springs alone."""
+    return dynamics.natural_frequency(spring_stiffness, moving_inertia)
+
+
+@book.output("N*m*s/rad")
+def critical_damping(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+    """Damping above which the joint on its springs no longer rings."""
+    return 2.0 * np.sqrt(spring_stiffness * moving_inertia)
+
+
+@book.output("1")
+def impedance_range(joint_stiffness_at_cold: Scalar, joint_stiffness_at_hot: Scalar) -> Scalar:
+    """Stiffness of the joint cold over hot."""
+    return joint_stiffness_at_cold / joint_stiffness_at_hot
+
+
+@book.output("1")
+def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -> Scalar:
+    """Damping of the joint cold over hot."""
+    return joint_damping_at_cold / joint_damping_at_hot
+
+
+@book.output("1")
+def layer_strain(pcl_outer_radius: Scalar, stroke: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Shear strain of the molten layer at its outer radius at full stroke."""
+    return layer.shear_strain(pcl_outer_radius, stroke, pcl_thickness)
+
+
+@book.output("1", Rule(sense=">=", value=1.0, reason="the molten layer would tear or slip"))
+def layer_strain_safety(pcl_melt_strain_limit: Scalar, layer_strain: Scalar) -> Scalar:
+    """Strain the molten layer bears over the strain it sees."""
+    return pcl_melt_strain_limit / layer_strain
+
+
+@book.output("N*m")
+def holding_torque(
+    pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
+) -> Scalar:
+    """Torque the frozen layer holds before its bond or its shear yield gives way."""
+    traction = np.fmin(pcl_bond_strength, pcl_tensile_yield / np.sqrt(3.0))
+    return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)

@@ -1,0 +1,311 @@
+"""Where everything is: the design variables of the shear module, and the radii, levels and gaps that follow.
+
+The rotor axis is z. The floor's upper face, on which the PCL layer lies, is z = 0; the rotor plate stands above the
+layer, the torsion springs around it with their axes parallel to z. Levels below the floor are negative.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.book import Book
+from tvimdesign.device.rows import Rule, Scalar
+
+MM = 1e-3
+DEGREE = np.pi / 180.0
+
+book = Book("Layout")
+
+book.variable("wire_diameter", "mm", 2.413 * MM, 0.3 * MM, 10.0 * MM, "Wire diameter d of the torsion springs")
+book.variable("coil_diameter", "mm", 24.4094 * MM, 2.0 * MM, 100.0 * MM, "Mean coil diameter D of the torsion springs")
+book.variable("coil_count", "1", 3.25, 3.0, 20.0, "Body coils n of a torsion spring, legs not counted")
+book.variable("placement_radius", "mm", 57.0 * MM, 8.0 * MM, 300.0 * MM, "Distance of the spring axes from the axis")
+book.variable("pin_radius_ratio", "1", 0.5, 0.2, 0.8, "Radius of the rotor pins over the placement radius")
+book.variable("preload_angle", "rad", 0.15, 0.0, 1.5, "Angle by which each spring is wound up at rest")
+book.variable("pcl_inner_radius", "mm", 26.0 * MM, 3.0 * MM, 200.0 * MM, "Inner radius of the PCL arcs")
+book.variable("pcl_outer_radius", "mm", 40.0 * MM, 5.0 * MM, 250.0 * MM, "Outer radius of the PCL arcs")
+book.variable("arc_span", "deg", 48.962 * DEGREE, 5.0 * DEGREE, 175.0 * DEGREE, "Angle each PCL arc covers")
+book.variable("pcl_thickness", "mm", 1.0 * MM, 0.2 * MM, 10.0 * MM, "Thickness of the PCL layer")
+book.variable("floor_thickness", "mm", 4.0 * MM, 1.0 * MM, 30.0 * MM, "Thickness of the housing floor")
+book.variable("wall_thickness", "mm", 3.0 * MM, 0.8 * MM, 20.0 * MM, "Thickness of the housing wall")
+book.variable("rotor_thickness", "mm", 4.0 * MM, 1.0 * MM, 30.0 * MM, "Thickness of the rotor plate")
+book.variable("link_thickness", "mm", 4.0 * MM, 1.0 * MM, 30.0 * MM, "Thickness of the output link")
+book.variable("core_radius", "mm", 10.0 * MM, 4.0 * MM, 100.0 * MM, "Radius of the rotor's cylindrical core")
+
+book.condition("spring_count", "1", 4, 2, 12, "Torsion springs, half of them of either hand", integer=True)
+book.condition("arc_count", "1", 4, 2, 12, "PCL arcs", integer=True)
+book.condition("stroke", "rad", 0.104, 0.001, 0.5, "Largest deflection of the joint to either side")
+book.condition("coil_gap", "mm", 0.1 * MM, 0.02 * MM, 5 * MM, "Gap between neighbouring coils")
+book.condition("pin_diameter", "mm", 4.0 * MM, 1.0 * MM, 30 * MM, "Diameter of the rotor pins the spring legs bear on")
+book.condition("leg_overhang", "mm", 4.0 * MM, 1.0 * MM, 50 * MM, "Length of the rotor-side leg beyond its pin")
+book.condition("radial_clearance", "mm", 1.0 * MM, 0.1 * MM, 20 * MM, "Gap between springs and what they must clear")
+book.condition("running_clearance", "mm", 0.4 * MM, 0.02 * MM, 2 * MM, "Gap between turning and fixed faces")
+book.condition("axial_clearance", "mm", 1.0 * MM, 0.1 * MM, 20 * MM, "Axial gap between legs, pins, wall and link")
+book.condition("rotor_rim", "mm", 1.5 * MM, 0.2 * MM, 20 * MM, "Rotor plate beyond the PCL arcs")
+book.condition("hub_wall", "mm", 3.0 * MM, 0.8 * MM, 20 * MM, "Wall of the hub around the core")
+book.condition("link_rim", "mm", 2.0 * MM, 0.8 * MM, 50 * MM, "Half width of the output link beyond the core's radius")
+book.condition("foot_height", "mm", 6.0 * MM, 3.0 * MM, 50 * MM, "Housing skirt below the floor: air for the cold side")
+book.condition("retainer_thickness", "mm", 2.5 * MM, 1.0 * MM, 20 * MM, "Disc below the floor that retains the rotor")
+book.condition("retainer_lip", "mm", 3.0 * MM, 1.0 * MM, 20 * MM, "Retainer beyond the core's radius")
+book.condition("window_ledge", "mm", 2.0 * MM, 0.5 * MM, 20 * MM, "Ledge of the floor that carries a Peltier pad")
+book.condition("tang_clearance", "mm", 0.25 * MM, 0.05 * MM, 2 * MM, "Radial play of a spring's tang in its hole")
+book.condition("link_screw_pilot", "mm", 2.5 * MM, 1 * MM, 20 * MM, "Pilot hole of the four link screws, M3")
+book.condition("link_screw_clearance", "mm", 3.4 * MM, 1 * MM, 20 * MM, "Clearance hole of the link screws, M3")
+book.condition("link_screw_depth", "mm", 8.0 * MM, 2 * MM, 100 * MM, "Depth of the link screws' pilot holes")
+book.condition("retainer_screw_pilot", "mm", 3.3 * MM, 1 * MM, 20 * MM, "Pilot hole of the retainer's screw, M4")
+book.condition("retainer_screw_clearance", "mm", 4.5 * MM, 1 * MM, 20 * MM, "Clearance hole of the retainer's screw")
+book.condition("retainer_screw_depth", "mm", 8.0 * MM, 2 * MM, 100 * MM, "Depth of the retainer screw's pilot hole")
+book.condition("link_tool_hole", "mm", 4.5 * MM, 1 * MM, 50 * MM, "Hole at the end of the output link")
+
+# --- radii -----------------------------------------------------------------------------------------------------------
+
+
+@book.output("mm")
+def pin_radius(placement_radius: Scalar, pin_radius_ratio: Scalar) -> Scalar:
+    """Distance of the rotor pins from the axis."""
+    return pin_radius_ratio * placement_radius
+
+
+@book.output("mm")
+def spring_reach(coil_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
+    """Radius of the circle around a spring's axis that holds its coils and its tang."""
+    # The tang leaves the coil along the tangent and turns down over a bend of the radius d.
+    return np.sqrt((0.5 * coil_diameter) ** 2 + wire_diameter**2) + 0.5 * wire_diameter
+
+
+@book.output("mm")
+def leg_offset(coil_diameter: Scalar, wire_diameter: Scalar, pin_diameter: Scalar) -> Scalar:
+    """Distance of the spring axis from the line through the pin along which the leg points."""
+    return 0.5 * (coil_diameter + wire_diameter + pin_diameter)
+
+
+@book.output("mm")
+def leg_arm(placement_radius: Scalar, pin_radius: Scalar, leg_offset: Scalar) -> Scalar:
+    """Length of the rotor-side leg from the coil to the pin."""
+    return np.sqrt((placement_radius - pin_radius) ** 2 - leg_offset**2)
+
+
+@book.output("mm")
+def leg_length(leg_arm: Scalar, leg_overhang: Scalar) -> Scalar:
+    """Length of the rotor-side leg."""
+    return leg_arm + leg_overhang
+
+
+@book.output("mm")
+def rotor_radius(pcl_outer_radius: Scalar, rotor_rim: Scalar) -> Scalar:
+    """Radius of the rotor plate."""
+    return pcl_outer_radius + rotor_rim
+
+
+@book.output("mm")
+def hub_radius(core_radius: Scalar, running_clearance: Scalar, hub_wall: Scalar) -> Scalar:
+    """Outer radius of the hub that carries the rotor plate at the layer's thickness."""
+    return core_radius + running_clearance + hub_wall
+
+
+@book.output("mm")
+def housing_inner_radius(placement_radius: Scalar, spring_reach: Scalar, radial_clearance: Scalar) -> Scalar:
+    """Inner radius of the housing wall."""
+    return placement_radius + spring_reach + radial_clearance
+
+
+@book.output("mm")
+def housing_outer_radius(housing_inner_radius: Scalar, wall_thickness: Scalar) -> Scalar:
+    """Outer radius of the housing."""
+    return housing_inner_radius + wall_thickness
+
+
+@book.output("mm")
+def link_half_width(core_radius: Scalar, link_rim: Scalar) -> Scalar:
+    """Half the width of the output link."""
+    return core_radius + link_rim
+
+
+@book.output("mm")
+def link_length(housing_outer_radius: Scalar, link_half_width: Scalar) -> Scalar:
+    """Distance of the output link's end hole from the axis; the link's round end is flush with the housing."""
+    return housing_outer_radius - link_half_width
+
+
+@book.output("mm")
+def link_bolt_circle_radius(core_radius: Scalar) -> Scalar:
+    """Radius of the circle of the four link screws."""
+    return 0.65 * core_radius
+
+
+# --- levels ----------------------------------------------------------------------------------------------------------
+
+
+@book.output("mm")
+def coil_pitch(wire_diameter: Scalar, coil_gap: Scalar) -> Scalar:
+    """Axial pitch of the coils."""
+    return wire_diameter + coil_gap
+
+
+@book.output("1")
+def helix_slope(coil_pitch: Scalar, coil_diameter: Scalar) -> Scalar:
+    """Rise of the wire over its way around the coil, tan of the helix angle."""
+    return coil_pitch / (np.pi * coil_diameter)
+
+
+@book.output("mm")
+def coil_start_level(wire_diameter: Scalar, helix_slope: Scalar) -> Scalar:
+    """Level of the wire's centre where the coils start; the tang's bend below it ends on the floor."""
+    return wire_diameter / np.sqrt(1.0 + helix_slope**2)
+
+
+@book.output("mm")
+def coil_end_level(
+    coil_start_level: Scalar, coil_pitch: Scalar, coil_count: Scalar, preload_angle: Scalar
+) -> Scalar:
+    """Level of the wire's centre where the coils of the preloaded spring end and the rotor-side leg begins."""
+    return coil_start_level + coil_pitch * (coil_count + preload_angle / (2.0 * np.pi))
+
+
+@book.output("mm")
+def leg_top_level(
+    coil_end_level: Scalar, helix_slope: Scalar, leg_length: Scalar, wire_diameter: Scalar
+) -> Scalar:
+    """Highest point of a rotor-side leg, which keeps rising as the coil does."""
+    return coil_end_level + helix_slope * leg_length + 0.5 * wire_diameter
+
+
+@book.output("mm")
+def rotor_top_level(pcl_thickness: Scalar, rotor_thickness: Scalar) -> Scalar:
+    """Upper face of the rotor plate."""
+    return pcl_thickness + rotor_thickness
+
+
+@book.output("mm")
+def pin_top_level(leg_top_level: Scalar, axial_clearance: Scalar) -> Scalar:
+    """Upper end of the rotor pins and of the housing wall."""
+    return leg_top_level + axial_clearance
+
+
+@book.output("mm")
+def link_bottom_level(pin_top_level: Scalar, axial_clearance: Scalar) -> Scalar:
+    """Lower face of the output link and upper end of the core."""
+    return pin_top_level + axial_clearance
+
+
+@book.output("mm")
+def post_radius(spring_wound_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
+    """Radius of a spring's post: 90 % of the inner radius of the fully wound spring."""
+    # Shigley, section 10-12: mandrel about 10 % under the inner diameter at full deflection.
+    return 0.45 * (spring_wound_diameter - wire_diameter)
+
+
+@book.output("mm")
+def tang_length(floor_thickness: Scalar) -> Scalar:
+    """Straight length of the tang in the floor, half a millimetre short of its lower face."""
+    return floor_thickness - 0.5 * MM
+
+
+# --- gaps: what must hold for the parts to go together ---------------------------------------------------------------
+
+
+def _at_least(value: float, reason: str) -> Rule:
+    return Rule(sense=">=", value=value, reason=reason)
+
+
+@book.output("mm", _at_least(0.0, "the springs must clear the rotor plate"))
+def rotor_spring_gap(
+    placement_radius: Scalar, spring_reach: Scalar, rotor_radius: Scalar, radial_clearance: Scalar
+) -> Scalar:
+    """Room between the rotor plate and the springs beyond the radial clearance."""
+    return placement_radius - spring_reach - rotor_radius - radial_clearance
+
+
+@book.output("mm", _at_least(0.0, "the rotor-side legs must pass above the rotor plate"))
+def leg_rotor_gap(
+    coil_end_level: Scalar, wire_diameter: Scalar, rotor_top_level: Scalar, axial_clearance: Scalar
+) -> Scalar:
+    """Room between the rotor-side legs and the rotor plate below them beyond the axial clearance."""
+    return coil_end_level - 0.5 * wire_diameter - rotor_top_level - axial_clearance
+
+
+@book.output("mm", _at_least(0.0, "the pins must stand on the rotor plate"))
+def pin_rim_gap(rotor_radius: Scalar, pin_radius: Scalar, pin_diameter: Scalar, radial_clearance: Scalar) -> Scalar:
+    """Room between the pins and the rim of the rotor plate beyond the radial clearance."""
+    return rotor_radius - pin_radius - 0.5 * pin_diameter - radial_clearance
+
+
+@book.output("mm", _at_least(0.0, "the legs must end before the core"))
+def leg_core_gap(
+    pin_radius: Scalar, leg_overhang: Scalar, wire_diameter: Scalar, core_radius: Scalar, radial_clearance: Scalar
+) -> Scalar:
+    """Room between the ends of the rotor-side legs and the core beyond the radial clearance."""
+    return pin_radius - leg_overhang - wire_diameter - core_radius - radial_clearance
+
+
+@book.output("mm", _at_least(1.0 * MM, "the leg must reach its pin"))
+def leg_reach_gap(placement_radius: Scalar, pin_radius: Scalar, leg_offset: Scalar) -> Scalar:
+    """Distance of pin and spring axis beyond the offset of the leg."""
+    return placement_radius - pin_radius - leg_offset
+
+
+@book.output("mm", _at_least(0.0, "the PCL arcs must clear the hub"))
+def hub_arc_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: Scalar) -> Scalar:
+    """Room between hub and PCL arcs beyond the radial clearance."""
+    return pcl_inner_radius - hub_radius - radial_clearance
+
+
+@book.output("mm", _at_least(3.0 * MM, "the floor needs a web between two Peltier pads"))
+def arc_gap(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+    """Web between neighbouring PCL arcs at their inner radius."""
+    return (2.0 * np.pi / arc_count - arc_span) * pcl_inner_radius
+
+
+@book.output("mm", _at_least(5.0 * MM, "the Peltier pad needs its ledges and a window for its cold side"))
+def arc_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+    """Radial width of the PCL arcs."""
+    return pcl_outer_radius - pcl_inner_radius
+
+
+@book.output("mm", _at_least(1.2 * MM, "the floor below a Peltier pad must carry it"))
+def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Thickness of the floor below the Peltier pads."""
+    return floor_thickness - peltier_thickness
+
+
+@book.output("mm", _at_least(1.0 * MM, "a thinner spring post would break"))
+def post_thickness(post_radius: Scalar) -> Scalar:
+    """Radius of the spring posts, held against the least that can be made."""
+    return post_radius
+
+
+@book.output("mm", _at_least(0.0, "neighbouring springs must clear each other"))
+def spring_spring_gap(
+    placement_radius: Scalar, spring_count: Scalar, spring_reach: Scalar, radial_clearance: Scalar
+) -> Scalar:
+    """Room between neighbouring springs beyond the radial clearance."""
+    return 2.0 * placement_radius * np.sin(np.pi / spring_count) - 2.0 * spring_reach - radial_clearance
+
+
+@book.output("mm", _at_least(0.0, "the retainer must stand above the ground"))
+def retainer_gap(foot_height: Scalar, retainer_thickness: Scalar, running_clearance: Scalar) -> Scalar:
+    """Room between the retainer with a flat screw head of 2.5 mm and the ground."""
+    return foot_height - retainer_thickness - running_clearance - 2.5 * MM
+
+
+# --- envelope --------------------------------------------------------------------------------------------------------
+
+
+@book.output("mm")
+def envelope_diameter(housing_outer_radius: Scalar) -> Scalar:
+    """Diameter of the module."""
+    return 2.0 * housing_outer_radius
+
+
+@book.output("mm")
+def envelope_height(
+    foot_height: Scalar, floor_thickness: Scalar, link_bottom_level: Scalar, link_thickness: Scalar
+) -> Scalar:
+    """Height of the module from the ground to the output link's upper face."""
+    return foot_height + floor_thickness + link_bottom_level + link_thickness
+
+
+@book.output("cm^3")
+def envelope_volume(envelope_diameter: Scalar, envelope_height: Scalar) -> Scalar:
+    """Volume of the cylinder that holds the module."""
+    return 0.25 * np.pi * envelope_diameter**2 * envelope_height

@@ -1,0 +1,181 @@
+"""The torsion springs in the module: their rate, what they are to the output, and what they bear."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.catalog import Record
+from tvimdesign.device.book import Book
+from tvimdesign.device.rows import Rule, Scalar
+from tvimdesign.physics import spring
+from tvimdesign.physics.transmission import leg_curvature, leg_direction, leg_ratio, output_stiffness
+
+book = Book("Springs")
+
+book.option("rate_model", ("bending", "smi"), "Spring rate: pure bending, or the handbook's, 6 % softer by friction")
+book.option("leg_model", ("bending", "ignored"), "Whether the rotor-side leg bends with the coils")
+book.option(
+    "transmission",
+    ("unity", "geometry"),
+    "Winding of a spring per angle of the rotor: the paper's ratio of one, or the leg on its pin",
+)
+
+
+@book.output("1")
+def active_coils(coil_count: Scalar, coil_diameter: Scalar, leg_arm: Scalar, leg_model: str) -> Scalar:
+    """Coils that bend, the rotor-side leg included."""
+    # The tang on the other side is held by the floor right where it leaves the coil.
+    return spring.active_coils(coil_count, coil_diameter, leg_arm if leg_model == "bending" else 0.0)
+
+
+@book.output("N*m/rad")
+def spring_rate(
+    spring_youngs_modulus: Scalar,
+    wire_diameter: Scalar,
+    coil_diameter: Scalar,
+    active_coils: Scalar,
+    rate_model: spring.RateModel,
+) -> Scalar:
+    """Rate of one torsion spring, k_torsion."""
+    return spring.rate(spring_youngs_modulus, wire_diameter, coil_diameter, active_coils, rate_model)
+
+
+@book.output("1", Rule(sense=">=", value=4.0, reason="cold coiling, EN 13906-3"),
+             Rule(sense="<=", value=20.0, reason="cold coiling, EN 13906-3"))  # fmt: skip
+def spring_index(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
+    """Coil diameter over wire diameter, C."""
+    return spring.spring_index(wire_diameter, coil_diameter)
+
+
+@book.output("1")
+def transmission_ratio(
+    pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
+) -> Scalar:
+    """Winding of a spring per angle of the rotor at rest."""
+    if transmission == "unity":
+        return 1.0
+    # The leg turns against the rotor: the spring winds when the rotor turns the other way.
+    return -leg_ratio(pin_radius, placement_radius, 0.0, leg_offset)
+
+
+@book.output("1/rad")
+def transmission_curvature(
+    pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
+) -> Scalar:
+    """Change of that ratio with the winding direction of the rotor, at rest."""
+    if transmission == "unity":
+        return 0.0
+    return leg_curvature(pin_radius, placement_radius, 0.0, leg_offset)
+
+
+@book.output("N*m/rad")
+def spring_stiffness(
+    spring_count: Scalar,
+    spring_rate: Scalar,
+    preload_angle: Scalar,
+    transmission_ratio: Scalar,
+    transmission_curvature: Scalar,
+) -> Scalar:
+    """Stiffness of all springs about the axis at rest, K_s."""
+    return output_stiffness(spring_count, spring_rate, preload_angle, transmission_ratio, transmission_curvature)
+
+
+@book.output("rad")
+def spring_winding(
+    stroke: Scalar,
+    preload_angle: Scalar,
+    pin_radius: Scalar,
+    placement_radius: Scalar,
+    leg_offset: Scalar,
+    transmission: str,
+) -> Scalar:
+    """Largest winding of a spring: the preload and the full stroke in its winding direction."""
+    if transmission == "unity":
+        return preload_angle + stroke
+    at_rest = leg_direction(pin_radius, placement_radius, 0.0, leg_offset)
+    return preload_angle + leg_direction(pin_radius, placement_radius, -stroke, leg_offset) - at_rest
+
+
+@book.output("rad")
+def spring_unwinding(
+    stroke: Scalar, pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
+) -> Scalar:
+    """Unwinding of a spring from rest over the full stroke against its winding direction."""
+    if transmission == "unity":
+        return stroke
+    at_rest = leg_direction(pin_radius, placement_radius, 0.0, leg_offset)
+    return at_rest - leg_direction(pin_radius, placement_radius, stroke, leg_offset)
+
+
+@book.output("rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act"))
+def preload_reserve(preload_angle: Scalar, spring_unwinding: Scalar) -> Scalar:
+    """Preload that is left at the end of the stroke of the opposing springs."""
+    return preload_angle - spring_unwinding
+
+
+@book.helper()
+def stress_per_angle(
+    spring_rate: Scalar, wire_diameter: Scalar, spring_index: Scalar
+) -> Scalar:
+    """Stress at the inner fibre per radian of winding [Pa]."""
+    return spring.bending_stress(spring_rate, wire_diameter, spring.inner_fibre_factor(spring_index))
+
+
+@book.output("MPa")
+def spring_stress(stress_per_angle: Scalar, spring_winding: Scalar) -> Scalar:
+    """Largest stress in the springs, at the inner fibre at full winding."""
+    return stress_per_angle * spring_winding
+
+
+@book.output("MPa")
+def spring_tensile_strength(wire_diameter: Scalar, spring_material: Record) -> Scalar:
+    """Tensile strength of the wire at its diameter."""
+    rows = spring_material.table("strength")
+    return spring.tensile_strength(wire_diameter, [(row["coefficient"], row["exponent"]) for row in rows])
+
+
+@book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield"))
+def spring_static_safety(
+    spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, spring_winding: Scalar
+) -> Scalar:
+    """Static safety of the springs: bending yield over the largest stress."""
+    return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * spring_winding)
+
+
+@book.output("1", advice=(Rule(sense=">=", value=1.0, reason="the spring would break before 1e6 cycles"),))
+def spring_fatigue_safety(
+    stress_per_angle: Scalar,
+    spring_winding: Scalar,
+    preload_reserve: Scalar,
+    spring_tensile_strength: Scalar,
+    spring_fatigue_ratio: Scalar,
+) -> Scalar:
+    """Fatigue safety of the springs for 1e6 full strokes to both sides, Gerber."""
+    amplitude = 0.5 * stress_per_angle * (spring_winding - preload_reserve)
+    mean = 0.5 * stress_per_angle * (spring_winding + preload_reserve)
+    endurance = spring.endurance_strength(spring_tensile_strength, spring_fatigue_ratio)
+    return spring.gerber_safety(amplitude, mean, endurance, spring_tensile_strength)
+
+
+@book.output("mm")
+def spring_wound_diameter(coil_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar) -> Scalar:
+    """Mean coil diameter at full winding."""
+    return spring.loaded_coil_diameter(coil_diameter, coil_count, spring_winding)
+
+
+@book.output("mm")
+def spring_body_length(wire_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar, coil_gap: Scalar) -> Scalar:
+    """Axial length of the coils at full winding."""
+    return spring.body_length(wire_diameter, coil_count, spring_winding, coil_gap)
+
+
+@book.output("deg")
+def free_angle_tolerance(coil_count: Scalar, spring_index: Scalar) -> Scalar:
+    """Tolerance of a spring's free angle, DIN 2194 grade 2, to either side."""
+    return spring.free_angle_tolerance(coil_count, spring_index, 1.0)
+
+
+@book.output("1")
+def free_angle_over_stroke(free_angle_tolerance: Scalar, stroke: Scalar) -> Scalar:
+    """Free-angle tolerance as a multiple of the stroke; above about one the preload must be adjustable."""
+    return free_angle_tolerance / np.abs(stroke)

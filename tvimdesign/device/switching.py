@@ -1,0 +1,259 @@
+"""One switch from frozen to molten at constant current: temperatures, response times, power and energy."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.catalog import Record
+from tvimdesign.device.book import Book
+from tvimdesign.device.rows import Rule, Scalar
+from tvimdesign.errors import InputError
+from tvimdesign.physics import heat, layer, peltier, polymer
+
+book = Book("Switch")
+
+book.variable("current", "A", 1.5, 0.05, 20.0, "Current through the Peltier modules, constant during the switch")
+book.condition("ambient_temperature", "degC", 295.15, 233.15, 323.15, "Temperature of the air, and of all at the start")
+book.condition("target_temperature", "degC", 373.15, 303.15, 453.15, "Temperature the thermometer times wait for")
+book.condition("softening_band", "1", 2.0, 1.01, 100.0, "The layer is soft within this factor of its hot modulus")
+book.option(
+    "response_criterion",
+    ("far_face", "mean", "near_face", "softening"),
+    "What ends the switch: a face or the mean of the layer at the target temperature, or its impedance",
+)
+book.condition("cold_side_coefficient", "W/m^2/K", 15.0, 1.0, 1e5, "Convection and radiation from the cold side")
+book.condition("sink_capacity", "J/K", 0.0, 0.0, 1e6, "Heat capacity of a sink on the cold side")
+book.condition("hot_contact", "W/m^2/K", 1e4, 100.0, 1e6, "Contact conductance of Peltier pad and layer")
+book.condition("rotor_contact", "W/m^2/K", 1e4, 100.0, 1e6, "Contact conductance of layer and rotor plate")
+book.condition("rotor_coefficient", "W/m^2/K", 10.0, 1.0, 1e4, "Convection and radiation from the rotor plate")
+book.condition("layer_cells", "1", 12, 4, 1000, "Cells of the heat model through the layer", integer=True)
+book.condition("rotor_cells", "1", 4, 1, 1000, "Cells of the heat model through the rotor plate", integer=True)
+book.condition("time_elements", "1", 8, 3, 200, "Elements in time of the optimiser's heat model", integer=True)
+book.condition("horizon", "s", 3600.0, 1.0, 1e6, "Longest switch that is simulated")
+
+
+@book.output("1")
+def peltier_scale(pcl_area: Scalar, peltier_area: Scalar, peltier_module: Record) -> Scalar:
+    """Area of the pads over the area of the catalogue module they are cut from."""
+    if peltier_module.word("form") != "flexible":
+        raise InputError(
+            f"peltier_module: {peltier_module.name} is a rigid module; the pads of the shear module have the outline "
+            f"of the PCL arcs and need a flexible one, such as flexible_1600"
+        )
+    return pcl_area / peltier_area
+
+
+@book.helper()
+def pads(
+    peltier_scale: Scalar, peltier_seebeck: Scalar, peltier_resistance: Scalar, peltier_conductance: Scalar
+) -> peltier.Module:
+    """All pads in series; Seebeck coefficient, resistance and conductance grow with the count of couples."""
+    return peltier.Module(
+        peltier_scale * peltier_seebeck, peltier_scale * peltier_resistance, peltier_scale * peltier_conductance
+    )
+
+
+@book.output("A", advice=(Rule(sense=">=", value=0.0, reason="above the Peltier module's rated current"),))
+def current_reserve(peltier_max_current: Scalar, current: Scalar) -> Scalar:
+    """Rated current of the Peltier module less the current of the switch."""
+    return peltier_max_current - current
+
+
+@book.helper()
+def stack(
+    pcl_area: Scalar,
+    pcl_thickness: Scalar,
+    pcl_density: Scalar,
+    pcl_conductivity_solid: Scalar,
+    pcl_conductivity_melt: Scalar,
+    pcl_melting: polymer.Melting,
+    pads: peltier.Module,
+    current: Scalar,
+    peltier_mass: Scalar,
+    peltier_specific_heat: Scalar,
+    sink_capacity: Scalar,
+    cold_side_coefficient: Scalar,
+    hot_contact: Scalar,
+    rotor_contact: Scalar,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+    structure_density: Scalar,
+    structure_specific_heat: Scalar,
+    rotor_coefficient: Scalar,
+    ambient_temperature: Scalar,
+    rotor_cells: float,
+) -> heat.Stack:
+    """The stack the heat passes, from the cold side's air to the air above the rotor."""
+    half = 0.5 * peltier_mass * peltier_specific_heat
+    return heat.Stack(
+        area=pcl_area,
+        thickness=pcl_thickness,
+        density=pcl_density,
+        conductivity_solid=pcl_conductivity_solid,
+        conductivity_melt=pcl_conductivity_melt,
+        melting=pcl_melting,
+        peltier=pads,
+        current=current,
+        cold_capacity=half + sink_capacity,
+        hot_capacity=half,
+        cold_conductance=cold_side_coefficient * pcl_area,
+        hot_contact=hot_contact,
+        plate_contact=rotor_contact,
+        plate_thickness=rotor_thickness,
+        plate_conductivity=structure_conductivity,
+        plate_heat_capacity=structure_density * structure_specific_heat,
+        plate_coefficient=rotor_coefficient,
+        ambient=ambient_temperature,
+        plate_cells=int(rotor_cells),
+    )
+
+
+# --- at each instant -------------------------------------------------------------------------------------------------
+
+
+@book.helper(instant=True)
+def stack_profile(state: list[Scalar], stack: heat.Stack) -> heat.Profile:
+    """Temperatures and solid fractions through the stack."""
+    return heat.profile(state, stack)
+
+
+@book.helper(instant=True)
+def state_rates(state: list[Scalar], stack: heat.Stack) -> list[Scalar]:
+    """Time derivative of the thermal state."""
+    return heat.rates(state, stack)
+
+
+@book.output("W", instant=True)
+def electrical_power(stack_profile: heat.Profile, stack: heat.Stack) -> Scalar:
+    """Power the supply gives."""
+    return heat.electrical_power(stack_profile, stack)
+
+
+@book.output("V", instant=True)
+def supply_voltage(electrical_power: Scalar, current: Scalar) -> Scalar:
+    """Voltage over all pads in series."""
+    return electrical_power / current
+
+
+@book.output("degC", instant=True)
+def mean_temperature(stack_profile: heat.Profile) -> Scalar:
+    """Mean temperature of the layer."""
+    return sum(stack_profile.cells) / len(stack_profile.cells)
+
+
+@book.output("Pa", instant=True)
+def layer_modulus(
+    stack_profile: heat.Profile, pcl_rheology: polymer.Rheology, frequency_at_hot: Scalar
+) -> Scalar:
+    """Magnitude of the layer's complex modulus, its slices in series."""
+    slices = [
+        polymer.moduli(t, x, 2.0 * np.pi * frequency_at_hot, pcl_rheology)
+        for t, x in zip(stack_profile.cells, stack_profile.fractions, strict=True)
+    ]
+    storage, loss = layer.series_modulus(slices)
+    return np.sqrt(storage**2 + loss**2)
+
+
+# --- response times --------------------------------------------------------------------------------------------------
+
+
+@book.event
+def near_face_time(stack_profile: heat.Profile, target_temperature: Scalar) -> Scalar:
+    """Time until the layer's face at the Peltier pads is at the target temperature."""
+    return (stack_profile.near - target_temperature) / heat.TEMPERATURE_SCALE
+
+
+@book.event
+def mean_time(mean_temperature: Scalar, target_temperature: Scalar) -> Scalar:
+    """Time until the layer's mean is at the target temperature."""
+    return (mean_temperature - target_temperature) / heat.TEMPERATURE_SCALE
+
+
+@book.event
+def far_face_time(stack_profile: heat.Profile, target_temperature: Scalar) -> Scalar:
+    """Time until the layer's face at the rotor is at the target temperature."""
+    return (stack_profile.far - target_temperature) / heat.TEMPERATURE_SCALE
+
+
+@book.event
+def softening_time(
+    layer_modulus: Scalar, storage_modulus_at_hot: Scalar, loss_modulus_at_hot: Scalar, softening_band: Scalar
+) -> Scalar:
+    """Time until the layer's modulus is within the softening band of its hot value."""
+    target = 0.5 * np.log(storage_modulus_at_hot**2 + loss_modulus_at_hot**2) + np.log(softening_band)
+    return target - np.log(layer_modulus)
+
+
+@book.event
+def response_time(
+    response_criterion: str,
+    stack_profile: heat.Profile,
+    mean_temperature: Scalar,
+    target_temperature: Scalar,
+    layer_modulus: Scalar,
+    storage_modulus_at_hot: Scalar,
+    loss_modulus_at_hot: Scalar,
+    softening_band: Scalar,
+) -> Scalar:
+    """Time of one switch, by the criterion the study chose."""
+    if response_criterion == "softening":
+        return softening_time(layer_modulus, storage_modulus_at_hot, loss_modulus_at_hot, softening_band)
+    if response_criterion == "mean":
+        return mean_time(mean_temperature, target_temperature)
+    face = near_face_time if response_criterion == "near_face" else far_face_time
+    return face(stack_profile, target_temperature)
+
+
+# --- over the switch -------------------------------------------------------------------------------------------------
+
+
+@book.path("J", "integral")
+def switch_energy(electrical_power: Scalar) -> Scalar:
+    """Electrical energy of one switch."""
+    return electrical_power
+
+
+@book.path("W", "maximum")
+def peak_power(electrical_power: Scalar) -> Scalar:
+    """Highest electrical power during the switch."""
+    return electrical_power
+
+
+@book.path("V", "maximum")
+def peak_voltage(supply_voltage: Scalar) -> Scalar:
+    """Highest voltage over all pads in series during the switch."""
+    return supply_voltage
+
+
+@book.path("degC", "maximum")
+def peak_pcl_temperature(stack_profile: heat.Profile) -> Scalar:
+    """Highest temperature in the PCL during the switch, at its face to the pads."""
+    return stack_profile.near
+
+
+@book.path("degC", "maximum")
+def peak_peltier_temperature(stack_profile: heat.Profile) -> Scalar:
+    """Highest temperature of the pads' hot side during the switch."""
+    return stack_profile.hot
+
+
+@book.path("degC", "maximum")
+def peak_rotor_temperature(stack_profile: heat.Profile) -> Scalar:
+    """Highest temperature of the rotor plate during the switch, near its face to the layer."""
+    return stack_profile.plate[0]
+
+
+@book.output(
+    "K", advice=(Rule(sense=">=", value=0.0, reason="the Peltier module is above the temperature it is rated for"),)
+)
+def peltier_temperature_reserve(peltier_max_temperature: Scalar, peak_peltier_temperature: Scalar) -> Scalar:
+    """Rated temperature of the Peltier module less the highest it sees."""
+    return peltier_max_temperature - peak_peltier_temperature
+
+
+@book.output(
+    "K", advice=(Rule(sense=">=", value=0.0, reason="the structure is above its continuous service temperature"),)
+)
+def structure_temperature_reserve(structure_service_temperature: Scalar, peak_peltier_temperature: Scalar) -> Scalar:
+    """Service temperature of the structure less the highest temperature of the pads that touch it."""
+    return structure_service_temperature - peak_peltier_temperature

@@ -1,0 +1,54 @@
+"""A flat annular layer in shear between a fixed floor and a turning plate.
+
+Textbook torsion of a flat ring: shear strain r theta/t, traction G r theta/t, torque the integral of r times traction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+
+def polar_moment(total_span: Any, inner_radius: Any, outer_radius: Any) -> Any:
+    """J = integral of r^2 dA = (phi/4)(r_o^4 - r_i^4) [m^4], phi the span of all arcs together [rad]."""
+    return 0.25 * total_span * (outer_radius**4 - inner_radius**4)
+
+
+def area(total_span: Any, inner_radius: Any, outer_radius: Any) -> Any:
+    """(phi/2)(r_o^2 - r_i^2) [m^2]."""
+    return 0.5 * total_span * (outer_radius**2 - inner_radius**2)
+
+
+def series_modulus(moduli: Sequence[tuple[Any, Any]]) -> tuple[Any, Any]:
+    """Storage and loss modulus [Pa] of equally thick slices that carry one shear stress: 1/G* = mean of 1/G*_i.
+
+    A thin molten slice therefore softens the layer long before all of it is hot.
+    """
+    compliances = [(storage / (storage**2 + loss**2), loss / (storage**2 + loss**2)) for storage, loss in moduli]
+    real = sum(pair[0] for pair in compliances) / len(moduli)
+    imaginary = sum(pair[1] for pair in compliances) / len(moduli)
+    square = real**2 + imaginary**2
+    return real / square, imaginary / square
+
+
+def series_stiffness(stiffness: Any, loss_stiffness: Any, support: Any) -> tuple[Any, Any]:
+    """Real and imaginary part [N*m/rad] of K* = stiffness + i loss_stiffness behind a lossless support stiffness.
+
+    K = K* S/(K* + S) with S the support.
+    """
+    real, imaginary = stiffness + support, loss_stiffness
+    square = real**2 + imaginary**2
+    return (
+        support * (stiffness * real + loss_stiffness * imaginary) / square,
+        support * (loss_stiffness * real - stiffness * imaginary) / square,
+    )
+
+
+def shear_strain(radius: Any, angle: Any, thickness: Any) -> Any:
+    """Strain at a radius, gamma = r theta/t [1]."""
+    return radius * angle / thickness
+
+
+def torque_at_traction(traction: Any, polar_moment_of_area: Any, outer_radius: Any) -> Any:
+    """Torque [N*m] at which the traction at the outer radius reaches a limit, T = tau J/r_o."""
+    return traction * polar_moment_of_area / outer_radius

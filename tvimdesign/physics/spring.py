@@ -1,0 +1,107 @@
+"""The helical torsion spring: rate, stress, strength, and its size under load.
+
+Sources: [S] Budynas and Nisbett, Shigley's Mechanical Engineering Design, 10th ed., section 10-12 (torsion springs);
+[E] EN 13906-3. Angles in radians, except where a name says turns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import numpy as np
+
+RateModel = Literal["bending", "smi"]
+_MILLIMETRE = 1e-3
+
+
+def rate(
+    youngs_modulus: Any, wire_diameter: Any, coil_diameter: Any, active_coils: Any, model: RateModel = "bending"
+) -> Any:
+    """Torque per angle of a round-wire torsion spring [N*m/rad].
+
+    `bending`: k = E d^4 / (64 D n), pure bending [S eq. 10-50]. `smi`: the handbook's E d^4 / (10.8 D n) per turn
+    [S eq. 10-51], which counts the friction between coils and is 6 % softer.
+    """
+    divisor = {"bending": 64.0, "smi": 10.8 * 2.0 * np.pi}[model]
+    return youngs_modulus * wire_diameter**4 / (divisor * coil_diameter * active_coils)
+
+
+def active_coils(body_coils: Any, coil_diameter: Any, bending_leg_length: Any) -> Any:
+    """Count of coils that bend, with the legs: n_a = n_b + (L1 + L2)/(3 pi D) [S eq. 10-48].
+
+    `bending_leg_length` is L1 + L2 [m]: the length of both legs from coil to load; 0 where the legs are ignored.
+    """
+    return body_coils + bending_leg_length / (3.0 * np.pi * coil_diameter)
+
+
+def spring_index(wire_diameter: Any, coil_diameter: Any) -> Any:
+    """C = D/d [1]; cold coiling wants 4 <= C <= 20 [E]."""
+    return coil_diameter / wire_diameter
+
+
+def inner_fibre_factor(index: Any) -> Any:
+    """Stress concentration at the inner fibre, K_bi = (4C^2 - C - 1)/(4C(C - 1)) [S eq. 10-43]."""
+    return (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
+
+
+def inner_fibre_factor_en(index: Any) -> Any:
+    """EN 13906-3 stress correction q = (C + 0.07)/(C - 0.75) [E]."""
+    return (index + 0.07) / (index - 0.75)
+
+
+def bending_stress(torque: Any, wire_diameter: Any, factor: Any) -> Any:
+    """Stress at the inner fibre, sigma = K 32 M/(pi d^3) [Pa] [S eq. 10-44]."""
+    return factor * 32.0 * torque / (np.pi * wire_diameter**3)
+
+
+def tensile_strength(wire_diameter: Any, strength: Sequence[tuple[float, float]]) -> Any:
+    """S_ut = A/d^m [Pa], d in mm [S eq. 10-14, table 10-4].
+
+    `strength` holds (A [Pa], m) for each diameter range; the ranges of one material meet where its curves cross, so the
+    least of them is the one that applies.
+    """
+    diameter_in_mm = wire_diameter / _MILLIMETRE
+    curves = [coefficient * diameter_in_mm ** (-exponent) for coefficient, exponent in strength]
+    lowest = curves[0]
+    for curve in curves[1:]:
+        lowest = np.fmin(lowest, curve)
+    return lowest
+
+
+def endurance_strength(tensile: Any, strength_ratio: Any) -> Any:
+    """Gerber-equivalent endurance limit [Pa] from the repeated-bending strength S_r = ratio * S_ut [S eq. 10-58].
+
+    S_e = (S_r/2)/(1 - (S_r/(2 S_ut))^2).
+    """
+    half = strength_ratio * tensile / 2.0
+    return half / (1.0 - (half / tensile) ** 2)
+
+
+def gerber_safety(stress_amplitude: Any, stress_mean: Any, endurance: Any, tensile: Any) -> Any:
+    """Fatigue safety n_f [1] of the Gerber line, n s_a/S_e + (n s_m/S_ut)^2 = 1 [S table 6-7]."""
+    a = (stress_mean / tensile) ** 2
+    b = stress_amplitude / endurance
+    # The rationalised root: no cancellation, and finite for a mean stress of zero.
+    return 2.0 / (b + np.sqrt(b**2 + 4.0 * a))
+
+
+def loaded_coil_diameter(coil_diameter: Any, body_coils: Any, angle: Any) -> Any:
+    """Mean coil diameter wound up by `angle`, D' = D n_b/(n_b + theta in turns) [m] [S eq. 10-53]."""
+    return coil_diameter * body_coils / (body_coils + angle / (2.0 * np.pi))
+
+
+def body_length(wire_diameter: Any, body_coils: Any, angle: Any, coil_gap: Any = 0.0) -> Any:
+    """Axial length of the coil body wound up by `angle`, d (n_b + 1 + turns) [m], plus the gap between coils."""
+    turns = body_coils + angle / (2.0 * np.pi)
+    return wire_diameter * (turns + 1.0) + coil_gap * turns
+
+
+def diameter_tolerance(wire_diameter: Any, coil_diameter: Any, grade_factor: float) -> Any:
+    """Coil diameter tolerance A_D = 0.025 D d^-0.17 Q [m], D and d in mm in the formula (DIN 2194)."""
+    return 0.025 * coil_diameter * (wire_diameter / _MILLIMETRE) ** -0.17 * grade_factor
+
+
+def free_angle_tolerance(body_coils: Any, index: Any, grade_factor: float) -> Any:
+    """Free-angle tolerance A_phi = 2.4 n^0.76 sqrt(C) Q degrees, returned in radians (DIN 2194)."""
+    return np.pi / 180.0 * 2.4 * body_coils**0.76 * np.sqrt(index) * grade_factor

@@ -1,0 +1,56 @@
+"""How far a spring winds when the rotor turns: the leg of a spring at radius r bears on a pin at radius p of the rotor.
+
+The rotor axis is O, the coil centre C lies at distance r on the x axis, the pin P at p (cos f, sin f). The line of the
+leg passes C at the distance e (its offset) and runs through P. The winding angle w counts positive where it winds the
+coil up. Derivation: with s = |CP|, the leg's direction is atan2(P - C) + c asin(e/s), c = +-1 the hand.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+
+def pin_distance(pin_radius: Any, placement_radius: Any, azimuth: Any) -> Any:
+    """Distance s of pin and coil centre [m], s^2 = p^2 + r^2 - 2 p r cos f."""
+    return np.sqrt(pin_radius**2 + placement_radius**2 - 2.0 * pin_radius * placement_radius * np.cos(azimuth))
+
+
+def leg_direction(pin_radius: Any, placement_radius: Any, azimuth: Any, offset: Any, hand: float = 1.0) -> Any:
+    """Direction of the leg [rad], from the coil to the pin, against the x axis."""
+    s = pin_distance(pin_radius, placement_radius, azimuth)
+    # Measured from the inward radius, so that the branch of atan2 is never crossed for p < r.
+    inward = np.arctan2(pin_radius * np.sin(azimuth), placement_radius - pin_radius * np.cos(azimuth))
+    bearing = np.pi - inward
+    return bearing + hand * np.arcsin(offset / s)
+
+
+def leg_ratio(pin_radius: Any, placement_radius: Any, azimuth: Any, offset: Any, hand: float = 1.0) -> Any:
+    """d(leg direction)/d(rotor angle) [1].
+
+    g = p (p - r cos f)/s^2 - c e r p sin f/(s^2 sqrt(s^2 - e^2)).
+    """
+    p, r, e = pin_radius, placement_radius, offset
+    s2 = pin_distance(p, r, azimuth) ** 2
+    return p * (p - r * np.cos(azimuth)) / s2 - hand * e * r * p * np.sin(azimuth) / (s2 * np.sqrt(s2 - e**2))
+
+
+def leg_curvature(pin_radius: Any, placement_radius: Any, azimuth: Any, offset: Any, hand: float = 1.0) -> Any:
+    """Second derivative of the leg direction by the rotor angle [1/rad]; the derivative of `leg_ratio`."""
+    p, r, e = pin_radius, placement_radius, offset
+    s2 = pin_distance(p, r, azimuth) ** 2
+    q2 = s2 - e**2
+    sine, cosine = np.sin(azimuth), np.cos(azimuth)
+    bearing = p * r * sine * (r**2 - p**2) / s2**2
+    turn = cosine / (s2 * np.sqrt(q2)) - p * r * sine**2 * (2.0 * q2 + s2) / (s2**2 * q2 * np.sqrt(q2))
+    return bearing - hand * e * p * r * turn
+
+
+def output_stiffness(count: Any, spring_rate: Any, preload: Any, ratio: Any, curvature: Any) -> Any:
+    """Stiffness of `count` springs about the rotor axis [N*m/rad], K_s = N k (w'^2 + a_pre w'').
+
+    `ratio` is w' and `curvature` w'' at rest; unity transmission is w' = 1, w'' = 0. All N springs act only while the
+    preload exceeds the unwinding of the opposing pair.
+    """
+    return count * spring_rate * (ratio**2 + preload * curvature)

@@ -1,0 +1,86 @@
+"""What a study is once it is read: plain data in SI units that survives a trip through JSON."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field
+
+FORMAT = 1
+"""The file format this version reads, the study's key `tvimdesign`."""
+
+STANDARD_POINTS: dict[str, dict[str, float]] = {
+    "cold": {"temperature": 303.15, "frequency": 1.0},
+    "hot": {"temperature": 373.15, "frequency": 1.0},
+}
+"""The operating points every study has, in kelvin and hertz: the solid and the molten layer of the paper's tests."""
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class Range(_Part):
+    """A number that may lie anywhere between two limits; the search begins at `start` where one is given."""
+
+    lower: float
+    upper: float
+    start: float | None = None
+
+
+class Options(_Part):
+    """What may be chosen from: numbers or names of records; `source` is the catalogue record that lists them."""
+
+    values: Annotated[tuple[float | str, ...], Field(min_length=1)]
+    source: str | None = None
+
+
+Vary: TypeAlias = Range | Options
+
+
+class Requirement(_Part):
+    """One limit on one output; `text` is how the study wrote it."""
+
+    output: str
+    sense: Literal["<=", ">="]
+    limit: float
+    text: str
+
+
+class SolverOptions(_Part):
+    """How hard the solver tries, and how finely the heat model is divided."""
+
+    starts: int = Field(3, ge=1, le=1000, description="number of starting points; the first is the study's own")
+    seed: int = Field(1, ge=0, le=2**32 - 1, description="seed of the random starting points")
+    cells: int = Field(12, ge=2, le=200, description="cells through the polymer layer")
+    elements: int = Field(8, ge=2, le=200, description="time elements of one switch")
+    max_iterations: int = Field(300, ge=1, le=100_000, description="iterations before the solver gives up")
+    tolerance: float = Field(1e-8, ge=1e-14, le=1e-2, description="relative tolerance of convergence")
+
+
+class WriteOptions(_Part):
+    """What the results folder gets besides the numbers."""
+
+    plots: bool = Field(True, description="plots of the result")
+    cad: bool = Field(True, description="STEP, STL and GLB of the parts")
+
+
+class Study(_Part):
+    """A whole study. Numbers are SI; `module` holds only what the study set, `operating_points` every point in full."""
+
+    name: str
+    description: str = ""
+    mode: str
+    module: dict[str, float | str] = {}
+    vary: dict[str, Vary] = {}
+    require: tuple[Requirement, ...] = ()
+    minimize: dict[str, float] = {}
+    operating_points: dict[str, dict[str, float]]
+    solver: SolverOptions = SolverOptions()
+    write: WriteOptions = WriteOptions()
+    catalog_folder: str | None = None
+
+    @property
+    def task(self) -> Literal["evaluate", "optimize"]:
+        """What the study asks for."""
+        return "optimize" if self.vary else "evaluate"

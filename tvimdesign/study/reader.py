@@ -1,0 +1,208 @@
+"""From a study file to a `Study`: reads every section, collects every problem, and raises them all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import MODES, Table, table_for
+from tvimdesign.errors import CatalogError, InputError
+from tvimdesign.study.goals import read_minimize, read_require
+from tvimdesign.study.model import FORMAT, SolverOptions, Study, WriteOptions
+from tvimdesign.study.problems import Problems, quoted, step
+from tvimdesign.study.settings import read_module, read_points
+from tvimdesign.study.source import check_characters, printable, read_text
+from tvimdesign.study.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
+from tvimdesign.study.vary import check_against_module, read_vary, with_start
+from tvimdesign.study.yaml_text import Mapping, Node, Text, compose
+
+SECTIONS = (
+    "tvimdesign",
+    "name",
+    "description",
+    "mode",
+    "catalog",
+    "module",
+    "vary",
+    "require",
+    "minimize",
+    "operating_points",
+    "solver",
+    "write",
+)
+"""The keys of a study, in the order in which it is usually written."""
+LONGEST_TEXT = 10_000
+TableOf = Callable[[str], Table]
+CatalogOf = Callable[[Path | None], Catalog]
+_Options = TypeVar("_Options", bound=BaseModel)
+
+
+def read_study(path: Path, table: TableOf = table_for, catalog: CatalogOf = Catalog) -> Study:
+    """Read a study file.
+
+    `table` gives the table of a mode and `catalog` the catalogue with a folder of the user's records. Raises StudyError
+    with every problem found, and InputError where there is no such file or it cannot be opened.
+    """
+    problems = Problems(printable(path))
+    source = read_text(path, problems)
+    return _Reader(problems, path.stem, path.parent, table, catalog).read(source)
+
+
+def read_study_text(
+    source: str, name: str = "study", folder: Path = Path(), table: TableOf = table_for, catalog: CatalogOf = Catalog
+) -> Study:
+    """Read a study from its text; `name` stands for the file in messages, `folder` is where its catalogue is."""
+    problems = Problems(name)
+    return _Reader(problems, name, folder, table, catalog).read(check_characters(source, problems))
+
+
+@dataclass
+class _Reader:
+    """Reads one study; each method takes one section."""
+
+    problems: Problems
+    name: str
+    folder: Path
+    table: TableOf
+    catalog: CatalogOf
+    sections: dict[str, Node] = field(default_factory=dict)
+    root: Node = field(default_factory=lambda: Text(1, 1, ""))
+
+    def read(self, source: str) -> Study:
+        """Read all sections and return the study; raises StudyError with every problem."""
+        self.root = compose(source, self.problems)
+        if not isinstance(self.root, Mapping):
+            misfit(self.problems, self.root, "", "a study: lines such as 'mode: shear'")
+            self.problems.stop()
+        found = entries(self.problems, self.root, "", "")
+        self.sections = unknown_keys(self.problems, found, "", "section", list(SECTIONS))
+        plain = self._plain()
+        folder, table = self._catalog_folder(), self._table()
+        parts = self._parts(Reading(self.problems, table, self._records(folder))) if table else {}
+        self.problems.stop()
+        return Study(**plain, **parts, catalog_folder=folder.as_posix() if folder else None)
+
+    def _plain(self) -> dict[str, Any]:
+        """The sections that need no table."""
+        self._format()
+        return {
+            "name": self._words("name", 200) or self.name,
+            "description": self._words("description", LONGEST_TEXT),
+            "solver": self._options("solver", SolverOptions),
+            "write": self._options("write", WriteOptions),
+        }
+
+    def _records(self, folder: Path | None) -> Catalog:
+        """The catalogue; without the user's folder where that cannot be used, so that the rest is still checked."""
+        try:
+            return self.catalog(folder)
+        except CatalogError as error:
+            self.problems.add(self.sections.get("catalog", self.root), "catalog", str(error))
+            return self.catalog(None)
+
+    def _parts(self, reading: Reading) -> dict[str, Any]:
+        get = self.sections.get
+        points = read_points(reading, get("operating_points"))
+        module = read_module(reading, get("module"))
+        vary = read_vary(reading, get("vary"))
+        check_against_module(reading, vary, module, get("module"))
+        require = read_require(reading, get("require"), points)
+        minimize = read_minimize(reading, get("minimize"), points)
+        self._both_or_neither()
+        return {
+            "mode": _word(get("mode")),
+            "module": module,
+            "vary": with_start(vary, module),
+            "require": require,
+            "minimize": minimize,
+            "operating_points": points,
+        }
+
+    def _both_or_neither(self) -> None:
+        vary, minimize = (self.sections.get(key) for key in ("vary", "minimize"))
+        if _says_something(minimize) and not _says_something(vary):
+            assert minimize is not None
+            self.problems.add(minimize, "minimize", "nothing may change: `vary` is missing", "both or neither")
+        elif _says_something(vary) and not _says_something(minimize):
+            assert vary is not None
+            self.problems.add(vary, "vary", "there is nothing to improve: `minimize` is missing", "both or neither")
+
+    def _format(self) -> None:
+        node = self.sections.get("tvimdesign")
+        version = None if node is None else whole(self.problems, node, "tvimdesign")
+        if node is not None and version is not None and version != FORMAT:
+            found = f"this version of tvimdesign does not read format {version}"
+            self.problems.add(node, "tvimdesign", found, str(FORMAT))
+
+    def _table(self) -> Table | None:
+        node = self.sections.get("mode")
+        expected = "one of " + ", ".join(MODES) if len(MODES) > 1 else repr(MODES[0])
+        if node is None:
+            self.problems.add(self.root, "mode", "missing", expected, f"write 'mode: {MODES[0]}'")
+            return None
+        word = text(self.problems, node, "mode", expected)
+        if word is None:
+            return None
+        try:
+            return self.table(word)
+        except InputError:
+            self.problems.unknown(node, "mode", f"mode: {quoted(word)}", word, MODES)
+            return None
+
+    def _catalog_folder(self) -> Path | None:
+        node = self.sections.get("catalog")
+        if node is None or (isinstance(node, Text) and node.empty):
+            return None
+        word = text(self.problems, node, "catalog", "a folder of records, relative to the study")
+        if word is None:
+            return None
+        folder = self.folder / word
+        if not folder.is_dir():
+            found = f"there is no folder {quoted(word)} beside the study"
+            self.problems.add(node, "catalog", found, "a folder of records")
+            return None
+        return folder
+
+    def _words(self, key: str, most: int) -> str:
+        node = self.sections.get(key)
+        if node is None or (isinstance(node, Text) and node.empty):
+            return ""
+        if not isinstance(node, Text):
+            misfit(self.problems, node, key, "a text")
+        elif len(node.value) > most:
+            self.problems.add(node, key, f"{len(node.value)} characters, the limit is {most}", "a shorter text")
+        return node.value.strip() if isinstance(node, Text) else ""
+
+    def _options(self, key: str, model: type[_Options]) -> _Options:
+        fields = model.model_fields
+        found = entries(self.problems, self.sections.get(key), key, f"settings: {', '.join(fields)}")
+        known = unknown_keys(self.problems, found, key, "setting", list(fields))
+        readers: dict[Any, Callable[[Problems, Node, str], Any]] = {int: whole, float: number, bool: flag}
+        read = {
+            name: readers[fields[name].annotation](self.problems, node, step(key, name)) for name, node in known.items()
+        }
+        try:
+            return model(**{name: value for name, value in read.items() if value is not None})
+        except ValidationError as error:
+            for fault in error.errors():
+                name = str(fault["loc"][0])
+                message = fault["msg"].replace("Input should be", f"{fault['input']:g} should be")
+                self.problems.add(known[name], step(key, name), message, fields[name].description or "")
+            return model()
+
+
+def _says_something(node: Node | None) -> bool:
+    return (
+        node is not None
+        and not (isinstance(node, Text) and node.empty)
+        and not (isinstance(node, Mapping) and not node.entries)
+    )
+
+
+def _word(node: Node | None) -> str:
+    return node.value.strip() if isinstance(node, Text) else ""

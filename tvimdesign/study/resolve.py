@@ -1,0 +1,77 @@
+"""From a study to what a table is evaluated with: the study's own value, else the record's, else the default."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Choice, Input, Table
+from tvimdesign.errors import CatalogError, InputError
+from tvimdesign.study.model import Options, Range, Study, Vary
+
+
+def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:
+    """Return what `Table.evaluate` wants: every input in SI by full name, every choice as its record or its word.
+
+    What the study varies gets its start: the range's, else the module's or the default value, moved into the range or
+    to the nearest of the listed values, so that the result is a member of the search. Raises InputError naming what has
+    no value.
+    """
+    found: dict[str, Any] = {row.name: _chosen(row, study, catalog) for row in table.choices}
+    for row in table.inputs:
+        if row.per_point:
+            for point, values in study.operating_points.items():
+                name = f"{row.name}@{point}"
+                found[name] = _or_default(row, name, values.get(row.name), found)
+        else:
+            found[row.name] = _started(row, study, found)
+    return found
+
+
+def _chosen(row: Choice, study: Study, catalog: Catalog) -> Any:
+    word, allowed = study.module.get(row.name, row.default), study.vary.get(row.name)
+    if isinstance(allowed, Options) and word not in allowed.values:
+        word = allowed.values[0]
+    return catalog.record(row.shelf, str(word)) if row.shelf else word
+
+
+def _started(row: Input, study: Study, chosen: dict[str, Any]) -> float:
+    own, allowed = study.module.get(row.name), study.vary.get(row.name)
+    if allowed is None:
+        return _or_default(row, row.name, own, chosen)
+    if isinstance(allowed, Range) and allowed.start is not None:
+        return allowed.start
+    try:
+        value = _or_default(row, row.name, own, chosen)
+    except InputError:
+        return _middle(allowed)
+    return _nearest(allowed, value)
+
+
+def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str, Any]) -> float:
+    """The study's own value of an input, else its record's, else its default."""
+    if own is not None:
+        return float(own)
+    reason = ""
+    if row.record is not None:
+        choice, field = row.record
+        try:
+            return float(chosen[choice].value(field))
+        except CatalogError as error:
+            reason = f" ({error})"
+    if row.default is not None:
+        return row.default
+    section = "operating_points" if row.per_point else "module"
+    raise InputError(f"{name} has no value{reason}; give it under `{section}`, in {row.unit}")
+
+
+def _middle(allowed: Vary) -> float:
+    if isinstance(allowed, Range):
+        return 0.5 * (allowed.lower + allowed.upper)
+    return float(allowed.values[len(allowed.values) // 2])
+
+
+def _nearest(allowed: Vary, value: float) -> float:
+    if isinstance(allowed, Range):
+        return min(max(value, allowed.lower), allowed.upper)
+    return min((float(option) for option in allowed.values), key=lambda option: abs(option - value))

@@ -1,0 +1,154 @@
+"""The JSON Schema of a study, read off the table, for editors; `python -m tvimdesign.study.schema` writes it anew."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from pydantic import BaseModel
+
+from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
+from tvimdesign.study.model import FORMAT, SolverOptions, WriteOptions
+from tvimdesign.study.sizes import SIZES_SHELF
+
+SCHEMA_FILE = Path(__file__).with_name("schema.json")
+_NUMBER = r"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
+_POINT = "[a-z][a-z0-9_]{0,31}"
+_Schema: TypeAlias = dict[str, Any]
+
+
+def json_schema(table: Table, modes: tuple[str, ...] = MODES) -> _Schema:
+    """Return the schema of the studies of a table.
+
+    It knows names, shapes and which values need a unit. What needs the catalogue or arithmetic - whether a record
+    exists, a unit fits, a value lies in its limits - only the reader knows.
+    """
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "tvimdesign study",
+        "description": "A study of a thermo-active variable impedance module. Every quantity has its unit.",
+        "type": "object",
+        "required": ["mode"],
+        "additionalProperties": False,
+        "properties": {
+            "tvimdesign": {"const": FORMAT, "description": "format of the file"},
+            "name": _text("what the study is called"),
+            "description": _text("what the study is for"),
+            "mode": {"enum": list(modes), "description": "how the polymer layer is loaded"},
+            "catalog": _text("folder of your own records, relative to this file"),
+            "module": _section("what the module is", {row.name: _set(row) for row in _settable(table)}),
+            "vary": _section("what may change", {row.name: _vary(row) for row in _settable(table) if _varies(row)}),
+            "require": _section("what must hold", {}, _by_output(table, _require)),
+            "minimize": _minimize(table),
+            "operating_points": _points(table),
+            "solver": _options(SolverOptions),
+            "write": _options(WriteOptions),
+        },
+        "definitions": {
+            "quantity": {"type": "string", "pattern": rf"^\s*{_NUMBER} ?[^\s0-9.,_].*$"},
+            "number": {"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^\s*{_NUMBER}( ?%)?\s*$"}]},
+            "limit": {"type": "string", "pattern": rf"^\s*(<=|>=)\s*{_NUMBER}"},
+        },
+    }
+
+
+def write_schema(path: Path = SCHEMA_FILE) -> None:
+    """Write the schema of the shear table, as it ships."""
+    path.write_text(schema_text(table_for("shear")), encoding="utf-8")
+
+
+def schema_text(table: Table) -> str:
+    """Return the schema as the text of its file."""
+    return json.dumps(json_schema(table), indent=2, ensure_ascii=False) + "\n"
+
+
+def _text(description: str) -> _Schema:
+    return {"type": ["string", "number", "null"], "description": description}
+
+
+def _section(description: str, properties: _Schema, patterns: _Schema | None = None) -> _Schema:
+    section = {"description": description, "type": ["object", "null"], "additionalProperties": False}
+    return section | {"properties": properties} | ({"patternProperties": patterns} if patterns else {})
+
+
+def _settable(table: Table) -> list[Input | Choice]:
+    return [row for row in table.rows if isinstance(row, Choice) or (isinstance(row, Input) and not row.per_point)]
+
+
+def _varies(row: Input | Choice) -> bool:
+    return isinstance(row, Choice) or row.variable
+
+
+def _value(row: Input) -> _Schema:
+    return {"$ref": "#/definitions/number" if row.unit == "1" else "#/definitions/quantity"}
+
+
+def _about(row: Input | Choice | Output) -> str:
+    unit = "" if isinstance(row, Choice) or row.unit == "1" else f" [{row.unit}]"
+    return f"{row.description}{unit}"
+
+
+def _word(row: Choice) -> _Schema:
+    return {"type": "string"} if row.shelf else {"enum": list(row.options)}
+
+
+def _set(row: Input | Choice) -> _Schema:
+    value = _value(row) if isinstance(row, Input) else _word(row)
+    shelf = f" (a record of the shelf {row.shelf})" if isinstance(row, Choice) and row.shelf else ""
+    return {"description": _about(row) + shelf, "allOf": [value]}
+
+
+def _shape(properties: _Schema, required: list[str]) -> _Schema:
+    return {"type": "object", "additionalProperties": False, "required": required, "properties": properties}
+
+
+def _vary(row: Input | Choice) -> _Schema:
+    value = _value(row) if isinstance(row, Input) else _word(row)
+    forms = [_shape({"choose": {"type": "array", "minItems": 1, "items": value}}, ["choose"])]
+    if isinstance(row, Input):
+        record = {"type": "string", "description": f"a record of the shelf {SIZES_SHELF}, such as music_wire_gauge"}
+        forms.append(_shape({"catalog": record, "from": value, "to": value}, ["catalog"]))
+    if isinstance(row, Input) and not row.integer:
+        forms.append({"type": "array", "minItems": 2, "maxItems": 2, "items": value})
+        forms.append(_shape({"from": value, "to": value, "start": value}, ["from", "to"]))
+    return {"description": _about(row), "anyOf": forms}
+
+
+def _by_output(table: Table, schema: Any) -> _Schema:
+    named = [row for row in table.outputs if not row.instant]
+    return {f"^{row.name}{'@' + _POINT if row.per_point else ''}$": schema(row) for row in named}
+
+
+def _require(row: Output) -> _Schema:
+    limit = {"$ref": "#/definitions/limit"}
+    return {"description": _about(row), "anyOf": [limit, {"type": "array", "minItems": 1, "items": limit}]}
+
+
+def _minimize(table: Table) -> _Schema:
+    weights = _by_output(table, lambda row: {"description": _about(row), "$ref": "#/definitions/number"})
+    names = "|".join(pattern[1:-1] for pattern in weights)
+    section = _section("what is to be small, with weights", {}, weights)
+    return {"anyOf": [section, {"type": "string", "pattern": f"^({names})$"}]}
+
+
+def _points(table: Table) -> _Schema:
+    rows = [row for row in table.inputs if row.per_point]
+    point = _section("one operating point", {row.name: _set(row) for row in rows})
+    return _section("where stiffness and damping are wanted; `cold` and `hot` always exist", {}, {f"^{_POINT}$": point})
+
+
+def _options(options: type[BaseModel]) -> _Schema:
+    schema = options.model_json_schema()
+    for field in schema["properties"].values():
+        field.pop("title", None)
+    return {
+        "description": schema["description"],
+        "type": ["object", "null"],
+        "additionalProperties": False,
+        "properties": schema["properties"],
+    }
+
+
+if __name__ == "__main__":
+    write_schema()
