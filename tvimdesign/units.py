@@ -1,8 +1,8 @@
 """Reads and writes quantities with units: strict text in, SI floats out, and text for people.
 
-SI inside. An angle is in radians, a temperature (`degC`) in kelvin, a difference (`K`) in kelvin, a frequency in `Hz` stays
-in cycles a second and one in `rad/s` in radians a second. Text is never evaluated: numbers go through a pattern, units
-through a pattern and pint's `parse_units`.
+SI inside: an angle is in radians, a temperature (`degC`) and a difference (`K`) in kelvin; a frequency in `Hz` stays in
+cycles a second, one in `rad/s` in radians a second. Text is never evaluated: a pattern reads the number, a pattern and
+pint's `parse_units` the unit.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from tvimdesign.errors import UnitError
 
@@ -28,7 +28,7 @@ _NUMBER = re.compile(r"([+-]?[0-9]++(?:\.[0-9]++)?+(?:[eE][+-]?[0-9]++)?+)(.*)",
 # Possessive quantifiers: hostile text must not make the pattern backtrack. Exponents are one digit, and none follows a
 # parenthesis, so that no product of powers can grow without limit.
 _UNIT = re.compile(r"(?:[A-Za-z_]++(?:\^-?[1-9](?![0-9]))?+|(?<![A-Za-z0-9])1(?![A-Za-z0-9])|[()*/ ])++")
-_SPELLINGS = {"°C": "degC", "°": "deg", "Ω": "ohm", "Ω": "ohm", "µ": "u", "μ": "u", "%": "percent"}
+_SPELLINGS = {"°C": "degC", "°": "deg", "\u2126": "ohm", "Ω": "ohm", "µ": "u", "μ": "u", "%": "percent"}
 _OPERATORS = {"**": "^", "²": "^2", "³": "^3", ".": "*", "·": "*", "⋅": "*"}
 _PRETTY = {"degC": "°C", "deg": "°", "ohm": "Ω", "um": "µm", "percent": "%"}
 _DIFFERENCE = "write temperature differences in K"
@@ -46,7 +46,6 @@ _EXAMPLES = (
     ("ohm", "a resistance", "3 ohm"),
     ("W", "a power", "5.9 W"),
     ("J", "an energy", "400 J"),
-    ("N", "a force", "10 N"),
     ("N*m", "a torque", "2 N.m"),
     ("N*m/rad", "a torsional stiffness", "5 N.m/rad"),
     ("N*m*s/rad", "a torsional damping", "0.1 N.m.s/rad"),
@@ -56,7 +55,6 @@ _EXAMPLES = (
     ("kg/m^3", "a density", "1145 kg/m^3"),
     ("degC", "a temperature", "100 degC"),
     ("K", "a temperature difference", "5 K"),
-    ("1/K", "a number per kelvin", "0.09 1/K"),
     ("Hz", "a frequency", "10 Hz"),
     ("rad/s", "an angular frequency", "6.28 rad/s"),
     ("W/K", "a thermal conductance", "0.12 W/K"),
@@ -73,33 +71,27 @@ _COMMON = (
     "newton Nm N.m mN.m N.mm Nm/rad N.m/rad N.m/deg Nm.s/rad N.m.s/rad kg.m^2 kg.mm^2 g.mm^2 Pa kPa MPa GPa bar "
     "pascal psi Pa.s mPa.s kg/m^3 g/cm^3 K kelvin degC Celsius 1/K Hz kHz hertz rpm rad/s W/K mW/K W/m/K W/(m.K) "
     "W/m^2/K W/(m^2.K) J/kg/K kJ/kg/K J/(kg.K) kJ/(kg.K) kJ/kg J/g J/kg kJ/mol J/mol mV/K V/K uV/K % percent"
-).split()
+)
 
 
 @dataclass(frozen=True)
 class _Unit:
-    """A unit read by pint: its factor to base units, its dimensions, and what the SI unit of its kind is in base units."""
+    """A unit as pint reads it; `si` is the SI unit of its kind in base units, 2 pi for hertz and 1 for all others."""
 
     factor: float
     si: float
     dimensions: Mapping[str, float]
     celsius: bool
 
-    @property
-    def scale(self) -> float:
-        return self.factor / self.si
-
-    @property
-    def angle(self) -> float:
-        return float(self.dimensions.get("[angle]", 0))
-
-    @property
-    def without_angle(self) -> dict[str, float]:
-        return {name: power for name, power in self.dimensions.items() if name != "[angle]"}
+    def may_stand_for(self, wanted: _Unit) -> bool:
+        """Tell whether the dimensions agree, or would with the `/rad` that is often left out."""
+        angle = wanted.dimensions.get("[angle]", 0.0)
+        added = dict(self.dimensions) | ({"[angle]": angle} if angle < 0.0 and "[angle]" not in self.dimensions else {})
+        return added == wanted.dimensions
 
 
 @cache
-def _registry() -> pint.UnitRegistry:
+def _registry() -> pint.UnitRegistry[Any]:
     """Load the small registry, once; pint takes a fifth of a second to import."""
     import pint
 
@@ -128,11 +120,13 @@ def _read_unit(text: str) -> _Unit:
             raise UnitError(f"{name!r} is no unit")
     try:
         unit = registry.parse_units(plain)
-        factor, _ = registry.get_root_units(unit)
-        powers = {name: float(power) for name, power in unit._units.items()}
-        dimensions = {name: float(power) for name, power in unit.dimensionality.items()}
+        root: Any = registry.get_root_units(unit)[0]
+        counted: dict[str, Any] = dict(unit._units)
+        measured: dict[str, Any] = dict(unit.dimensionality)
+        factor = float(root)
+        powers = {name: float(power) for name, power in counted.items()}
+        dimensions = {name: float(power) for name, power in measured.items()}
         si = math.tau ** sum(power for name, power in powers.items() if name.endswith("hertz"))
-        factor = float(factor)
     except Exception as error:  # whatever pint's parser makes of hostile text, the text is no unit
         raise UnitError(f"{text!r} is no unit") from error
     celsius = any(name.endswith("degree_Celsius") for name in powers)
@@ -155,7 +149,7 @@ def _named(unit: str) -> str:
 def _fail(text: str, unit: str, reason: str, unit_text: str = "") -> NoReturn:
     """Raise UnitError naming the text, the reason, what was expected, and the nearest unit that would do."""
     by_letters: dict[str, str] = {}
-    for name in _COMMON:
+    for name in _COMMON.split():
         known, wanted = _read_unit(name), _read_unit(unit)
         if known.dimensions == wanted.dimensions and (known.celsius == wanted.celsius or unit == "degC"):
             by_letters.setdefault(name.lower().replace(".", ""), name)
@@ -188,12 +182,11 @@ def _split(text: str, unit: str) -> tuple[float, str]:
 def parse_quantity(text: str, unit: str) -> float:
     """Read a quantity such as "2.413 mm" where `unit`'s kind is wanted, and return it in SI.
 
-    `degC` wants a temperature and returns kelvin, `K` wants a difference. Where the unit is `1` a bare number will do. A
-    missing `/rad` is forgiven (N.m for N.m/rad), a missing or superfluous angle anywhere else is not. Raises UnitError.
+    `degC` wants a temperature and returns kelvin, `K` wants a difference. Where the unit is `1` a bare number will do.
+    A missing `/rad` is forgiven (N.m for N.m/rad), any other missing or superfluous angle is not. Raises UnitError.
     """
-    shown = str(text)[:LONGEST_TEXT]
     if not isinstance(text, str) or len(text) > LONGEST_TEXT:
-        _fail(shown, unit, f"a quantity is text of at most {LONGEST_TEXT} characters")
+        _fail(str(text)[:LONGEST_TEXT], unit, f"a quantity is text of at most {LONGEST_TEXT} characters")
     text = text.strip()
     number, unit_text = _split(text, unit)
     if not unit_text and unit != "1":
@@ -203,8 +196,7 @@ def parse_quantity(text: str, unit: str) -> float:
     except UnitError as error:
         _fail(text, unit, str(error), unit_text)
     wanted = _read_unit(unit)
-    forgiven = wanted.angle < 0.0 == given.angle and wanted.without_angle == given.without_angle
-    if given.dimensions != wanted.dimensions and not forgiven:
+    if not given.may_stand_for(wanted):
         _fail(text, unit, f"{unit_text or 'a bare number'} is not of that kind", unit_text)
     if given.celsius and not wanted.celsius:
         _fail(text, unit, _DIFFERENCE)
@@ -219,13 +211,13 @@ def parse_quantity(text: str, unit: str) -> float:
 def to_si(value: float, unit: str) -> float:
     """Convert a number in `unit` to SI; `degC` is a temperature and gives kelvin."""
     known = _read_unit(unit)
-    return value * known.scale + (ZERO_CELSIUS if known.celsius else 0.0)
+    return value * (known.factor / known.si) + (ZERO_CELSIUS if known.celsius else 0.0)
 
 
 def from_si(value: float, unit: str) -> float:
     """Convert a number in SI to `unit`; `degC` is a temperature and takes kelvin."""
     known = _read_unit(unit)
-    return (value - (ZERO_CELSIUS if known.celsius else 0.0)) / known.scale
+    return (value - (ZERO_CELSIUS if known.celsius else 0.0)) / (known.factor / known.si)
 
 
 @cache

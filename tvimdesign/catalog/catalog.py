@@ -1,4 +1,4 @@
-"""The catalogue: finds records by shelf and name, the user's folder before the shipped one, and reads them when asked."""
+"""Finds records by shelf and name, the user's folder before the shipped one, and reads them when asked."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from tvimdesign.catalog.yaml_file import read_tree
 from tvimdesign.errors import CatalogError
 
 _SHIPPED = Path(__file__).with_name("data")
+_MOST_PROBLEMS = 50
 
 
 class Catalog:
@@ -59,6 +60,8 @@ class Catalog:
         if (shelf, name) not in self._records:
             path = self.path(shelf, name)
             record, problems = build_record(shelf, name, _shown(path), read_tree(path))
+            if len(problems) > _MOST_PROBLEMS:
+                problems[_MOST_PROBLEMS:] = [f"{_shown(path)}: and {len(problems) - _MOST_PROBLEMS} more"]
             if problems:
                 raise CatalogError("\n".join(problems))
             self._records[shelf, name] = record
@@ -78,7 +81,7 @@ def check_records(catalog: Catalog) -> list[str]:
 
 
 def _shown(path: Path) -> str:
-    """Name a shipped file by its place in the catalogue, which is the same on every machine, and a user's by its path."""
+    """Name a user's file by its path, a shipped one by its place in the catalogue, the same on every machine."""
     return f"catalog/{path.relative_to(_SHIPPED).as_posix()}" if path.is_relative_to(_SHIPPED) else str(path)
 
 

@@ -26,7 +26,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Sheet:
-    """One table in SI, with the units its columns were written in, its source and status; `range` says how sure it is."""
+    """One table in SI, with the units its columns were written in, source and status; `range` says how sure it is."""
 
     columns: Mapping[str, str]
     rows: tuple[tuple[float, ...], ...]

@@ -17,6 +17,7 @@ from tvimdesign.errors import UnitError
 _ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")
 _TABLE_FIELDS = ("columns", "rows", "source", "status", "range")
 _SECTIONS = ("title", "values", "tables", "words")
+_LONGEST_UNIT = 40
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,60}")
 
 
@@ -49,6 +50,8 @@ class _Check:
             if key not in allowed:
                 close = get_close_matches(key, allowed, n=1)
                 hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(allowed)}"
+                if key[:40].isdigit():  # 6,1 between braces reads as 6 and a key 1
+                    hint = "is this a decimal comma? write a decimal point"
                 self.no(f"{field}.{key[:40]}".lstrip("."), f"unknown; {hint}")
 
     def section(self, tree: dict[str, Tree], name: str) -> list[tuple[str, Tree]]:
@@ -57,10 +60,13 @@ class _Check:
             if part != "":
                 self.no(name, "expected a mapping of names")
             return []
-        for key in part:
-            if not _NAME.fullmatch(key):
-                self.no(f"{name}.{key[:40]}", "a name is small letters, digits and underscores")
-        return list(part.items())
+        return [(key, item) for key, item in part.items() if self.named(f"{name}.{key[:40]}", key)]
+
+    def named(self, field: str, key: str) -> bool:
+        if _NAME.fullmatch(key):
+            return True
+        self.no(field, "a name is small letters, digits and underscores")
+        return False
 
     def text(self, field: str, tree: dict[str, Tree], expected: str) -> str:
         found = tree.get(field.rpartition(".")[2])
@@ -73,6 +79,9 @@ class _Check:
         """Read a number in `unit` where a quantity of the kind of `wanted` belongs."""
         if not isinstance(text, str) or not re.match(r"[+-]?[0-9]", text) or re.search(r"[^0-9eE.,+-]", text):
             self.no(field, "expected a number")
+            return None
+        if len(unit) > _LONGEST_UNIT:
+            self.no(field, f"{unit[:20]!r}... is no unit")
             return None
         try:
             return units.parse_quantity(text if unit == "1" else f"{text} {unit}", wanted)
@@ -142,6 +151,8 @@ class _Check:
             return {}
         columns: dict[str, str] = {}
         for key, unit in item.items():
+            if not self.named(f"{field}.{key[:40]}", key):
+                continue
             columns[key] = unit if isinstance(unit, str) else ""
             wanted = needed.units.get(key, columns[key])
             if self.number(f"{field}.{key}", "1", columns[key], wanted) is None:
@@ -188,7 +199,7 @@ class _Check:
         """Name what the shelf wants and the file does not have at all; what is there but wrong is named already."""
         wanted: dict[str, dict[str, Any]] = {
             "values": dict(self.shelf.values),
-            "tables": {name: "see the shipped records" for name in self.shelf.tables},
+            "tables": dict.fromkeys(self.shelf.tables, "see the shipped records"),
             "words": {name: " or ".join(allowed) for name, allowed in self.shelf.words.items()},
         }
         for section, names in wanted.items():

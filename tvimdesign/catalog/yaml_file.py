@@ -52,7 +52,8 @@ def read_tree(path: Path) -> dict[str, Tree]:
 def _guard(text: str) -> None:
     """Refuse aliases, tags, depth and size while the file is still a stream of events."""
     depth = 0
-    for count, event in enumerate(yaml.parse(text, Loader=_Loader)):
+    events: Any = yaml.parse(text, Loader=_Loader)
+    for count, event in enumerate(events):
         line = event.start_mark.line + 1
         if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):
             raise CatalogError(f"{line}: anchors and aliases (& and *) are not read; write the value out")

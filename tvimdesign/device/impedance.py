@@ -16,9 +16,6 @@ book.condition("frequency", "Hz", 1.0, 0.001, 1000.0, "Frequency at which the im
 book.condition("moving_inertia", "kg*mm^2", 415.6e-6, 1e-9, 100.0, "Moment of inertia of all that turns, load included")
 book.condition("enthalpy_smoothing", "kJ/kg", 1e3, 10.0, 1e4, "Rounding of the corners of the melting curve")
 
-POINT_TEMPERATURES = {"cold": 303.15, "hot": 373.15}
-"""The two operating points every study has: the layer frozen and molten, at the paper's temperatures."""
-
 
 @book.helper()
 def pcl_melting(

@@ -161,6 +161,20 @@ class Table:
             raise InputError(f"no row is named {base!r}")
         return self.by_name[base]
 
+    def output(self, name: str) -> Output:
+        """Return the output row of a full name; raises InputError where it is not an output."""
+        row = self.row(name)
+        if not isinstance(row, Output):
+            raise InputError(f"{name!r} is set by the study, not computed")
+        return row
+
+    def unit(self, name: str) -> str:
+        """Unit that people read and write a row's numbers in; raises InputError for a choice."""
+        row = self.row(name)
+        if isinstance(row, Choice):
+            raise InputError(f"{name!r} is a word, not a number")
+        return row.unit
+
     def evaluate(self, given: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
         """Compute the wanted outputs from the given rows, each row once.
 

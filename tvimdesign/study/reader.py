@@ -192,7 +192,8 @@ class _Reader:
             for fault in error.errors():
                 name = str(fault["loc"][0])
                 message = fault["msg"].replace("Input should be", f"{fault['input']:g} should be")
-                self.problems.add(known[name], step(key, name), message, fields[name].description or "")
+                hint = f"{name} means: {fields[name].description}"
+                self.problems.add(known[name], step(key, name), message, hint=hint)
             return model()
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from tvimdesign.device import Choice, Input
 from tvimdesign.study.model import Options, Range, Vary
-from tvimdesign.study.problems import quoted, step
+from tvimdesign.study.problems import one_of, quoted, step
 from tvimdesign.study.sizes import read_sizes
 from tvimdesign.study.values import (
     ROUNDING,
@@ -39,17 +39,21 @@ def read_vary(reading: Reading, node: Node | None) -> dict[str, Vary]:
             read = _input(reading, value, path, row) if isinstance(row, Input) else _choice(reading, value, path, row)
             found |= {} if read is None else {name: read}
         elif name in reading.table.by_name:
-            reading.problems.add(key, path, _fixed(reading, name), "a name that may vary", "remove it from `vary`")
+            message, hint = _fixed(reading, name)
+            reading.problems.add(key, path, message, one_of(list(rows)), hint)
         else:
             reading.problems.unknown(key, path, "variable", name, rows)
     return found
 
 
-def _fixed(reading: Reading, name: str) -> str:
+def _fixed(reading: Reading, name: str) -> tuple[str, str]:
+    """Say why a row cannot be varied, and what to do instead."""
     row = reading.table.by_name[name]
     if not isinstance(row, Input):
-        return "is a result, which cannot be varied; limit it under `require`"
-    return "belongs to the operating points and cannot be varied" if row.per_point else "is an input that must be fixed"
+        return "is a result and cannot be varied", "limit it under `require`"
+    if row.per_point:
+        return "belongs to the operating points and cannot be varied", "give it under `operating_points`"
+    return "cannot be varied", "give it under `module`"
 
 
 def _input(reading: Reading, node: Node, path: str, row: Input) -> Vary | None:

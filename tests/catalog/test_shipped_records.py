@@ -1,0 +1,166 @@
+"""The shipped records: complete, sourced, and true to the numbers they are made from."""
+
+import math
+
+import pytest
+
+from tvimdesign.catalog import SHELVES, Catalog, check_records
+from tvimdesign.errors import CatalogError
+
+CATALOG = Catalog()
+EVERY_RECORD = [(shelf, name) for shelf in SHELVES for name in CATALOG.names(shelf)]
+
+
+def strength(name: str, diameter: float) -> float:
+    """Tensile strength [MPa] of a wire of `diameter` [mm]."""
+    rows = CATALOG.record("spring_materials", name).table("strength")
+    return min(row["coefficient"] / diameter ** row["exponent"] for row in rows) / 1e6
+
+
+def test_nothing_lacks_unit_source_or_status() -> None:
+    assert check_records(CATALOG) == []
+
+
+def test_every_shelf_has_its_records() -> None:
+    assert {shelf: len(CATALOG.names(shelf)) for shelf in SHELVES} == {
+        "spring_materials": 9,
+        "structure_materials": 3,
+        "polymers": 2,
+        "peltiers": 4,
+        "wires": 2,
+    }
+
+
+@pytest.mark.parametrize(("shelf", "name"), EVERY_RECORD)
+def test_a_record_has_what_its_shelf_requires(shelf: str, name: str) -> None:
+    record = CATALOG.record(shelf, name)
+    assert set(SHELVES[shelf].values) <= set(record.entries)
+    assert set(SHELVES[shelf].tables) <= set(record.tables)
+    assert set(SHELVES[shelf].words) <= set(record.words)
+    for entry in record.entries.values():
+        assert entry.unit
+        assert entry.source
+        assert entry.status != "assumed" or entry.low is not None
+    assert record.file == f"catalog/{shelf}/{name}.yaml"
+
+
+@pytest.mark.parametrize(
+    ("name", "diameter", "expected"),
+    [
+        ("music_wire", 1.0, 2211),
+        ("music_wire", 2.413, 2211 / 2.413**0.145),
+        ("oil_tempered", 2.0, 1855 / 2**0.187),
+        ("stainless_302", 1.0, 1867),
+        ("stainless_302", 4.0, 2065 / 4**0.263),
+        ("stainless_302", 8.0, 2911 / 8**0.478),
+    ],
+)
+def test_tensile_strength(name: str, diameter: float, expected: float) -> None:
+    assert strength(name, diameter) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "offset", "slope"), [("patented_wire_sm", 1971, 740), ("patented_wire_sh", 2220, 820)]
+)
+def test_en_wire_stays_just_below_its_line(name: str, offset: float, slope: float) -> None:
+    for step in range(201):
+        diameter = 0.3 * (11 / 0.3) ** (step / 200)
+        line = offset - slope * math.log10(diameter)
+        assert 0.995 * line < strength(name, diameter) < 1.0001 * line
+
+
+def test_paper_wire_is_music_wire_with_the_papers_modulus() -> None:
+    paper, music = (CATALOG.record("spring_materials", name) for name in ("paper_wire", "music_wire"))
+    assert paper.value("youngs_modulus") == pytest.approx(210e9)
+    assert paper.table("strength") == music.table("strength")
+
+
+@pytest.mark.parametrize("name", CATALOG.names("wires"))
+def test_wire_sizes_rise(name: str) -> None:
+    sizes = [row["wire_diameter"] for row in CATALOG.record("wires", name).table("sizes")]
+    assert sizes == sorted(set(sizes))
+    assert len(sizes) > 40
+
+
+def test_the_papers_wire_is_a_gauge_size() -> None:
+    sizes = [row["wire_diameter"] for row in CATALOG.record("wires", "music_wire_gauge").table("sizes")]
+    assert any(size == pytest.approx(2.413e-3) for size in sizes)
+
+
+@pytest.mark.parametrize("name", CATALOG.names("polymers"))
+def test_melt_spectrum_adds_up(name: str) -> None:
+    polymer = CATALOG.record("polymers", name)
+    modes = polymer.table("melt_spectrum")
+    assert len(modes) == 6
+    assert sum(mode["modulus"] for mode in modes) == pytest.approx(polymer.value("plateau_modulus"), rel=1e-3)
+    viscosity = sum(mode["modulus"] * mode["relaxation_time"] for mode in modes)
+    assert viscosity == pytest.approx(polymer.value("zero_shear_viscosity"), rel=1e-3)
+
+
+@pytest.mark.parametrize("name", CATALOG.names("polymers"))
+def test_solid_softens_as_calibrated(name: str) -> None:
+    value = CATALOG.record("polymers", name).value
+
+    def softening(temperature: float) -> float:
+        width = value("softening_width")
+        return value("softening_slope") * width * math.log1p(math.exp((temperature - value("softening_onset")) / width))
+
+    def modulus(celsius: float) -> float:
+        reference = softening(value("reference_temperature"))
+        return value("flexural_modulus") * math.exp(reference - softening(celsius + 273.15)) / 1e6
+
+    assert modulus(23) == pytest.approx(411)
+    assert 300 < modulus(37) < 380
+    assert 120 < modulus(50) < 220
+
+
+@pytest.mark.parametrize("name", CATALOG.names("polymers"))
+def test_heat_to_100_degrees(name: str) -> None:
+    value = CATALOG.record("polymers", name).value
+    middle = (value("melting_start") + value("melting_end")) / 2
+    sensible = value("specific_heat_solid") * (middle - 295.15) + value("specific_heat_melt") * (373.15 - middle)
+    assert sensible + value("latent_heat") == pytest.approx(231e3, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("name", "seebeck", "resistance", "conductance"),
+    [
+        ("teci_12706", 52.6e-3, 2.05, 0.550),
+        ("qc_17", 6.37e-3, 0.515, 0.028),
+        ("pc_072", 29.9e-3, 0.446, 0.778),
+    ],
+)
+def test_peltier_follows_from_its_data_sheet(name: str, seebeck: float, resistance: float, conductance: float) -> None:
+    value = CATALOG.record("peltiers", name).value
+    hot, drop = value("hot_side_temperature"), value("max_temperature_difference")
+    current, voltage = value("max_current"), value("max_voltage")
+    derived = {
+        "seebeck": (voltage / hot, seebeck),
+        "resistance": (voltage * (hot - drop) / (current * hot), resistance),
+        "conductance": (voltage * current * (hot - drop) / (2 * hot * drop), conductance),
+    }
+    for field, (recomputed, published) in derived.items():
+        assert value(field) == pytest.approx(recomputed, rel=1e-3)
+        assert value(field) == pytest.approx(published, rel=0.01)
+
+
+def test_names_near_by_are_suggested() -> None:
+    with pytest.raises(CatalogError, match="did you mean music_wire"):
+        CATALOG.record("spring_materials", "musik_wire")
+    with pytest.raises(CatalogError, match="did you mean peltiers"):
+        CATALOG.names("peltier")
+    with pytest.raises(CatalogError, match="did you mean youngs_modulus"):
+        CATALOG.record("spring_materials", "music_wire").value("young_modulus")
+    for field in ("table", "word", "entry"):
+        with pytest.raises(CatalogError, match=r"catalog/wires/metric\.yaml"):
+            getattr(CATALOG.record("wires", "metric"), field)("nothing")
+
+
+@pytest.mark.parametrize("name", ["../../../etc/passwd", "", ".", "music_wire.yaml", "a\x00b", "x" * 9999])
+def test_no_name_leaves_the_shelf(name: str) -> None:
+    with pytest.raises(CatalogError, match="has no record"):
+        CATALOG.record("spring_materials", name)
+
+
+def test_a_record_is_read_once() -> None:
+    assert CATALOG.record("wires", "metric") is CATALOG.record("wires", "metric")

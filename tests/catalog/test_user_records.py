@@ -1,0 +1,181 @@
+"""A user's folder: it adds and replaces, and every broken file is an error in words."""
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from tvimdesign.catalog import Catalog, check_records
+from tvimdesign.errors import CatalogError
+
+GOOD = """
+title: A module I measured
+values:
+  seebeck: {value: 24.1, unit: mV/K, source: our bench, status: measured}
+  resistance: {value: 3.2, unit: ohm, source: our bench, status: measured}
+  conductance: {value: 110, unit: mW/K, source: our bench, status: measured}
+  thickness: {value: 0.06, unit: in, source: caliper, status: measured}
+  area: {value: 16, unit: cm^2, source: caliper, status: measured}
+  mass: {value: 6.1, unit: g, source: scale, status: measured}
+  specific_heat: {value: 500, unit: J/kg/K, low: 400, high: 700, source: "assumed: usual", status: assumed}
+  max_current: {value: 2500, unit: mA, source: maker, status: datasheet}
+  max_temperature: {value: 110, unit: degC, source: maker, status: datasheet}
+words: {form: flexible}
+"""
+
+
+def put(folder: Path, text: str | bytes, shelf: str = "peltiers", name: str = "mine") -> Catalog:
+    """Write one user record and return the catalogue that sees it."""
+    (folder / shelf).mkdir(exist_ok=True)
+    (folder / shelf / f"{name}.yaml").write_bytes(text.encode() if isinstance(text, str) else text)
+    return Catalog(folder)
+
+
+def test_a_user_record_adds_to_the_shelf(tmp_path: Path) -> None:
+    catalog = put(tmp_path, GOOD)
+    assert catalog.names("peltiers") == ["flexible_1600", "mine", "pc_072", "qc_17", "teci_12706"]
+    record = catalog.record("peltiers", "mine")
+    assert record.value("conductance") == pytest.approx(0.11)
+    assert record.value("thickness") == pytest.approx(1.524e-3)
+    assert record.entry("max_temperature").value == pytest.approx(383.15)
+    assert record.word("form") == "flexible"
+    assert record.file == str(tmp_path / "peltiers" / "mine.yaml")
+    assert check_records(catalog) == []
+
+
+def test_a_user_record_replaces_a_shipped_one(tmp_path: Path) -> None:
+    catalog = put(tmp_path, GOOD, name="flexible_1600")
+    assert catalog.record("peltiers", "flexible_1600").title == "A module I measured"
+    assert catalog.record("peltiers", "qc_17").title == "QC-17-1.0-2.5AS"
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "said"),
+    [
+        (", unit: mV/K", "", "values.seebeck.unit: missing"),
+        ("source: our bench, status: measured}\n  res", "status: measured}\n  res", "values.seebeck.source: missing"),
+        (", source: scale, status: measured", ", source: scale", "values.mass.status: missing"),
+        ("source: scale, status: measured", "source: scale, status: guessed", "values.mass.status: 'guessed'"),
+        ("  mass:", "  masss:", "values.mass: missing; expected g; is masss meant to be it?"),
+        ("value: 6.1, unit: g", "value: 6.1, unit: mm", "values.mass.value: '6.1 mm'"),
+        ("value: 6.1", "value: 6,1", "decimal comma"),
+        ("value: 6.1", "value: '6,1'", "decimal comma"),
+        ("value: 6.1", "value: -6.1", "values.mass.value: must be greater than zero"),
+        ("value: 6.1", "value: .nan", "values.mass.value: expected a number"),
+        ("value: 6.1", "value: 1e400", "values.mass.value"),
+        ("value: 6.1", "value: [6.1]", "values.mass.value: expected a number"),
+        ("low: 400, high: 700, ", "", "values.specific_heat: an assumed value needs its plausible range"),
+        ("low: 400", "low: 600", "values.specific_heat: expected low <= value <= high"),
+        ('"assumed: usual"', "usual", "values.specific_heat.source: an assumed value must say why"),
+        ("source: scale, status: measured", "source: me, status: calibrated", "must say to what"),
+        ("flexible", "floppy", "words.form: expected flexible or rigid"),
+        ("words: {form: flexible}", "", "words.form: missing; expected flexible or rigid"),
+        ("title: A module I measured", "titel: x", "titel: unknown; did you mean title?"),
+        ("source: scale", "source: scale, sauce: x", "values.mass.sauce: unknown; did you mean source?"),
+        ("max_current:", "Max Current:", "small letters"),
+        ("values:", "values: {}\nstuff:", "values.seebeck: missing"),
+        ("title: A", "title: A\ntitle: B", "'title' is said twice"),
+    ],
+)
+def test_a_broken_record_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:
+    assert good in GOOD
+    catalog = put(tmp_path, GOOD.replace(good, bad, 1))
+    with pytest.raises(CatalogError) as caught:
+        catalog.record("peltiers", "mine")
+    assert said in str(caught.value)
+    assert str(tmp_path / "peltiers" / "mine.yaml") in str(caught.value)
+    assert any("mine.yaml" in problem for problem in check_records(catalog))
+
+
+def test_all_problems_are_named_at_once(tmp_path: Path) -> None:
+    text = GOOD.replace(", unit: mV/K", "").replace("source: scale", "sauce: scale").replace("flexible", "floppy")
+    problems = check_records(put(tmp_path, text))
+    assert len(problems) == 4
+    assert all(str(tmp_path) in problem for problem in problems)
+
+
+WIRE = "title: w\ntables:\n  sizes: {{columns: {columns}, rows: {rows}, source: s, status: {status}}}\n"
+
+
+@pytest.mark.parametrize(
+    ("columns", "rows", "status", "said"),
+    [
+        ("{diameter: mm}", "[[1]]", "handbook", "columns.wire_diameter: missing"),
+        ("{wire_diameter: MPa}", "[[1]]", "handbook", "expected a length"),
+        ("{wire_diameter: mm}", "[[1, 2]]", "handbook", r"rows[1]: expected 1 numbers"),
+        ("{wire_diameter: mm}", "[[1], [x]]", "handbook", r"rows[2].wire_diameter: expected a number"),
+        ("{wire_diameter: mm}", "[[0]]", "handbook", "greater than zero"),
+        ("{wire_diameter: mm}", "[]", "handbook", "expected a list of rows"),
+        ("[mm]", "[[1]]", "handbook", "expected a mapping of column to unit"),
+        ("{wire_diameter: mm}", "[[1]]", "assumed", "tables.sizes.range: missing"),
+    ],
+)
+def test_a_broken_table_is_named(tmp_path: Path, columns: str, rows: str, status: str, said: str) -> None:
+    catalog = put(tmp_path, WIRE.format(columns=columns, rows=rows, status=status), shelf="wires")
+    with pytest.raises(CatalogError) as caught:
+        catalog.record("wires", "mine")
+    assert said in str(caught.value)
+
+
+def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
+    shipped = Path(__file__).parents[2] / "tvimdesign" / "catalog" / "data" / "spring_materials" / "music_wire.yaml"
+    text = shipped.read_text(encoding="utf-8").replace("wire_diameter_to: mm", "wire_diameter_to: in", 1)
+    with pytest.raises(CatalogError, match="wire_diameter_to: must be in mm"):
+        put(tmp_path, text, shelf="spring_materials").record("spring_materials", "mine")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"",
+        b"\x00\x01\xff\xfe binary",
+        b"\xff",
+        b"just words",
+        b"- a\n- b",
+        b"title: [",
+        b"title: !!python/object/apply:os.system ['true']",
+        b"title: !important x",
+        b"a: &a [1]\nb: *a",
+        b"a: &a x",
+        b"[" * 900_000,
+        b"a: " * 200_000,
+        b"- " * 400_000,
+        b"x: [" + b"1," * 200_000 + b"]",
+        b"".join(b"k%d: 1\n" % number for number in range(20_000)),
+        b"? [a, b]\n: c",
+        b"<<: {a: b}",
+        b"title: x\nvalues: 5\ntables: x\nwords: [a]",
+        b"title: x\nvalues: {a: {value: 1, unit: " + b"m" * 5000 + b"}}",
+        b"title: x\nvalues: {a: {value: 1, unit: foo, source: s, status: measured}}",
+        b"a: b\n---\nc: d",
+        b"#" * 2_000_000,
+        b"\xef\xbb\xbftitle: 1:30",
+    ],
+    ids=lambda text: repr(text[:20]),
+)
+def test_rubbish_is_a_short_error_within_a_second(tmp_path: Path, text: bytes) -> None:
+    catalog = put(tmp_path, text)
+    start = time.perf_counter()
+    with pytest.raises(CatalogError) as caught:
+        catalog.record("peltiers", "mine")
+    assert time.perf_counter() - start < 1.0
+    assert str(tmp_path) in str(caught.value)
+    assert len(str(caught.value)) < 20_000
+
+
+def test_a_pipe_or_folder_is_no_record(tmp_path: Path) -> None:
+    (tmp_path / "wires" / "folder.yaml").mkdir(parents=True)
+    os.mkfifo(tmp_path / "wires" / "pipe.yaml")
+    (tmp_path / "wires" / "gone.yaml").symlink_to(tmp_path / "nowhere")
+    for name in ("folder", "pipe", "gone"):
+        with pytest.raises(CatalogError, match="no file"):
+            Catalog(tmp_path).record("wires", name)
+
+
+def test_the_folder_must_be_one_of_shelves(tmp_path: Path) -> None:
+    with pytest.raises(CatalogError, match="not there"):
+        Catalog(tmp_path / "nowhere")
+    (tmp_path / "peltier").mkdir()
+    with pytest.raises(CatalogError, match="did you mean peltiers"):
+        Catalog(tmp_path)

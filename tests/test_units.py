@@ -1,0 +1,179 @@
+"""Units: what people write becomes SI, and everything else becomes a clear error."""
+
+import math
+import subprocess
+import sys
+import time
+from contextlib import suppress
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tvimdesign.errors import UnitError
+from tvimdesign.units import format_quantity, from_si, parse_quantity, pretty, to_si
+
+NAMES = (
+    "1 mm m in mm^2 mm^3 cm^3 L deg rad turn % s min Hz rad/s A V ohm W J g kg K degC MPa GPa Pa*s N*m N*m/rad "
+    "N*m*s/rad kg*mm^2 W/K W/m/K W/(m.K) J/kg/K kJ/kg kJ/mol mV/K 1/K kg/m^3 mN.m"
+)
+UNITS = NAMES.split()
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "expected"),
+    [
+        ("2.413 mm", "mm", 0.002413),
+        ("2.413mm", "mm", 0.002413),
+        ("0.095 in", "mm", 0.002413),
+        ("-1.5e-3 m", "mm", -0.0015),
+        ("5 N.m/rad", "N*m/rad", 5.0),
+        ("5 N*m/rad", "N*m/rad", 5.0),
+        ("5 Nm/rad", "N*m/rad", 5.0),
+        ("5 N·m/rad", "N*m/rad", 5.0),
+        ("5 N.m", "N*m/rad", 5.0),
+        ("1 N.m/deg", "N*m/rad", 180 / math.pi),
+        ("12.5 mN.m", "N*m", 0.0125),
+        ("415.6 kg.mm^2", "kg*m^2", 4.156e-4),
+        ("1579.2 mm²", "mm^2", 1.5792e-3),
+        ("0.2 W/m/K", "W/m/K", 0.2),
+        ("0.2 W/(m.K)", "W/m/K", 0.2),
+        ("100 degC", "degC", 373.15),
+        ("100 °C", "degC", 373.15),
+        ("373.15 K", "degC", 373.15),
+        ("5 K", "K", 5.0),
+        ("180 °", "deg", math.pi),
+        ("1 turn", "rad", math.tau),
+        ("0.104 rad", "deg", 0.104),
+        ("600 %", "1", 6.0),
+        ("0.78", "1", 0.78),
+        ("0.78 1", "1", 0.78),
+        ("10 Hz", "Hz", 10.0),
+        ("10 Hz", "rad/s", 10 * math.tau),
+        ("62.8 rad/s", "rad/s", 62.8),
+        ("76.7 J/g", "kJ/kg", 76700.0),
+        ("25 mV/K", "V/K", 0.025),
+        ("2 cm^3", "mm^3", 2e-6),
+        ("1 L", "m^3", 1e-3),
+        ("2 min", "s", 120.0),
+        ("530 Pa.s", "Pa*s", 530.0),
+        ("203.4 GPa", "MPa", 203.4e9),
+        ("3 Ω", "ohm", 3.0),
+    ],
+)
+def test_what_people_write(text: str, unit: str, expected: float) -> None:
+    assert parse_quantity(text, unit) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "said"),
+    [
+        ("1,5 mm", "mm", "decimal comma"),
+        ("2.413", "mm", "say the unit, expected a length such as 2.413 mm"),
+        ("5 mm", "deg", "expected an angle such as 5.96 deg"),
+        ("5 rad", "mm", "expected a length"),
+        ("5 rad", "1", "expected a plain number"),
+        ("5", "deg", "say the unit"),
+        ("5 1/s", "rad/s", "expected an angular frequency"),
+        ("5 N.m/rad", "N*m", "expected a torque"),
+        ("5 degC", "K", "write temperature differences in K"),
+        ("5 W/(m.degC)", "W/m/K", "write temperature differences in K"),
+        ("-300 degC", "degC", "absolute zero"),
+        ("1e400 mm", "mm", "out of range"),
+        ("1e-400 mm", "mm", "out of range"),
+        ("1e308 GPa", "MPa", "out of range"),
+        ("nan mm", "mm", "does not start with a number"),
+        ("inf", "1", "does not start with a number"),
+        ("", "mm", "does not start with a number"),
+        ("5 milimeter", "mm", "did you mean millimeter?"),
+        ("5 nm", "N*m", "did you mean Nm?"),
+        ("5 mm2", "mm^2", "did you mean mm^2?"),
+        ("5 Nms/rad", "N*m/rad", "no unit"),
+        ("5 As", "A", "no unit"),
+        ("5  mm", "mm", "one blank"),
+        ("5. mm", "mm", "no number"),
+        ("1_000 mm", "mm", "no number"),
+        ("٥ mm", "mm", "does not start with a number"),
+        ("1 000 mm", "mm", "no unit"),
+        ("9" * 300, "1", "at most 200 characters"),
+    ],
+)
+def test_what_is_refused(text: str, unit: str, said: str) -> None:
+    with pytest.raises(UnitError) as caught:
+        parse_quantity(text, unit)
+    assert said in str(caught.value)
+    assert len(str(caught.value)) < 400
+
+
+HOSTILE = [
+    "5 __import__('os').system('true')",
+    "5 m^9^9^9^9",
+    "5 (m^9)^9",
+    "5 " + "(" * 190 + "m",
+    "5 " + "k" * 190,
+    "5 " + "m*" * 90 + "m",
+    "5 " + "km^9*" * 35 + "km",
+    "9" * 190 + "!",
+    "5 1" * 60,
+    "5 m\x00m",
+    "5 \u202emm",
+    "1e" + "9" * 190 + " mm",
+    "5 mm\nmm",
+]
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_hostile_text_is_refused_at_once(text: str) -> None:
+    parse_quantity("1 mm", "mm")
+    start = time.perf_counter()
+    with pytest.raises(UnitError):
+        parse_quantity(text, "mm")
+    assert time.perf_counter() - start < 1.0
+
+
+@settings(deadline=None)
+@given(st.text(max_size=40))
+def test_any_text_is_a_number_or_a_unit_error(text: str) -> None:
+    try:
+        value = parse_quantity(text, "mm")
+    except UnitError:
+        return
+    assert math.isfinite(value)
+
+
+@settings(deadline=None)
+@given(st.text(alphabet="0123456789.eE+- mkgNPaKdHz%°/*^().", max_size=20))
+def test_nearly_right_text_is_a_number_or_a_unit_error(text: str) -> None:
+    with suppress(UnitError):
+        assert math.isfinite(parse_quantity("5 " + text, "N*m/rad"))
+
+
+@given(st.floats(-1e12, 1e12), st.sampled_from(UNITS))
+def test_si_and_back(value: float, unit: str) -> None:
+    assert from_si(to_si(value, unit), unit) == pytest.approx(value, rel=1e-12, abs=1e-9)
+
+
+@given(st.floats(1e-3, 1e6), st.sampled_from([unit for unit in UNITS if unit != "1"]))
+def test_what_is_written_out_reads_the_same(value: float, unit: str) -> None:
+    value_si = to_si(value, unit)
+    assert parse_quantity(format_quantity(value_si, unit, digits=12), unit) == pytest.approx(value_si, rel=1e-9)
+
+
+def test_units_for_people() -> None:
+    units = ("N*m/rad", "mm^2", "degC", "1", "deg", "ohm", "W/(m*K)", "um", "%", "m^-1")
+    assert [pretty(unit) for unit in units] == ["N·m/rad", "mm²", "°C", "", "°", "Ω", "W/(m·K)", "µm", "%", "m⁻¹"]
+
+
+def test_numbers_for_people() -> None:
+    assert format_quantity(0.002413, "mm") == "2.413 mm"
+    assert format_quantity(373.15, "degC") == "100 °C"
+    assert format_quantity(math.pi, "deg") == "180°"
+    assert format_quantity(12345.678, "1") == "12346"
+    assert format_quantity(1.2e-9, "m") == "1.2e-9 m"
+    assert format_quantity(0.0, "N*m") == "0 N·m"
+    assert format_quantity(math.nan, "mm") == "nan mm"
+
+
+def test_pint_loads_only_when_asked() -> None:
+    code = "import sys, tvimdesign.units, tvimdesign.catalog; sys.exit('pint' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

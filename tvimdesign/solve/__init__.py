@@ -1,0 +1,1 @@
+"""Asks the device questions: evaluate, simulate one switch, optimise."""

@@ -1,0 +1,68 @@
+"""The limits a design must keep: the study's requirements and the machine's own rules, in one list."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from tvimdesign.device import Rule, Table
+from tvimdesign.study import Study
+from tvimdesign.units import from_si, pretty, to_si
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One named limit on one output, SI."""
+
+    output: str
+    sense: Literal["<=", ">="]
+    limit: float
+    scale: float
+    """What a residual of one means: the limit itself, or the row's unit where the limit is zero."""
+    origin: str
+    """`require` for the study's own, otherwise the reason the machine has it."""
+
+    @property
+    def name(self) -> str:
+        """Output and sense, unique in a study."""
+        return f"{self.output} {self.sense}"
+
+    def residual(self, value: Any) -> Any:
+        """How far a value is beyond the limit, as a share of the scale; kept where <= 0. Floats and symbols."""
+        beyond = value - self.limit if self.sense == "<=" else self.limit - value
+        return beyond / self.scale
+
+
+def limits_of(study: Study, table: Table) -> list[Limit]:
+    """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense."""
+    own = [
+        Limit(r.output, r.sense, r.limit, _scale(table, r.output, r.limit), "require") for r in study.require
+    ]
+    taken = {(limit.output, limit.sense) for limit in own}
+    for row in table.outputs:
+        for rule in row.rules:
+            if (row.name, rule.sense) not in taken:
+                own.append(_of_rule(table, row.name, rule))
+    return own
+
+
+def advice_of(table: Table) -> list[Limit]:
+    """Return the limits that are reported where they are broken."""
+    return [_of_rule(table, row.name, rule) for row in table.outputs for rule in row.advice]
+
+
+def _of_rule(table: Table, name: str, rule: Rule) -> Limit:
+    return Limit(name, rule.sense, rule.value, _scale(table, name, rule.value), rule.reason)
+
+
+def _scale(table: Table, name: str, limit: float) -> float:
+    if limit != 0.0:
+        return abs(limit)
+    unit = table.unit(name)
+    return abs(to_si(1.0, unit) - to_si(0.0, unit))
+
+
+def in_words(limit: Limit, table: Table) -> str:
+    """Write the limit as a reader would: `joint_stiffness@hot >= 5 N·m/rad`."""
+    unit = table.unit(limit.output)
+    return f"{limit.output} {limit.sense} {from_si(limit.limit, unit):.6g} {pretty(unit)}".rstrip()
