@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from tvimdesign.device import Choice, Event, Input, Output, Path as PathRow, Table
+from tvimdesign.device import Choice, Event, Input, Output, Table
+from tvimdesign.device import Path as PathRow
 from tvimdesign.errors import CatalogError, InputError
 from tvimdesign.study import Study, StudyError, read_study_text
 
@@ -16,6 +17,10 @@ from tvimdesign.study import Study, StudyError, read_study_text
 def _input(name: str, unit: str, lower: float, upper: float, **more: Any) -> Input:
     more = {"variable": True, "description": name.replace("_", " ").capitalize()} | more
     return Input(name=name, unit=unit, group="module", lower=lower, upper=upper, **more)
+
+
+def _choice(name: str, default: str, **more: Any) -> Choice:
+    return Choice(name=name, description=name.replace("_", " ").capitalize(), group="module", default=default, **more)
 
 
 def _output(name: str, unit: str, function: Callable[..., Any], kind: type[Output] = Output, **more: Any) -> Output:
@@ -26,7 +31,9 @@ def _output(name: str, unit: str, function: Callable[..., Any], kind: type[Outpu
 def table() -> Table:
     return Table(
         (
-            Choice(name="spring_material", description="Steel", group="m", default="music_wire", shelf="spring_materials"),
+            Choice(
+                name="spring_material", description="Steel", group="m", default="music_wire", shelf="spring_materials"
+            ),
             Choice(name="peltier", description="Heater", group="m", default="flexible_1600", shelf="peltiers"),
             Choice(name="rate_model", description="Formula", group="m", default="bending", options=("bending", "smi")),
             _input("wire_diameter", "mm", 0.5e-3, 5e-3, default=2.413e-3),
@@ -38,10 +45,18 @@ def table() -> Table:
             _input("youngs_modulus", "GPa", 1e9, 400e9, variable=False, record=("spring_material", "youngs_modulus")),
             _input("temperature", "degC", 223.15, 473.15, variable=False, per_point=True),
             _input("frequency", "Hz", 0.0, 1000.0, variable=False, per_point=True, default=1.0),
-            _output("joint_stiffness", "N*m/rad", lambda wire_diameter, temperature: wire_diameter, per_point=True),
+            _output(
+                "joint_stiffness",
+                "N*m/rad",
+                lambda wire_diameter, temperature: wire_diameter + temperature,
+                per_point=True,
+            ),
             _output("module_mass", "g", lambda wire_diameter: wire_diameter),
-            _output("envelope_diameter", "mm", lambda placement_radius, coil_diameter: 2 * placement_radius),
+            _output(
+                "envelope_diameter", "mm", lambda placement_radius, coil_diameter: 2 * placement_radius + coil_diameter
+            ),
             _output("impedance_range", "1", lambda joint_stiffness_at_cold: joint_stiffness_at_cold),
+            _output("moduli", "1", lambda wire_diameter: [wire_diameter], hidden=True),
             _output("face_temperature", "degC", lambda state: state[0], instant=True),
             _output("response_time", "s", lambda state: state[0], Event),
             _output("switch_energy", "J", lambda state: state[0], PathRow, reduce="integral"),

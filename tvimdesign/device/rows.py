@@ -194,10 +194,20 @@ class Table:
         known[name] = row.call([self._resolve(self._at(need, point), known) for need in row.needs])
         return known[name]
 
-    def criterion(self, row: Event | Path, given: Mapping[str, Any]) -> Scalar:
-        """Value at one instant of what an event waits for or a path reduces; `given` must hold the state."""
+    def evaluate_instant(self, given: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
+        """Compute rows at one instant of the switch, each once; `given` must hold the state.
+
+        Of an event the value is what it waits for, of a path what it reduces.
+        """
         known = dict(given)
-        return row.call([self._resolve(need, known) for need in row.needs])
+        values: dict[str, Scalar] = {}
+        for name in wanted:
+            row = self.row(name)
+            if isinstance(row, Event | Path):
+                values[name] = row.call([self._resolve(need, known) for need in row.needs])
+            else:
+                values[name] = self._resolve(name, known)
+        return values
 
     def _at(self, need: str, point: str) -> str:
         if need == STATE or "@" in need:

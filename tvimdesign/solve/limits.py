@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from tvimdesign.device import Rule, Table
+from tvimdesign.device import Event, Path, Rule, Table
 from tvimdesign.study import Study
 from tvimdesign.units import from_si, pretty, to_si
 
@@ -44,6 +45,17 @@ def limits_of(study: Study, table: Table) -> list[Limit]:
             if (row.name, rule.sense) not in taken:
                 own.append(_of_rule(table, row.name, rule))
     return own
+
+
+def on_switch(table: Table, output: str) -> bool:
+    """Whether an output depends on how a switch runs."""
+    above = (output.partition("@")[0], *table.ancestors(output))
+    return any(isinstance(table.row(base), Event | Path) for base in above)
+
+
+def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
+    """Whether nothing free can change the output a limit stands on."""
+    return not on_switch(table, limit.output) and not set(free) & table.ancestors(limit.output)
 
 
 def advice_of(table: Table) -> list[Limit]:

@@ -30,7 +30,7 @@ class Model:
         self.names = [name for name, value in given.items() if isinstance(value, int | float)]
         self.start = np.array([float(given[name]) for name in self.names])
         self.index = {name: i for i, name in enumerate(self.names)}
-        self._words = {name: value for name, value in given.items() if name not in self.index}
+        self.words = {name: value for name, value in given.items() if name not in self.index}
         self.events = tuple(row for row in table.outputs if isinstance(row, Event))
         self.paths = tuple(row for row in table.outputs if isinstance(row, Path))
         self.switch_names = tuple(row.name for row in (*self.events, *self.paths))
@@ -39,7 +39,7 @@ class Model:
     def _symbols(self) -> tuple[Any, Any, dict[str, Any]]:
         inputs = ca.SX.sym("inputs", len(self.names))
         switch = ca.SX.sym("switch", len(self.switch_names))
-        known = dict(self._words)
+        known = dict(self.words)
         known.update({name: inputs[i] for i, name in enumerate(self.names)})
         # The count of cells is a shape, not a number of the model: it stays what it is.
         known["rotor_cells"] = int(self.start[self.index["rotor_cells"]])
@@ -67,10 +67,8 @@ class Model:
         inputs, _, known = self._symbols
         state = ca.SX.sym("state", heat.FIRST_CELL + self.cells + known["rotor_cells"])
         at_instant = {**known, STATE: [state[i] for i in range(state.numel())]}
-        rows = {row.name: self.table.criterion(row, at_instant) for row in (*self.events, *self.paths)}
-        wanted = ("stack_profile", "state_rates", "layer_modulus")
-        values = self.table.evaluate(at_instant, wanted)
-        return {"state": state, "inputs": inputs, "rows": rows, **values}
+        wanted = ("stack_profile", "state_rates", "layer_modulus", *self.switch_names)
+        return {"state": state, "inputs": inputs, **self.table.evaluate_instant(at_instant, wanted)}
 
     @cached_property
     def rates(self) -> Any:
@@ -78,13 +76,30 @@ class Model:
         now = self._instant
         return ca.Function("rates", [now["state"], now["inputs"]], [ca.vertcat(*now["state_rates"])])
 
+    def watch(self, wanted: Sequence[str]) -> Any:
+        """Return the function (state, inputs) -> what the wanted events wait for and paths reduce, one vector."""
+        now = self._instant
+        return ca.Function("watch", [now["state"], now["inputs"]], [ca.vertcat(*(now[name] for name in wanted))])
+
+    def per_switch(self, function: Any) -> tuple[Any, Any]:
+        """Split a function (state, inputs) in what is the same all through a switch, and what is not.
+
+        Returns inputs -> constants, and (state, constants) -> the function's value. A collocation evaluates the first
+        once and the second at every point.
+        """
+        now = self._instant
+        value, symbols, constants = ca.extract_parametric(function(now["state"], now["inputs"]), now["inputs"])
+        # Inputs that meet the state as they are stay in the expression; they are constants too.
+        bare = [symbol for symbol in ca.symvar(value) if ca.which_depends(symbol, now["inputs"], 1, True)[0]]
+        return (
+            ca.Function("constants", [now["inputs"]], [ca.vertcat(*constants, *bare)]),
+            ca.Function("varying", [now["state"], ca.vertcat(*symbols, *bare)], [value]),
+        )
+
     @cached_property
     def instant(self) -> Any:
-        """The function (state, inputs) -> what each event waits for and each path reduces, as `switch_names`."""
-        now = self._instant
-        return ca.Function(
-            "instant", [now["state"], now["inputs"]], [ca.vertcat(*(now["rows"][name] for name in self.switch_names))]
-        )
+        """The function `watch` of all events and paths, in the order of `switch_names`."""
+        return self.watch(self.switch_names)
 
     @cached_property
     def temperatures(self) -> Any:
@@ -93,6 +108,12 @@ class Model:
         seen = now["stack_profile"]
         values = [seen.cold, seen.hot, seen.near, *seen.cells, seen.far, *seen.plate]
         return ca.Function("temperatures", [now["state"], now["inputs"]], [ca.vertcat(*values)])
+
+    @cached_property
+    def layer_modulus(self) -> Any:
+        """The function (state, inputs) -> magnitude of the layer's modulus [Pa]."""
+        now = self._instant
+        return ca.Function("layer_modulus", [now["state"], now["inputs"]], [now["layer_modulus"]])
 
     @cached_property
     def initial(self) -> Any:

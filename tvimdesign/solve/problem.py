@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.device import Event, Path
+from tvimdesign.device import Path
 from tvimdesign.errors import InputError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.limits import Limit
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.transcription import Block, switch_block
+from tvimdesign.solve.transcription import Block, at_each, switch_block
 
 Array = NDArray[np.float64]
 
@@ -65,7 +65,7 @@ class Problem:
         inputs = ca.MX.sym("inputs", len(self.model.names))
         weights = ca.MX.sym("weights", len(self.minimize))
         self._unknowns, self._inputs, self._weights = unknowns, inputs, weights
-        device_inputs = self._with_unknowns(inputs, unknowns)
+        device_inputs = self._device_inputs = self._with_unknowns(inputs, unknowns)
         wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self.blocks = self._write_blocks(wanted, device_inputs)
         switch, self.peaks, peak_rows = self._switch_values()
@@ -116,7 +116,7 @@ class Problem:
             if row.name not in needed:
                 continue
             block = by_event["response_time"]
-            samples = block.watched[self.model.switch_names.index(row.name), :]
+            samples = at_each(self.model, self.model.watch([row.name]), block.every, self._device_inputs)
             if row.reduce == "integral":
                 values[row.name] = block.final_time * ca.mtimes(samples[1:], block.weights)
             else:
@@ -142,17 +142,3 @@ class Problem:
             row = self.model.table.row(limit.output)
             if isinstance(row, Path) and row.reduce == "maximum" and limit.sense == ">=":
                 raise InputError(f"require.{limit.output}: a peak can be kept below a limit, not above one")
-
-    def constant_limits(self) -> list[Limit]:
-        """Return limits on outputs that nothing free can change."""
-        moving = {free.name.partition("@")[0] for free in self.free}
-        table = self.model.table
-
-        def depends(name: str) -> bool:
-            row = table.row(name)
-            above = table.ancestors(name)
-            switched = isinstance(row, Event | Path) or any(isinstance(table.row(a), Event | Path) for a in above)
-            return switched or bool(moving & above)
-
-        return [limit for limit in self.limits if not depends(limit.output)]
-

@@ -41,8 +41,8 @@ class Block:
     """MX, the logarithm of the final time in seconds."""
     equations: Any
     """MX, zero on a solution: the heat equation at every point, and the event at the last."""
-    watched: Any
-    """MX, `Model.instant` at the start and at every point, one column each."""
+    every: Any
+    """MX, the states at the start and at every point, one column each."""
     weights: Array
     """Quadrature weights of the points, in units of the final time; the start has none."""
 
@@ -59,7 +59,7 @@ def switch_block(model: Model, event: str, elements: int, inputs: Any) -> Block:
     states = ca.MX.sym(f"states_{event}", model.rates.size1_in(0), count)
     log_time = ca.MX.sym(f"log_time_{event}")
     start = model.initial(inputs)
-    rates = model.rates.map(count)(states, ca.repmat(inputs, 1, count))
+    rates = at_each(model, model.rates, states, inputs)
     step = ca.exp(log_time) / elements
     equations = []
     for element in range(elements):
@@ -67,17 +67,22 @@ def switch_block(model: Model, event: str, elements: int, inputs: Any) -> Block:
         before = start if element == 0 else states[:, element * ORDER - 1]
         slopes = ca.mtimes(ca.horzcat(before, states[:, columns]), derivative)
         equations.append(ca.vec(slopes - step * rates[:, columns]))
-    every = ca.horzcat(start, states)
-    watched = model.instant.map(count + 1)(every, ca.repmat(inputs, 1, count + 1))
-    gap = watched[model.switch_names.index(event), count]
+    gap = model.watch([event])(states[:, -1], inputs)
     return Block(
         event=event,
         states=states,
         log_time=log_time,
         equations=ca.vertcat(*equations, gap),
-        watched=watched,
+        every=ca.horzcat(start, states),
         weights=np.tile(weights, elements) / elements,
     )
+
+
+def at_each(model: Model, function: Any, states: Any, inputs: Any) -> Any:
+    """A function (state, inputs) of the model applied to every column of `states`."""
+    constants, varying = model.per_switch(function)
+    count = states.size2()
+    return varying.map(count)(states, ca.repmat(constants(inputs), 1, count))
 
 
 def guess(trajectory: Trajectory, elements: int) -> Array:

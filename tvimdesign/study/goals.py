@@ -54,8 +54,8 @@ def _output(reading: Reading, key: Text, path: str, name: str, points: Collectio
     base, at, point = name.partition("@")
     row = reading.table.by_name.get(base)
     add = reading.problems.add
-    if row is None:
-        names = [output.name for output in reading.table.outputs if not output.instant]
+    if row is None or (isinstance(row, Output) and row.hidden):
+        names = [name.partition("@")[0] for name in reading.table.names(list(points)[:1])]
         reading.problems.unknown(key, path, "output", base, names)
     elif not isinstance(row, Output):
         add(key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`")

@@ -100,7 +100,10 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     """Return `did you mean 'x'?` for the known name nearest to the word, or nothing where none is near."""
     if len(word) > _LONGEST_WORD:
         return ""
-    near = get_close_matches(word.lower().replace(" ", "_").replace("-", "_"), list(known), n=1, cutoff=0.6)
+    names, spelt = list(known), word.lower().replace(" ", "_").replace("-", "_")
+    near = get_close_matches(spelt, names, n=1, cutoff=0.6)
+    if not near and len(spelt) > 2:
+        near = [name for name in names if spelt in name][:1]
     return f"did you mean {near[0]!r}?" if near else ""
 
 

@@ -162,7 +162,7 @@ class _Reader:
         if word is None:
             return None
         folder = self.folder / word
-        if not folder.is_dir():
+        if not _is_folder(folder):
             found = f"there is no folder {quoted(word)} beside the study"
             self.problems.add(node, "catalog", found, "a folder of records")
             return None
@@ -195,6 +195,13 @@ class _Reader:
                 hint = f"{name} means: {fields[name].description}"
                 self.problems.add(known[name], step(key, name), message, hint=hint)
             return model()
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):  # no permission, a name too long
+        return False
 
 
 def _says_something(node: Node | None) -> bool:

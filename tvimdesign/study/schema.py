@@ -116,7 +116,7 @@ def _vary(row: Input | Choice) -> _Schema:
 
 
 def _by_output(table: Table, schema: Any) -> _Schema:
-    named = [row for row in table.outputs if not row.instant]
+    named = [row for row in table.outputs if not (row.instant or row.hidden)]
     return {f"^{row.name}{'@' + _POINT if row.per_point else ''}$": schema(row) for row in named}
 
 
@@ -140,8 +140,11 @@ def _points(table: Table) -> _Schema:
 
 def _options(options: type[BaseModel]) -> _Schema:
     schema = options.model_json_schema()
-    for field in schema["properties"].values():
+    for name, field in schema["properties"].items():
         field.pop("title", None)
+        if field["type"] == "number":  # YAML 1.1 takes 1e-8, without a point, for text
+            value = {key: field.pop(key) for key in ("type", "minimum", "maximum")}
+            schema["properties"][name] = field | {"anyOf": [value, {"type": "string", "pattern": f"^{_NUMBER}$"}]}
     return {
         "description": schema["description"],
         "type": ["object", "null"],

@@ -1,0 +1,205 @@
+"""Every broken or hostile file gets a clear error within a second: never a traceback, a hang or an executed line."""
+
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tvimdesign.errors import InputError
+from tvimdesign.study import Study, StudyError, read_study, yaml_text
+
+LIMIT = 1.0
+"""Seconds; the slowest of these takes a tenth."""
+
+TEXTS = {
+    "empty": ("", "the study is empty"),
+    "comments only": ("# mode: shear\n", "the study is empty"),
+    "null": ("~", "the study is empty"),
+    "a word": ("hello", "the value 'hello' does not fit here; expected a study"),
+    "a list": ("- mode: shear", "a list does not fit here"),
+    "python object": (
+        "mode: shear\nname: !!python/object/apply:os.system ['touch pwned']\n",
+        "'!!python/object/apply:",
+    ),
+    "python name": ("mode: !!python/name:os.system", "x.yaml:1:7: mode: the tag '!!python/name:os.system'"),
+    "own tag": ("mode: !shear 1", "the tag '!shear' is not allowed"),
+    "binary tag": ("mode: !!binary aGVsbG8=", "the tag '!!binary'"),
+    "set": ("mode: shear\nmodule: !!set {a, b}", "the tag '!!set'"),
+    "tag of the wrong kind": ("mode: shear\nmodule: !!str {a: b}", "the tag '!!str'"),
+    "tag by handle": ("%TAG !e! tag:yaml.org,2002:python/\n---\nmode: !e!name:os.system", "'!!python/name:os.system'"),
+    "alias": (
+        "mode: shear\nname: &a x\ndescription: *a\n",
+        "x.yaml:3:14: description: the alias '*a'; expected the value",
+    ),
+    "alias bomb": ("a: &a [x,x]\n" + "".join(f"b{i}: &b{i} [*a,*a,*a]\n" for i in range(2500)), "the alias '*a'"),
+    "alias of nothing": ("mode: *nowhere", "the alias '*nowhere'"),
+    "merge key": ("mode: shear\n<<: {name: x}\n", "x.yaml:2:1: a merge key `<<`"),
+    "duplicate key": ("mode: shear\nmode: shear\n", "x.yaml:2:1: mode: given twice, first in line 1"),
+    "duplicate key inside": ("mode: shear\nmodule: {coil_count: 3, coil_count: 4}", "module.coil_count: given twice"),
+    "list as key": ("mode: shear\n? [a]\n: 1\n", "a list or a mapping as a key"),
+    "two documents": ("mode: shear\n---\nmode: shear\n", "x.yaml:2:1: a second YAML document starts here"),
+    "deep lists": ("mode: " + "[" * 100_000, "nested deeper than 20 levels"),
+    "deep maps": ("{a: " * 100_000, "nested deeper than 20 levels"),
+    "deep blocks": ("\n".join(" " * i + "a:" for i in range(1000)), "nested deeper than 20 levels"),
+    "deep dashes": ("- " * 400_000, "nested deeper than 20 levels"),
+    "many values": ("mode: shear\nvary:\n" + "- a\n" * 240_000, "more than 10000 values"),
+    "many keys": ("mode: shear\nmodule:\n" + "".join(f"  wire_diamete{i}: 1\n" for i in range(4000)), "and 3950 more"),
+    "many bad units": (
+        "mode: shear\nvary:\n  wire_diameter: {choose: [" + ", ".join(f"1 x{i}" for i in range(200)) + "]}\n",
+        "and 151 more",
+    ),
+    "long list": ("mode: shear\nvary: {coil_count: {choose: [" + "1," * 201 + "]}}", "the list has 201 values"),
+    "long text": ("mode: shear\nname: " + "x" * 900_000, "900000 characters, the limit is 200"),
+    "long value": (
+        "mode: shear\nmodule: {coil_count: " + "9" * 900_000 + "}",
+        "has 900000 characters, the limit is 200",
+    ),
+    "long key": (f"mode: shear\n'{'x' * 1000}': 1", "no such section"),
+    "quotes": ('"' * 900_000, "not valid YAML"),
+    "colons": (":" * 900_000, "not valid YAML"),
+    "open bracket": ("mode: [shear", "not valid YAML"),
+    "unquoted limit": ("mode: shear\nrequire:\n  module_mass: >= 5 g\n", 'put a limit in quotes: ">= 5 N.m/rad"'),
+    "colon in a text": ("mode: shear\nname: a: b", "put a text with ': ' in it in quotes"),
+    "NUL": ("mode: shear\0", "x.yaml:1:12: control character U+0000"),
+    "escape character": ("mode: shear\nname: \x1b[31mred", "x.yaml:2:7: control character U+001B"),
+    "escaped NUL": ('mode: shear\nname: "\\0"', "x.yaml:2:7: name: control character U+0000"),
+    "lone surrogate": ("mode: \ud800", "control character U+D800"),
+    "tab": ("mode: shear\nmodule:\n\tcoil_count: 3\n", "x.yaml:3:1: a tab at the start of a line; expected spaces"),
+    "control character in a key": ('mode: shear\nmodule: {"\\e[2J": 1}', "control character U+001B"),
+    "too long": ("#" * 1_000_001, "a study at most 1 MB"),
+}
+
+NUMBERS = {
+    "1e400": "1e400 is out of range",
+    "-1e400": "1e400 is out of range",
+    ".nan": "does not start with a number",
+    ".inf": "does not start with a number",
+    "nan": "does not start with a number",
+    "inf": "does not start with a number",
+    "'1,5'": "decimal comma",
+    "1_000": "is no number",
+    "'1:30'": "is no unit",
+    "010": "starts with a zero",
+    "0x10": "is no unit",
+    "on": "does not start with a number",
+    "yes": "does not start with a number",
+    "~": "no value does not fit here",
+    "": "no value does not fit here",
+    "''": "does not start with a number",
+    "2020-01-01": "is no unit",
+    "3 mm": "is not of that kind",
+    "3; import os": "is no unit",
+    "[3]": "a list does not fit here",
+    "{a: 3}": "a mapping (name: value) does not fit here",
+    "400": "'400' is above the upper limit 20; expected 1 to 20",
+    "0.5": "'0.5' is below the lower limit 1; expected 1 to 20",
+}
+
+
+@pytest.mark.parametrize("case", TEXTS)
+def test_hostile_text_is_refused_in_time(problems: Callable[..., list[str]], case: str) -> None:
+    text, said = TEXTS[case]
+    start = time.perf_counter()
+    lines = problems(text)
+    assert time.perf_counter() - start < LIMIT
+    assert said in "\n".join(lines)
+    assert len(lines) <= 51
+    assert all(line.isprintable() and len(line) < 1000 for line in lines)
+    assert not Path("pwned").exists()
+
+
+@pytest.mark.parametrize(
+    "case", ["deep lists", "python object", "alias bomb", "unquoted limit", "duplicate key", "tab"]
+)
+def test_the_parser_in_python_says_the_same(
+    problems: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch, case: str
+) -> None:
+    monkeypatch.setattr(yaml_text, "_LOADER", yaml.SafeLoader)
+    text, said = TEXTS[case]
+    assert said in "\n".join(problems(text))
+
+
+@pytest.mark.parametrize("written", NUMBERS)
+def test_numbers_that_are_none(problems: Callable[..., list[str]], written: str) -> None:
+    lines = problems(f"mode: shear\nmodule:\n  coil_count: {written}\n")
+    assert len(lines) == 1
+    assert lines[0].startswith("x.yaml:3:")
+    assert "module.coil_count: " in lines[0]
+    assert NUMBERS[written] in lines[0]
+
+
+FILES: dict[str, tuple[bytes, str]] = {
+    "binary": (b"\x7fELF\x02\x01\x01\x00\xff\xfe\x80", "the file is not UTF-8 text (byte 0xff is no text)"),
+    "picture": (b"\x89PNG\r\n\x1a\n\x00", "x.yaml:1:1: the file is not UTF-8 text"),
+    "latin 1": ("mode: shear\nname: Gelände".encode("latin-1"), "x.yaml:2:10: the file is not UTF-8 text"),
+    "UTF-16": ("mode: shear".encode("utf-16"), "(UTF-16 text); expected a study in YAML; save it as UTF-8"),
+    "zeros": (bytes(1000), "control character U+0000"),
+    "one byte too many": (b"#" * 1_000_001, "the file has 1 MB, a study at most 1 MB"),
+    "empty": (b"", "the study is empty; `tvimdesign new` writes a commented one"),
+}
+
+
+@pytest.mark.parametrize("case", FILES)
+def test_hostile_files(tmp_path: Path, case: str) -> None:
+    raw, said = FILES[case]
+    (tmp_path / "x.yaml").write_bytes(raw)
+    with pytest.raises(StudyError) as caught:
+        read_study(tmp_path / "x.yaml")
+    assert said in str(caught.value)
+
+
+def test_a_large_file_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "large.yaml"
+    with path.open("wb") as file:
+        file.truncate(50_000_000)
+    start = time.perf_counter()
+    with pytest.raises(StudyError, match=r"large\.yaml: the file has 50 MB, a study at most 1 MB"):
+        read_study(path)
+    assert time.perf_counter() - start < 0.1
+
+
+def test_no_such_file(tmp_path: Path) -> None:
+    (tmp_path / "paper_shear.yaml").touch()
+    with pytest.raises(InputError, match=r"no such file; did you mean 'paper_shear\.yaml'\?"):
+        read_study(tmp_path / "paper_sheer.yaml")
+    with pytest.raises(InputError, match="no such file; `tvimdesign new`"):
+        read_study(tmp_path / "nowhere" / "x.yaml")
+
+
+def test_what_is_no_ordinary_file(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="is a folder; give the path of a study file"):
+        read_study(tmp_path)
+    with pytest.raises(InputError, match="cannot be read"):
+        read_study(Path("a\0b"))
+    with pytest.raises(InputError, match="cannot be read"):
+        read_study(tmp_path / ("x" * 5000))
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_pipe_does_not_hang(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(InputError, match="is no ordinary file"):
+        read_study(tmp_path / "pipe")
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may read everything")
+def test_an_unreadable_file(tmp_path: Path) -> None:
+    path = tmp_path / "x.yaml"
+    path.write_text("mode: shear")
+    path.chmod(0)
+    with pytest.raises(InputError, match="cannot be read: Permission denied"):
+        read_study(path)
+
+
+def test_a_file_name_cannot_command_the_terminal(tmp_path: Path) -> None:
+    with pytest.raises(InputError) as caught:
+        read_study(tmp_path / "x\x1b[31m\n.yaml")
+    assert str(caught.value).isprintable()
+
+
+def test_a_byte_order_mark_is_no_error(tmp_path: Path, table_of: Callable[..., object]) -> None:
+    (tmp_path / "x.yaml").write_bytes(b"\xef\xbb\xbfmode: shear\r\n")
+    assert isinstance(read_study(tmp_path / "x.yaml", table=table_of), Study)  # type: ignore[arg-type]

@@ -1,0 +1,262 @@
+"""What a good study becomes, and where the reader points in a bad one."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tvimdesign.study import Options, Range, Requirement, Study, StudyError, read_study
+
+Read = Callable[..., Study]
+Refuse = Callable[..., list[str]]
+
+GOOD = """\
+tvimdesign: 1
+name: The paper's module, re-optimised
+description: |
+  Two lines
+  of text
+mode: shear
+module:
+  spring_material: stainless_302
+  wire_diameter: 2.413 mm
+  coil_count: 3.25
+  rate_model: smi
+vary:
+  wire_diameter: [1.5 mm, 3.2 mm]
+  coil_diameter: {from: 16 mm, to: 30 mm, start: 20 mm}
+  arc_count: {choose: [3, 4, 6]}
+  pcl_thickness: [0.5 mm, 1 mm]
+  peltier: {choose: [flexible_1600, qc_17]}
+require:
+  joint_stiffness@hot: ">= 5 N.m/rad"
+  joint_stiffness@warm: "<= 90 N.m/rad"
+  envelope_diameter: "<=150 mm"
+  impedance_range: [">= 20", "<= 500"]
+minimize:
+  module_mass: 1
+  response_time: 0.5
+  joint_stiffness@cold: "2"
+operating_points:
+  hot: {frequency: 10 Hz}
+  warm: {temperature: 60 degC}
+solver: {starts: 5, tolerance: 1e-6}
+write: {cad: false}
+"""
+
+
+def test_a_full_study(read: Read) -> None:
+    study = read(GOOD)
+    assert study.name == "The paper's module, re-optimised"
+    assert study.description == "Two lines\nof text"
+    assert (study.mode, study.task, study.catalog_folder) == ("shear", "optimize", None)
+    assert study.module == {
+        "spring_material": "stainless_302",
+        "wire_diameter": pytest.approx(2.413e-3),
+        "coil_count": 3.25,
+        "rate_model": "smi",
+    }
+    assert study.vary == {
+        "wire_diameter": Range(lower=1.5e-3, upper=3.2e-3, start=study.module["wire_diameter"]),
+        "coil_diameter": Range(lower=16e-3, upper=30e-3, start=20e-3),
+        "arc_count": Options(values=(3.0, 4.0, 6.0)),
+        "pcl_thickness": Range(lower=0.5e-3, upper=1e-3),
+        "peltier": Options(values=("flexible_1600", "qc_17")),
+    }
+    assert study.require == (
+        Requirement(output="joint_stiffness@hot", sense=">=", limit=5.0, text=">= 5 N.m/rad"),
+        Requirement(output="joint_stiffness@warm", sense="<=", limit=90.0, text="<= 90 N.m/rad"),
+        Requirement(output="envelope_diameter", sense="<=", limit=0.15, text="<=150 mm"),
+        Requirement(output="impedance_range", sense=">=", limit=20.0, text=">= 20"),
+        Requirement(output="impedance_range", sense="<=", limit=500.0, text="<= 500"),
+    )
+    assert study.minimize == {"module_mass": 1.0, "response_time": 0.5, "joint_stiffness@cold": 2.0}
+    assert study.operating_points == {
+        "cold": {"temperature": 303.15, "frequency": 1.0},
+        "hot": {"temperature": 373.15, "frequency": 10.0},
+        "warm": {"temperature": 333.15, "frequency": 1.0},
+    }
+    assert (study.solver.starts, study.solver.tolerance, study.solver.cells) == (5, 1e-6, 12)
+    assert (study.write.plots, study.write.cad) == (True, False)
+
+
+def test_only_the_mode_is_needed(read: Read) -> None:
+    study = read("mode: shear", name="my_study")
+    assert (study.name, study.task, study.module, study.vary) == ("my_study", "evaluate", {}, {})
+    assert set(study.operating_points) == {"cold", "hot"}
+
+
+def test_empty_sections_are_no_sections(read: Read) -> None:
+    bare = "".join(f"{key}:\n" for key in ("name", "module", "vary", "require", "solver", "catalog"))
+    assert read(f"mode: shear\nminimize: {{}}\n{bare}") == read("mode: shear")
+
+
+@pytest.mark.parametrize("text", [GOOD, "mode: shear"])
+def test_json_round_trip(read: Read, text: str) -> None:
+    study = read(text)
+    assert Study.model_validate(study.model_dump(mode="json")) == study
+    assert Study.model_validate_json(study.model_dump_json()) == study
+
+
+def test_a_study_is_frozen_and_knows_its_keys(read: Read) -> None:
+    study = read(GOOD)
+    with pytest.raises(ValueError, match="frozen"):
+        study.name = "other"  # type: ignore[misc]
+    with pytest.raises(ValueError, match="Extra inputs"):
+        Study.model_validate(study.model_dump() | {"speed": 1})
+    with pytest.raises(ValueError, match="finite"):
+        Range(lower=0.0, upper=float("inf"))
+
+
+def test_every_problem_at_its_place(problems: Refuse) -> None:
+    text = """\
+tvimdesign: 2
+nam: x
+mode: shear
+module:
+  wire_diamter: 2 mm
+  wire_diameter: 1,5 mm
+  coil_diameter: 2.4 K
+  arc_count: 3.5
+  temperature: 30 degC
+  module_mass: 3 g
+  spring_material: musik_wire
+  rate_model: smii
+  coil_count:
+operating_points:
+  Hot: {temperature: 60 degC}
+  warm: {frequency: 2 Hz}
+  hot: {temprature: 3 degC}
+  cold: 3
+solver: {starts: 0, seed: 1.5, cells: 010, speed: 1}
+write: {plots: yes, cad: 1}
+catalog: no_folder
+"""
+    expected = [
+        "1:13: tvimdesign: this version of tvimdesign does not read format 2; expected 1",
+        "2:1: nam: no such section; expected one of tvimdesign, name, ",
+        "5:3: module.wire_diamter: no such input or choice; expected one of spring_material, ",
+        "6:18: module.wire_diameter: '1,5 mm': a decimal comma is not read",
+        "7:18: module.coil_diameter: '2.4 K': K is not of that kind, expected a length",
+        "8:14: module.arc_count: '3.5' is not a whole number",
+        "9:3: module.temperature: belongs to an operating point; expected it under `operating_points`",
+        "10:3: module.module_mass: is a result and cannot be set; expected an input; limit it under `require`",
+        "11:20: module.spring_material: no such record on the shelf spring_materials: 'musik_wire'; expected one of mu",
+        "12:15: module.rate_model: no such option: 'smii'; expected one of bending, smi; did you mean 'smi'?",
+        "13:14: module.coil_count: no value does not fit here; expected a number",
+        "15:3: operating_points.Hot: 'Hot' cannot name an operating point",
+        "16:3: operating_points.warm: has no temperature; expected 'temperature: 1 degC'",
+        "17:9: operating_points.hot.temprature: no such input of an operating point; expected one of temperature, freq",
+        "18:9: operating_points.cold: the value '3' does not fit here",
+        "19:18: solver.starts: 0 should be greater than or equal to 1; starts means: number of starting points",
+        "19:27: solver.seed: the value '1.5' does not fit here; expected a whole number in plain digits",
+        "19:39: solver.cells: the value '010' does not fit here",
+        "19:44: solver.speed: no such setting; expected one of starts, seed, cells, ",
+        "20:16: write.plots: the value 'yes' does not fit here; expected true or false",
+        "20:26: write.cad: the value '1' does not fit here; expected true or false",
+        "21:10: catalog: there is no folder 'no_folder' beside the study",
+    ]
+    found = problems(text)
+    for line, start in zip(found, expected, strict=True):
+        assert line.startswith("x.yaml:" + start)
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("mode: shear\nmodul: {}", "did you mean 'module'?"),
+        ("mode: shear\nmodule: {wire_diamter: 2 mm}", "did you mean 'wire_diameter'?"),
+        ("mode: shear\nmodule: {Wire-Diameter: 2 mm}", "did you mean 'wire_diameter'?"),
+        ("mode: shear\nmodule: {spring_material: musik_wire}", "did you mean 'music_wire'?"),
+        ("mode: shear\nrequire: {module_mas: '<= 3 g'}", "did you mean 'module_mass'?"),
+        ("mode: shear\nrequire: {joint_stiffness@hott: '<= 3 N.m/rad'}", "did you mean 'hot'?"),
+        ("mode: shear\noperating_points: {hot: {temp: 3 degC}}", "did you mean 'temperature'?"),
+        ("mode: sheer", "did you mean 'shear'?"),
+    ],
+)
+def test_did_you_mean(problems: Refuse, text: str, hint: str) -> None:
+    assert problems(text)[0].endswith(hint)
+
+
+def test_the_mode(problems: Refuse) -> None:
+    assert problems("name: x") == ["x.yaml:1:1: mode: missing; expected 'shear'; write 'mode: shear'"]
+    assert problems("mode: [shear]")[0].startswith("x.yaml:1:7: mode: a list does not fit here")
+    found = problems("mode: bending\nsolver: {starts: 0}\nmodule: {what: 3}")
+    assert [line.split(": ")[0] for line in found] == ["x.yaml:1:7", "x.yaml:2:18"]
+
+
+def test_sections_of_the_wrong_shape(problems: Refuse) -> None:
+    for section in ("module", "vary", "require", "minimize", "operating_points", "solver", "write"):
+        (line, *_) = problems(f"mode: shear\n{section}: [1 mm, 2 mm]")
+        assert line.startswith(f"x.yaml:2:{len(section) + 3}: {section}: a list does not fit here; expected ")
+
+
+def test_problems_are_data(read: Read) -> None:
+    with pytest.raises(StudyError) as caught:
+        read("mode: shear\nmodule: {wire_diamter: 2 mm}")
+    (problem,) = caught.value.problems
+    assert (problem.file, problem.line, problem.column, problem.path) == ("x.yaml", 2, 10, "module.wire_diamter")
+    assert problem.hint == "did you mean 'wire_diameter'?"
+    assert caught.value.exit_code == 2
+
+
+def test_the_printed_problems_are_capped(read: Read) -> None:
+    with pytest.raises(StudyError) as caught:
+        read("mode: shear\nmodule:\n" + "".join(f"  row_{i}: 1\n" for i in range(60)))
+    assert len(caught.value.problems) == 60
+    assert str(caught.value).splitlines()[50:] == ["... and 10 more"]
+
+
+def test_a_folder_of_records(tmp_path: Path, table_of: Any, make_catalog: Any, problems: Refuse) -> None:
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "x.yaml").write_text("mode: shear\ncatalog: mine\n", encoding="utf-8")
+    study = read_study(tmp_path / "x.yaml", table=table_of, catalog=make_catalog)
+    assert study.catalog_folder == (tmp_path / "mine").as_posix()
+    assert study.name == "x"
+    (tmp_path / "mine" / "broken").touch()
+    lines = problems("mode: shear\ncatalog: mine", folder=tmp_path)
+    assert len(lines) == 1
+    assert lines[0].startswith("x.yaml:2:10: catalog: ")
+    assert lines[0].endswith("mine is broken; in two ways")
+
+
+def test_no_folder_of_records(problems: Refuse, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    for written in ("file", "é" * 190, "../nowhere", "[a]"):
+        (line,) = problems(f"mode: shear\ncatalog: {written}", folder=tmp_path)
+        assert line.startswith("x.yaml:2:10: catalog: ")
+
+
+WIRES = """\
+title: "Wire on our shelf"
+tables:
+  sizes:
+    columns: {wire_diameter: mm}
+    rows: [[2.4], [1.9], [9.0]]
+    source: "the drawer"
+    status: measured
+"""
+
+
+def test_the_users_records_in_the_shipped_catalogue(tmp_path: Path) -> None:
+    (tmp_path / "mine" / "wires").mkdir(parents=True)
+    (tmp_path / "mine" / "wires" / "drawer.yaml").write_text(WIRES, encoding="utf-8")
+    text = "mode: shear\ncatalog: mine\nminimize: module_mass\nvary: {wire_diameter: {catalog: %s, to: 5 mm}}\n"
+    (tmp_path / "x.yaml").write_text(text % "drawer", encoding="utf-8")
+    assert read_study(tmp_path / "x.yaml").vary["wire_diameter"].model_dump() == {
+        "values": (pytest.approx(1.9e-3), pytest.approx(2.4e-3)),
+        "source": "drawer",
+    }
+    (tmp_path / "x.yaml").write_text(text % "drawr", encoding="utf-8")
+    with pytest.raises(StudyError, match=r"wires: 'drawr'; expected one of drawer, .*; did you mean 'drawer'\?"):
+        read_study(tmp_path / "x.yaml")
+
+
+def test_import_is_light() -> None:
+    heavy = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy")
+    code = f"import sys, tvimdesign.study; print([name for name in {heavy} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=None)
+    assert done.stdout.strip() == "[]"

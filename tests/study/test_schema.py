@@ -1,0 +1,88 @@
+"""The schema for editors: read off the table, the same as what ships, and of one mind with the reader."""
+
+from collections.abc import Callable
+from typing import Any
+
+import jsonschema
+import pytest
+import yaml
+from test_reader import GOOD
+
+from tvimdesign.device import Table, table_for
+from tvimdesign.study import Study, StudyError, template_text
+from tvimdesign.study.schema import SCHEMA_FILE, json_schema, schema_text
+
+WRONG = [
+    "name: x",
+    "mode: bending",
+    "mode: shear\nmodul: {}",
+    "mode: shear\nmodule: {wire_diamter: 2 mm}",
+    "mode: shear\nmodule: {wire_diameter: 2}",
+    "mode: shear\nmodule: {wire_diameter: '1,5 mm'}",
+    "mode: shear\nmodule: {rate_model: smii}",
+    "mode: shear\nmodule: {temperature: 3 degC}",
+    "mode: shear\nmodule: [1]",
+    "mode: shear\nvary: {wire_diameter: [1 mm]}\nminimize: module_mass",
+    "mode: shear\nvary: {arc_count: [1, 3]}\nminimize: module_mass",
+    "mode: shear\nvary: {placement_radius: [30 mm, 40 mm]}\nminimize: module_mass",
+    "mode: shear\nvary: {wire_diameter: {from: 1 mm, too: 2 mm}}\nminimize: module_mass",
+    "mode: shear\nvary: {peltier: {choose: []}}\nminimize: module_mass",
+    "mode: shear\nrequire: {module_mas: '<= 3 g'}",
+    "mode: shear\nrequire: {module_mass: '< 3 g'}",
+    "mode: shear\nrequire: {joint_stiffness: '>= 3 N.m/rad'}",
+    "mode: shear\nrequire: {module_mass@hot: '>= 3 g'}",
+    "mode: shear\nrequire: {face_temperature: '>= 3 degC'}",
+    "mode: shear\nvary: {coil_count: [2, 3]}\nminimize: [module_mass]",
+    "mode: shear\nvary: {coil_count: [2, 3]}\nminimize: modul_mass",
+    "mode: shear\noperating_points: {Hot: {temperature: 3 degC}}",
+    "mode: shear\noperating_points: {hot: {temp: 3 degC}}",
+    "mode: shear\nsolver: {starts: 0}",
+    "mode: shear\nsolver: {speed: 1}",
+    "mode: shear\nwrite: {cad: 1}",
+]
+
+
+@pytest.fixture(scope="module")
+def validator(table: Table) -> Any:
+    schema = json_schema(table)
+    jsonschema.Draft7Validator.check_schema(schema)
+    return jsonschema.Draft7Validator(schema)
+
+
+def test_names_and_units_stand_in_the_schema(table: Table) -> None:
+    module = json_schema(table)["properties"]["module"]["properties"]
+    assert set(module) == {row.name for row in (*table.inputs, *table.choices)} - {"temperature", "frequency"}
+    assert module["wire_diameter"]["description"] == "Wire diameter [mm]"
+    assert module["coil_count"]["description"] == "Coil count"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        GOOD,
+        "mode: shear",
+        "mode: shear\nmodule:\nvary: {wire_diameter: {catalog: metric, to: 2 mm}}\nminimize: joint_stiffness@hot",
+        "mode: shear\nvary: {coil_count: {choose: [2, '3']}}\nminimize: {module_mass: 50 %}",
+        "mode: shear\nvary: {rate_model: {choose: [smi]}}\nminimize: {module_mass: 1e-1}",
+    ],
+)
+def test_a_good_study_fits(validator: Any, read: Callable[..., Study], text: str) -> None:
+    validator.validate(yaml.safe_load(text))
+    read(text)
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_a_wrong_study_does_not(validator: Any, read: Callable[..., Study], text: str) -> None:
+    assert not validator.is_valid(yaml.safe_load(text))
+    with pytest.raises(StudyError):
+        read(text)
+
+
+def test_the_shipped_schema_is_the_codes() -> None:
+    """`python -m tvimdesign.study.schema` writes it anew."""
+    assert SCHEMA_FILE.read_text(encoding="utf-8") == schema_text(table_for("shear"))
+
+
+def test_the_template_fits_the_shipped_schema() -> None:
+    validator = jsonschema.Draft7Validator(json_schema(table_for("shear")))
+    validator.validate(yaml.safe_load(template_text()))

@@ -1,0 +1,54 @@
+"""From a design in SI to the dimensions the parts are drawn with: millimetres, radians and plain counts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from tvimdesign.device import table_for
+from tvimdesign.errors import GeometryError
+from tvimdesign.study.design import Design
+
+_SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
+"""From SI to what CAD uses, by the unit a row is written in; rows in other units are no dimensions."""
+
+
+class Dimensions:
+    """The design's lengths [mm], angles [rad] and counts by the names of the table: `dims.wire_diameter`."""
+
+    def __init__(self, values: Mapping[str, float]) -> None:
+        """`values` are in mm, rad and plain numbers by row name."""
+        self._values = dict(values)
+
+    def __getattr__(self, name: str) -> float:
+        """Value of a row; raises GeometryError where the design has none that can be drawn."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name not in self._values:
+            raise GeometryError(f"the design has no dimension {name!r}; write it anew with `tvimdesign run`")
+        value = self._values[name]
+        if not math.isfinite(value):
+            raise GeometryError(f"{name} is {value}; the parts cannot be drawn. Ask `tvimdesign check` which rule fails")
+        return value
+
+    def count(self, name: str) -> int:
+        """Value of a row that counts something; raises GeometryError where it is no whole number above zero."""
+        value = getattr(self, name)
+        if value < 1 or value != round(value):
+            raise GeometryError(f"{name} is {value:g}; it must be a whole number above zero")
+        return round(value)
+
+    def azimuths(self, name: str) -> list[float]:
+        """Azimuths [rad] of the things that row counts, evenly spread, the first at zero."""
+        count = self.count(name)
+        return [2.0 * math.pi * index / count for index in range(count)]
+
+
+def dimensions(design: Design) -> Dimensions:
+    """Convert a design's values to the units of CAD."""
+    rows = table_for(design.mode).by_name
+    return Dimensions({
+        name: value * _SCALE[rows[name].unit]  # type: ignore[union-attr]  # a choice has no unit, and no number either
+        for name, value in design.values.items()
+        if name in rows and getattr(rows[name], "unit", None) in _SCALE
+    })  # fmt: skip

@@ -1,0 +1,50 @@
+"""What kinds of part a module has: the colour of each, what it is made of, and the rows of the table that describe it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+Rgb = tuple[float, float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kind:
+    """A kind of part."""
+
+    colour: Rgb
+    """sRGB, 0 to 1."""
+    material: str
+    """The row of its material."""
+    density: str
+    """The row of its density."""
+    volume: str
+    """The row of the volume of all of its kind, or of one spring."""
+
+
+_STRUCTURE = ("structure_material", "structure_density")
+
+
+def _kind(colour: Rgb, material: str, density: str, volume: str) -> Kind:
+    return Kind(colour=colour, material=material, density=density, volume=volume)
+
+
+_SPRING = ("spring_material", "spring_density", "spring_volume")
+KINDS = {
+    "housing": _kind((0.62, 0.68, 0.74), *_STRUCTURE, "housing_volume"),
+    "rotor": _kind((0.92, 0.62, 0.20), *_STRUCTURE, "rotor_volume"),
+    "link": _kind((0.16, 0.36, 0.62), *_STRUCTURE, "link_volume"),
+    "retainer": _kind((0.42, 0.28, 0.50), *_STRUCTURE, "retainer_volume"),
+    "pcl_arc": _kind((0.95, 0.93, 0.82), "pcl_grade", "pcl_density", "pcl_volume"),
+    "peltier_pad": _kind((0.72, 0.20, 0.18), "peltier_module", "peltier_density", "peltier_volume"),
+    "spring_right": _kind((0.15, 0.48, 0.38), *_SPRING),
+    "spring_left": _kind((0.45, 0.70, 0.30), *_SPRING),
+}
+"""By name; a placed part is named after its kind, with a number where there are several."""
+TURNING = ("rotor", "link", "retainer")
+"""The kinds that turn together."""
+SPRINGS = ("spring_right", "spring_left")
+
+
+def kind_of(name: str) -> str:
+    """Kind of a placed part: `pcl_arc` for `pcl_arc_3`."""
+    return name.rstrip("0123456789").rstrip("_")

@@ -1,0 +1,112 @@
+"""Triangle meshes of the parts: OCC's for the drawn parts, a tube along the wire's centre for the springs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, pi
+from typing import Any
+
+import cadquery as cq
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.cad.assembly import installed_coils, spring_locations
+from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.springs import Coil
+from tvimdesign.errors import GeometryError
+
+CHORD = 0.05
+"""Largest distance of a mesh from its part [mm]."""
+TURN = 0.15
+"""Largest angle between neighbouring triangles of a curved face [rad]."""
+_RING = 24
+"""Points around the wire."""
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles of one part; vertices on a sharp edge are there once for each face, so that shading stays crisp."""
+
+    vertices: Array
+    """Points [mm], one a row."""
+    faces: NDArray[np.int64]
+    """Three vertices a triangle, counter-clockwise seen from outside."""
+
+    def mirrored(self) -> Mesh:
+        """The mirror image in the plane y = 0."""
+        return Mesh(self.vertices * [1.0, -1.0, 1.0], self.faces[:, ::-1])
+
+
+@dataclass(frozen=True)
+class Instance:
+    """One placed part: its mesh and where it stands."""
+
+    mesh: Mesh
+    matrix: Array
+    """4 x 4, from the part's coordinates to the module's."""
+
+
+def solid_mesh(solid: cq.Solid) -> Mesh:
+    """Triangulate a solid in its own coordinates."""
+    points, triangles = solid.located(cq.Location()).tessellate(CHORD, TURN)
+    return Mesh(np.array([point.toTuple() for point in points]), np.array(triangles, dtype=np.int64))
+
+
+def spring_mesh(coil: Coil) -> Mesh:
+    """Tube around the wire's centre. OCC takes seconds for a swept helix, and the file is ten times as large."""
+    centre, normal = _wire_centre(coil)
+    tangent = _ends(coil, centre)
+    binormal = np.cross(tangent, normal)
+    angle = np.arange(_RING) * 2.0 * pi / _RING
+    ring = np.cos(angle)[:, None] * normal[:, None, :] + np.sin(angle)[:, None] * binormal[:, None, :]
+    tube = (centre[:, None, :] + 0.5 * coil.wire_diameter * ring).reshape(-1, 3)
+    here = np.arange(_RING)
+    following = (here + 1) % _RING
+    first = np.arange(len(centre) - 1)[:, None] * _RING
+    a, b = first + here, first + following
+    sides = [np.stack((a, b, b + _RING), -1), np.stack((a, b + _RING, a + _RING), -1)]
+    start_cap, end_cap = len(tube) + here, len(tube) + _RING + here
+    fan = np.arange(1, _RING - 1)
+    caps = [
+        np.stack((np.full_like(fan, start_cap[0]), start_cap[fan + 1], start_cap[fan]), -1),
+        np.stack((np.full_like(fan, end_cap[0]), end_cap[fan], end_cap[fan + 1]), -1),
+    ]
+    vertices = np.concatenate((tube, tube[:_RING], tube[-_RING:]))
+    return Mesh(vertices, np.concatenate([part.reshape(-1, 3) for part in (*sides, *caps)]))
+
+
+def _wire_centre(coil: Coil) -> tuple[Array, Array]:
+    """Points along the wire's centre from tang to leg, and at each the unit vector away from the coil's axis."""
+    d, rise, up = coil.wire_diameter, coil.rise, np.array([0.0, 0.0, 1.0])
+    step = min(0.25, 2.0 * np.sqrt(CHORD / coil.diameter))
+    azimuth = coil.start_azimuth + np.linspace(0.0, 2.0 * pi * coil.turns, ceil(2.0 * pi * coil.turns / step) + 1)
+    radial = np.stack((np.cos(azimuth), np.sin(azimuth), 0.0 * azimuth), -1)
+    level = coil.start_level + coil.pitch * (azimuth - azimuth[0]) / (2.0 * pi)
+    helix = 0.5 * coil.diameter * radial + level[:, None] * up
+    tangent = np.cross(up, radial[0])
+    bend_centre = helix[0] + d * (np.sin(rise) * tangent - np.cos(rise) * up)
+    turn = np.linspace(0.5 * pi, rise, 12)[:-1, None]
+    bend = bend_centre - d * (np.sin(turn) * tangent - np.cos(turn) * up)
+    tang_end = bend[0] - coil.tang_length * up
+    leg_end = helix[-1] + coil.leg_length * (np.cross(up, radial[-1]) + np.tan(rise) * up)
+    centre = np.vstack((tang_end, bend, helix, leg_end))
+    before = np.repeat(radial[:1], 1 + len(bend), axis=0)
+    return centre, np.vstack((before, radial, radial[-1:]))
+
+
+def _ends(coil: Coil, centre: Array) -> Array:
+    """Unit tangents of the wire at the points of its centre."""
+    difference = np.gradient(centre, axis=0)
+    # Where a straight piece meets a bend the neighbours are not evenly spaced; the tangents there are known.
+    difference[0] = difference[1] = (0.0, 0.0, 1.0)
+    difference[-2] = difference[-1] = centre[-1] - centre[-2]
+    return np.asarray(difference / np.linalg.norm(difference, axis=1)[:, None])
+
+
+def part_meshes(dims: Dimensions, drawn: dict[str, cq.Solid], coils: dict[str, Coil]) -> dict[str, Mesh]:
+    """Mesh of each kind of part in its own coordinates; `coils` says which shape the springs have."""
+    meshes = {kind: solid_mesh(solid) for kind, solid in drawn.items()}
+    meshes["spring_right"] = spring_mesh(coils["spring_right"])
+    meshes["spring_left"] = spring_mesh(coils["spring_left"]).mirrored()
+    return meshes

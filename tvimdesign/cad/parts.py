@@ -1,0 +1,106 @@
+"""The parts, drawn in the module's coordinates: rotor axis z, the floor's upper face z = 0. Springs have their own room."""
+
+from __future__ import annotations
+
+from math import atan2, hypot, pi
+
+import cadquery as cq
+
+from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.shapes import cylinder, join, polar, ring, sector, slot, turned
+from tvimdesign.cad.springs import installed_coil
+
+LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
+
+
+def arc_azimuths(dims: Dimensions) -> list[float]:
+    """Middles of the PCL arcs [rad]: between the springs where there are as many of both."""
+    return [azimuth + pi / dims.count("spring_count") for azimuth in dims.azimuths("arc_count")]
+
+
+def hand_of(index: int) -> str:
+    """Hand of a spring by its place around the module: right, left, right ..."""
+    return "right" if index % 2 == 0 else "left"
+
+
+def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
+    """Where the springs' tangs enter the floor, in the order of the springs."""
+    x, y = installed_coil(dims).tang_position
+    radius = hypot(dims.placement_radius + x, y)
+    beside = atan2(y, dims.placement_radius + x)
+    return [
+        polar(radius, azimuth + (beside if hand_of(index) == "right" else -beside))
+        for index, azimuth in enumerate(dims.azimuths("spring_count"))
+    ]
+
+
+def housing(dims: Dimensions) -> cq.Shape:
+    """Floor with hub, wall, skirt and spring posts; less bore, pad pockets, windows and tang holes."""
+    floor_bottom = -dims.floor_thickness
+    floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
+    wall = ring(dims.housing_inner_radius, dims.housing_outer_radius, floor_bottom - dims.foot_height, dims.pin_top_level)
+    hub = cylinder(dims.hub_radius, 0, dims.pcl_thickness)
+    posts = [
+        cylinder(dims.post_radius, 0, dims.coil_end_level + 0.5 * dims.wire_diameter, polar(dims.placement_radius, azimuth))
+        for azimuth in dims.azimuths("spring_count")
+    ]
+    bore = cylinder(dims.core_radius + dims.running_clearance, floor_bottom, dims.pcl_thickness)
+    pocket = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
+    window = sector(
+        dims.pcl_inner_radius + dims.window_ledge,
+        dims.pcl_outer_radius - dims.window_ledge,
+        dims.arc_span - 2.0 * dims.window_ledge / dims.pcl_inner_radius,
+        floor_bottom,
+        -dims.peltier_thickness,
+    )
+    openings = [turned(shape, azimuth) for azimuth in arc_azimuths(dims) for shape in (pocket, window)]
+    hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
+    tang_holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
+    return join(floor, [wall, hub, *posts]).cut(bore, *openings, *tang_holes)
+
+
+def rotor(dims: Dimensions) -> cq.Shape:
+    """Plate that lies on the PCL, core that turns in the hub and carries the link, pins that the springs bear on."""
+    core_bottom = -dims.floor_thickness - dims.running_clearance
+    plate = cylinder(dims.rotor_radius, dims.pcl_thickness, dims.rotor_top_level)
+    core = cylinder(dims.core_radius, core_bottom, dims.link_bottom_level)
+    pins = [
+        cylinder(0.5 * dims.pin_diameter, dims.rotor_top_level, dims.pin_top_level, polar(dims.pin_radius, azimuth))
+        for azimuth in dims.azimuths("spring_count")
+    ]
+    link_top = dims.link_bottom_level
+    pilots = [
+        cylinder(0.5 * dims.link_screw_pilot, link_top - dims.link_screw_depth, link_top, at) for at in link_screws(dims)
+    ]
+    retainer_pilot = cylinder(0.5 * dims.retainer_screw_pilot, core_bottom, core_bottom + dims.retainer_screw_depth)
+    return join(plate, [core, *pins]).cut(retainer_pilot, *pilots)
+
+
+def link(dims: Dimensions) -> cq.Shape:
+    """Output link: an obround from the core to the housing's edge, with its screw holes and the hole for a tool."""
+    bottom, top = dims.link_bottom_level, dims.link_bottom_level + dims.link_thickness
+    holes = [cylinder(0.5 * dims.link_screw_clearance, bottom, top, at) for at in link_screws(dims)]
+    tool_hole = cylinder(0.5 * dims.link_tool_hole, bottom, top, (dims.link_length, 0.0))
+    return slot(dims.link_half_width, dims.link_length, bottom, top).cut(tool_hole, *holes)
+
+
+def retainer(dims: Dimensions) -> cq.Shape:
+    """Disc below the floor, screwed to the core, that keeps the rotor in the housing."""
+    top = -dims.floor_thickness - dims.running_clearance
+    radius = dims.core_radius + dims.retainer_lip
+    return ring(0.5 * dims.retainer_screw_clearance, radius, top - dims.retainer_thickness, top)
+
+
+def pcl_arc(dims: Dimensions) -> cq.Shape:
+    """One arc of PCL between floor and rotor, centred on the x axis."""
+    return sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, 0, dims.pcl_thickness)
+
+
+def peltier_pad(dims: Dimensions) -> cq.Shape:
+    """One Peltier pad in its pocket under an arc, centred on the x axis."""
+    return sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
+
+
+def link_screws(dims: Dimensions) -> list[tuple[float, float]]:
+    """Axes of the four screws that hold the link on the core."""
+    return [polar(dims.link_bolt_circle_radius, azimuth) for azimuth in LINK_SCREW_AZIMUTHS]

@@ -1,0 +1,68 @@
+"""Drawing aids: upright cylinders, rings, annular sectors and slots between two levels. Lengths in mm, angles in rad."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import cos, pi, sin
+
+import cadquery as cq
+
+Point = tuple[float, float]
+_UP = cq.Vector(0, 0, 1)
+
+
+def polar(radius: float, azimuth: float) -> Point:
+    """Point at a radius and an azimuth."""
+    return radius * cos(azimuth), radius * sin(azimuth)
+
+
+def cylinder(radius: float, bottom: float, top: float, at: Point = (0.0, 0.0)) -> cq.Solid:
+    """Upright cylinder between two levels."""
+    return cq.Solid.makeCylinder(radius, top - bottom, cq.Vector(*at, bottom), _UP)
+
+
+def ring(inner: float, outer: float, bottom: float, top: float) -> cq.Solid:
+    """Upright ring about the axis between two levels."""
+    circles = (cq.Wire.makeCircle(radius, cq.Vector(0, 0, bottom), _UP) for radius in (outer, inner))
+    outside, inside = circles
+    return cq.Solid.extrudeLinear(outside, [inside], cq.Vector(0, 0, top - bottom))
+
+
+def sector(inner: float, outer: float, span: float, bottom: float, top: float, azimuth: float = 0.0) -> cq.Solid:
+    """Upright annular sector about the axis, centred on an azimuth, between two levels."""
+    first, last = azimuth - 0.5 * span, azimuth + 0.5 * span
+
+    def at(radius: float, angle: float) -> cq.Vector:
+        return cq.Vector(*polar(radius, angle), bottom)
+
+    outline = cq.Wire.assembleEdges([
+        cq.Edge.makeThreePointArc(at(outer, first), at(outer, azimuth), at(outer, last)),
+        cq.Edge.makeLine(at(outer, last), at(inner, last)),
+        cq.Edge.makeThreePointArc(at(inner, last), at(inner, azimuth), at(inner, first)),
+        cq.Edge.makeLine(at(inner, first), at(outer, first)),
+    ])  # fmt: skip
+    return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+
+
+def slot(half_width: float, length: float, bottom: float, top: float) -> cq.Solid:
+    """Upright obround from the axis to `length` along x, with a half disc at each end."""
+    b = half_width
+    corners = [cq.Vector(x, y, bottom) for x, y in ((0, -b), (length, -b), (length, b), (0, b))]
+    far, near = cq.Vector(length + b, 0, bottom), cq.Vector(-b, 0, bottom)
+    outline = cq.Wire.assembleEdges([
+        cq.Edge.makeLine(corners[0], corners[1]),
+        cq.Edge.makeThreePointArc(corners[1], far, corners[2]),
+        cq.Edge.makeLine(corners[2], corners[3]),
+        cq.Edge.makeThreePointArc(corners[3], near, corners[0]),
+    ])  # fmt: skip
+    return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+
+
+def join(body: cq.Shape, others: Iterable[cq.Shape]) -> cq.Shape:
+    """One body of several that overlap or touch, without the seams."""
+    return body.fuse(*others).clean()
+
+
+def turned(shape: cq.Shape, azimuth: float) -> cq.Shape:
+    """The shape turned about the axis; the copy shares its geometry with the original."""
+    return shape.moved(cq.Location(cq.Vector(), _UP, azimuth * 180.0 / pi))

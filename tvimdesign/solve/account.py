@@ -1,0 +1,81 @@
+"""The account of a solution: simulated and checked again outside IPOPT, and what holds it with what that costs."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from tvimdesign.solve.limits import Limit, in_words, on_switch
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer, Run
+from tvimdesign.solve.solution import Held, Solution, Start
+
+SWITCH_TOLERANCE = 2e-3
+"""Share by which a limit on a row that depends on a switch may be broken: collocation against the simulation."""
+
+
+def account(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:
+    """Simulate and check a run's design again, and say what holds it."""
+    switch = optimizer.simulator.run(run.inputs)
+    values = optimizer.model.values(run.inputs, switch.values)
+    limits = _held_by_limits(optimizer, run, values)
+    tolerances = [
+        SWITCH_TOLERANCE if on_switch(optimizer.table, limit.output) else ALGEBRAIC_TOLERANCE
+        for limit in optimizer.problem.limits
+    ]
+    feasible = all(held.residual <= tolerance for held, tolerance in zip(limits, tolerances, strict=True))
+    if run.start.converged:
+        status = "optimal" if feasible else "converged, but a check outside the solver fails"
+    else:
+        status = f"not converged: {run.start.status.replace('_', ' ').lower()}"
+    return Solution(
+        status=status,
+        feasible=feasible,
+        model=optimizer.model,
+        inputs=run.inputs,
+        switch=switch,
+        values=values,
+        objective=sum(w * values[n] / optimizer.reference[n] for n, w in optimizer.study.minimize.items()),
+        starts=starts,
+        held=(*limits, *_held_by_bounds(optimizer, run)),
+        reference=optimizer.reference,
+        seconds=seconds,
+    )
+
+
+def _held_by_limits(optimizer: Optimizer, run: Run, values: dict[str, float]) -> list[Held]:
+    first = optimizer.problem.equation_count
+    prices = run.multipliers[first : first + len(optimizer.problem.limits)]
+    return [
+        Held(
+            name=limit.name,
+            text=in_words(limit, optimizer.table),
+            residual=float(limit.residual(values[limit.output])),
+            price=float(price) / (run.start.objective or 1.0),
+            origin=limit.origin,
+        )
+        for limit, price in zip(optimizer.problem.limits, prices, strict=True)
+    ]
+
+
+def _held_by_bounds(optimizer: Optimizer, run: Run) -> list[Held]:
+    """The bounds of what varies; the price of a bound is that of moving it by 1 %."""
+    found = []
+    for i, free in enumerate(optimizer.free):
+        value = run.inputs[optimizer.model.index[free.name]]
+        senses: tuple[tuple[Literal["<=", ">="], float, float], ...] = (
+            ("<=", free.upper, 1.0),
+            (">=", free.lower, -1.0),
+        )
+        for sense, bound, sign in senses:
+            limit = Limit(free.name, sense, bound, abs(bound) or abs(free.reference), "vary")
+            multiplier = max(sign * float(run.bound_multipliers[i]), 0.0)
+            per_scale = limit.scale / abs(value if free.logarithmic else free.reference)
+            found.append(
+                Held(
+                    name=limit.name,
+                    text=in_words(limit, optimizer.table),
+                    residual=float(limit.residual(value)),
+                    price=float(multiplier * per_scale / (run.start.objective or 1.0)),
+                    origin="vary",
+                )
+            )
+    return found

@@ -1,0 +1,125 @@
+"""A study answered: evaluated or optimised, as a `Design` with what the report draws from."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from tvimdesign import __version__
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table
+from tvimdesign.errors import InfeasibleError
+from tvimdesign.solve.curves import Curves, impedance_sweep, switch_history
+from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Progress
+from tvimdesign.solve.account import SWITCH_TOLERANCE
+from tvimdesign.solve.search import optimize
+from tvimdesign.solve.simulate import Simulator
+from tvimdesign.solve.solution import Solution
+from tvimdesign.study import Study, given
+from tvimdesign.study.design import Design
+
+
+@dataclass(frozen=True)
+class Check:
+    """One limit held against the design."""
+
+    text: str
+    output: str
+    value: float
+    margin: float
+    """Share of the limit that is left; negative where it is broken."""
+    kept: bool
+    origin: str
+    """`require`, or the reason the machine has the limit."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a study came to."""
+
+    design: Design
+    checks: tuple[Check, ...]
+    """Requirements and rules."""
+    warnings: tuple[Check, ...]
+    """Advice that the design does not follow."""
+    history: Curves
+    sweep: Curves
+    solution: Solution | None
+
+    @property
+    def feasible(self) -> bool:
+        """Whether every requirement and rule is kept."""
+        return all(check.kept for check in self.checks)
+
+
+def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = lambda _: None) -> Answer:
+    """Evaluate or optimise a study. Raises InputError, InfeasibleError."""
+    solution = None
+    if study.task == "optimize":
+        solution = optimize(study, catalog, table, progress)
+        model, inputs, switch, values = solution.model, solution.inputs, solution.switch, solution.values
+        status = solution.status
+    else:
+        progress("simulating one switch")
+        model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        inputs = model.start
+        switch = Simulator(model).run(inputs)
+        values = model.values(inputs, switch.values)
+        status = "evaluated"
+    numbers = {name: float(inputs[i]) for name, i in model.index.items()}
+    design = Design(
+        tvimdesign=__version__, name=study.name, mode=study.mode, status=status,
+        choices=_choices(model, table), values={**numbers, **values}, study=study.model_dump(mode="json"),
+        solution=_plain(solution),
+    )  # fmt: skip
+    checks = tuple(_check(limit, values, table) for limit in limits_of(study, table))
+    warnings = tuple(check for check in (_check(limit, values, table) for limit in advice_of(table)) if not check.kept)
+    return Answer(
+        design=design, checks=checks, warnings=warnings, history=switch_history(model, inputs, switch),
+        sweep=impedance_sweep(model, inputs, switch), solution=solution,
+    )  # fmt: skip
+
+
+def _choices(model: Model, table: Table) -> dict[str, str]:
+    return {row.name: getattr(model.words[row.name], "name", model.words[row.name]) for row in table.choices}
+
+
+def _check(limit: Limit, values: dict[str, float], table: Table) -> Check:
+    value = values[limit.output]
+    residual = limit.residual(value)
+    tolerance = SWITCH_TOLERANCE if on_switch(table, limit.output) else ALGEBRAIC_TOLERANCE
+    return Check(
+        text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
+        kept=bool(residual <= tolerance), origin=limit.origin,
+    )  # fmt: skip
+
+
+def _plain(solution: Solution | None) -> dict[str, Any]:
+    if solution is None:
+        return {}
+    return {
+        "objective": solution.objective,
+        "reference": solution.reference,
+        "seconds": solution.seconds,
+        "distinct_optima": [start.number for start in solution.distinct_optima()],
+        "starts": [asdict(start) for start in solution.starts],
+        "held": [asdict(held) for held in solution.held],
+    }
+
+
+def verdict(result: Answer) -> None:
+    """Raise InfeasibleError, naming what is broken, unless the answer is what the study asked for."""
+    if result.solution is None or result.design.status == "optimal":
+        return
+    broken = sorted((check for check in result.checks if not check.kept), key=lambda check: check.margin)
+    lines = [f"  {check.text}: {-check.margin:.1%} beyond" for check in broken]
+    raise InfeasibleError(
+        "\n".join(
+            [f"{result.design.name}: {result.design.status}.", "At the last point, broken were:", *lines]
+            if lines
+            else [f"{result.design.name}: {result.design.status}."]
+        )
+        + "\nWiden a range under `vary`, relax a requirement, or try more `solver.starts`."
+    )

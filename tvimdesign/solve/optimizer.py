@@ -1,0 +1,218 @@
+"""One study with its records chosen: the problem and its solvers, built once, run from any start."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Input, Path, Table
+from tvimdesign.errors import InfeasibleError
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.limits import Limit, in_words, is_constant, limits_of
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.problem import Free, Problem
+from tvimdesign.solve.simulate import Simulator
+from tvimdesign.solve.solution import Start
+from tvimdesign.solve.transcription import guess
+from tvimdesign.study import Range, Study, given
+
+Array = NDArray[np.float64]
+Progress = Callable[[str], None]
+
+ALGEBRAIC_TOLERANCE = 1e-6
+"""Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
+MAX_DRAWS = 100
+EXPAND_FROM = 4
+"""Runs from which on it pays to expand the problem to scalar operations: slower to build, four times faster to run."""
+
+_IPOPT = {
+    "print_level": 0,
+    "sb": "yes",
+    "linear_solver": "mumps",
+    "mu_init": 1e-3,
+    # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.
+    "honor_original_bounds": "yes",
+}
+_WARM = {
+    "warm_start_init_point": "yes",
+    "mu_init": 1e-7,
+    "warm_start_bound_push": 1e-6,
+    "warm_start_mult_bound_push": 1e-6,
+    "warm_start_slack_bound_push": 1e-6,
+}
+
+
+@dataclass
+class Run:
+    """What IPOPT left behind at one start."""
+
+    start: Start
+    inputs: Array
+    unknowns: Array
+    multipliers: Array
+    bound_multipliers: Array
+
+
+class Optimizer:
+    """One study with its records chosen: the problem and its solvers, built once."""
+
+    def __init__(self, study: Study, catalog: Catalog, table: Table, runs: int, reference: dict[str, float] | None = None, progress: Progress = lambda _: None) -> None:  # fmt: skip
+        """Compile the device, simulate the study's start, and build the problem for about `runs` runs.
+
+        `reference` are the values the minimised outputs are divided by: the study's start unless given. Raises
+        InfeasibleError where a limit is broken that nothing free can mend, InputError from the table.
+        """
+        self._many = runs >= EXPAND_FROM
+        self.study, self.table, self.progress = study, table, progress
+        began = time.perf_counter()
+        self.model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        self.simulator = Simulator(self.model)
+        self.start_switch = self.simulator.run(self.model.start)
+        self.start_values = self.model.values(self.model.start, self.start_switch.values)
+        self.free = tuple(self._free(name) for name in study.vary if isinstance(table.row(name), Input))
+        self.problem = self._problem(limits_of(study, table))
+        self.reference = reference or {name: self._reference(name) for name in study.minimize}
+        self._solvers: dict[bool, Any] = {}
+        self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
+
+    def _free(self, name: str) -> Free:
+        vary = self.study.vary[name]
+        reference = self.model.start[self.model.index[name]]
+        if isinstance(vary, Range):
+            lower, upper = vary.lower, vary.upper
+        else:
+            numbers = [float(value) for value in vary.values]
+            lower, upper = min(numbers), max(numbers)
+        return Free(name, lower, upper, reference if reference != 0.0 else upper)
+
+    def _problem(self, limits: list[Limit]) -> Problem:
+        """The problem without the limits that nothing free can change; those are checked here and now."""
+        free = [f.name for f in self.free]
+        constant = [limit for limit in limits if is_constant(limit, self.table, free)]
+        for limit in constant:
+            value = self.start_values[limit.output]
+            if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
+                raise InfeasibleError(
+                    f"{in_words(limit, self.table)} does not hold, and nothing under `vary` can change it; "
+                    f"vary one of: {', '.join(self._variables_behind(limit.output))}"
+                )
+        kept = [limit for limit in limits if limit not in constant]
+        problem = Problem(self.model, self.free, kept, tuple(self.study.minimize), self.study.solver.elements)
+        problem.check()
+        return problem
+
+    def _variables_behind(self, name: str) -> list[str]:
+        above = self.table.ancestors(name)
+        return [row.name for row in self.table.inputs if row.variable and row.name in above] or ["(nothing can)"]
+
+    def _reference(self, name: str) -> float:
+        value = self.start_values[name]
+        if not np.isfinite(value):
+            horizon = self.model.start[self.model.index["horizon"]]
+            self.progress(f"{name} is not reached by the study's own start within {horizon:g} s")
+            return float(horizon)
+        return value if value != 0.0 else 1.0
+
+    def _solver(self, warm: bool) -> Any:
+        if warm not in self._solvers:
+            options = {
+                **_IPOPT, **(_WARM if warm else {}),
+                "max_iter": self.study.solver.max_iterations, "tol": self.study.solver.tolerance,
+            }  # fmt: skip
+            self._solvers[warm] = ca.nlpsol(
+                "design", "ipopt", self.problem.function, {"ipopt": options, "print_time": False, "expand": self._many}
+            )
+        return self._solvers[warm]
+
+    # --- starts ---
+
+    def begin_points(self) -> Iterator[Array]:
+        """Inputs to start from: the study's own, then random ones between the bounds, seeded."""
+        yield self.model.start
+        random = np.random.default_rng(self.study.solver.seed)
+        for _ in range(self.study.solver.starts - 1):
+            yield self.random_point(random)
+
+    def random_point(self, random: np.random.Generator) -> Array:
+        """Inputs with every free number drawn evenly between its bounds (of its logarithm, where it is positive).
+
+        Drawn again where the model has no value, as for a leg that cannot reach its pin.
+        """
+        for _ in range(MAX_DRAWS):
+            point = self.model.start.copy()
+            for free in self.free:
+                low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
+                point[self.model.index[free.name]] = free.to_value(random.uniform(low, high))
+            if all(np.isfinite(value) for value in self.model.values(point, self.start_switch.values).values()):
+                return point
+        return self.model.start
+
+    def _guess(self, inputs: Array) -> Array:
+        """Unknowns at a point: the free numbers, and the switch simulated there (the start's where it stalls)."""
+        switch = self.simulator.run(inputs) if inputs is not self.model.start else self.start_switch
+        if not np.isfinite(switch.values["response_time"]):
+            switch = self.start_switch
+        parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.free])]
+        for block in self.problem.blocks:
+            end = switch.values[block.event]
+            end = end if np.isfinite(end) else switch.trajectory.times[-1]
+            parts += [guess(switch.trajectory, self.problem.elements).ravel(order="F"), [np.log(max(end, 1e-3))]]
+        for name in self.problem.peaks:
+            row = self.table.row(name)
+            assert isinstance(row, Path)
+            parts.append([switch.values[name] / self.problem.peak_scale(row)])
+        return np.concatenate(parts)
+
+    # --- solving ---
+
+    def solve(self, fixed: Mapping[str, float] | None = None, warm: Run | None = None,
+              begin: Array | None = None) -> Run:  # fmt: skip
+        """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers fixed."""
+        inputs = self.model.start if begin is None else begin
+        clock = time.perf_counter()
+        lower, upper = self._bounds(fixed or {})
+        solver = self._solver(warm is not None)
+        arguments: dict[str, Any] = {"x0": self._guess(inputs) if warm is None else warm.unknowns}
+        if warm is not None:
+            arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
+        weights = [self.study.minimize[name] / self.reference[name] for name in self.problem.minimize]
+        equations = self.problem.equation_count
+        rest = len(self.problem.limits) + self.problem.peak_count
+        answer = solver(
+            **arguments, p=np.concatenate([self.model.start, weights]), lbx=lower, ubx=upper,
+            lbg=np.concatenate([np.zeros(equations), np.full(rest, -np.inf)]), ubg=np.zeros(equations + rest),
+        )  # fmt: skip
+        stats = solver.stats()
+        unknowns = np.asarray(answer["x"]).ravel()
+        seconds = time.perf_counter() - clock
+        self.seconds["solve"] += seconds
+        end = self._inputs_of(unknowns)
+        start = Start(
+            number=0, status=stats["return_status"], converged=bool(stats["success"]),
+            iterations=int(stats["iter_count"]), objective=float(answer["f"]), seconds=seconds,
+            begin=self._free_values(inputs), end=self._free_values(end),
+        )  # fmt: skip
+        return Run(start, end, unknowns, np.asarray(answer["lam_g"]).ravel(), np.asarray(answer["lam_x"]).ravel())
+
+    def _bounds(self, fixed: Mapping[str, float]) -> tuple[Array, Array]:
+        lower = np.full(self.problem.unknown_count, -np.inf)
+        upper = np.full(self.problem.unknown_count, np.inf)
+        for i, free in enumerate(self.free):
+            low, high = (fixed[free.name],) * 2 if free.name in fixed else (free.lower, free.upper)
+            lower[i], upper[i] = free.to_unknown(low), free.to_unknown(high)
+        return lower, upper
+
+    def _inputs_of(self, unknowns: Array) -> Array:
+        inputs = self.model.start.copy()
+        for i, free in enumerate(self.free):
+            inputs[self.model.index[free.name]] = min(max(free.to_value(unknowns[i]), free.lower), free.upper)
+        return inputs
+
+    def _free_values(self, inputs: Array) -> dict[str, float]:
+        return {free.name: float(inputs[self.model.index[free.name]]) for free in self.free}

@@ -1,0 +1,102 @@
+"""Searches a study's design space: every start, every listed size and record, the best of them accounted for."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Input, Table
+from tvimdesign.errors import InputError
+from tvimdesign.solve.account import account
+from tvimdesign.solve.optimizer import Optimizer, Progress, Run
+from tvimdesign.solve.solution import Solution, Start
+from tvimdesign.study import Options, Study
+
+MAX_COMBINATIONS = 500
+
+
+def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = lambda _: None) -> Solution:
+    """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError."""
+    sizes = _listed_sizes(study, table)
+    records = _record_choices(study, table)
+    runs = study.solver.starts + len(sizes)
+    if len(sizes) * len(records) > MAX_COMBINATIONS:
+        raise InputError(
+            f"vary: {len(sizes) * len(records)} combinations of listed choices; the limit is {MAX_COMBINATIONS}; "
+            f"narrow a list with from and to"
+        )
+    best: tuple[Optimizer, Run] | None = None
+    reference: dict[str, float] | None = None
+    starts: list[Start] = []
+    seconds = {"set_up": 0.0, "solve": 0.0}
+    for choice in records:
+        optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress)
+        reference = optimizer.reference
+        for run in _runs(optimizer, sizes, progress):
+            run.start = replace(run.start, number=len(starts), choices=dict(choice))
+            starts.append(run.start)
+            if best is None or _order(run.start) < _order(best[1].start):
+                best = (optimizer, run)
+        seconds = {key: seconds[key] + optimizer.seconds[key] for key in seconds}
+    assert best is not None  # there is always one combination and one start
+    return account(*best, tuple(starts), seconds)
+
+
+def _runs(optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progress) -> Iterator[Run]:
+    """Every start, all free; where sizes are listed, then every combination of them, warm from the best start."""
+    relaxed = []
+    for number, begin in enumerate(optimizer.begin_points()):
+        run = optimizer.solve(begin=begin)
+        relaxed.append(run)
+        progress(
+            f"start {number + 1} of {optimizer.study.solver.starts}: {run.start.status.replace('_', ' ').lower()} "
+            f"after {run.start.iterations} iterations"
+        )
+    if not sizes:
+        yield from relaxed
+        return
+    best = min(relaxed, key=lambda run: _order(run.start))
+    for number, fixed in enumerate(sizes):
+        run = optimizer.solve(fixed, warm=best if best.start.converged else None)
+        if not run.start.converged:
+            run = optimizer.solve(fixed)
+        progress(f"size {number + 1} of {len(sizes)}: {run.start.status.replace('_', ' ').lower()}")
+        yield run
+
+
+def _order(start: Start) -> tuple[bool, float]:
+    return (not start.converged, start.objective)
+
+
+def _listed_sizes(study: Study, table: Table) -> list[dict[str, float]]:
+    """Every combination of the listed sizes of numbers; empty where none is listed."""
+    listed = {
+        name: vary.values
+        for name, vary in study.vary.items()
+        if isinstance(vary, Options) and isinstance(table.row(name), Input)
+    }
+    if not listed:
+        return []
+    return [
+        {name: float(value) for name, value in zip(listed, combination, strict=True)}
+        for combination in itertools.product(*listed.values())
+    ]
+
+
+def _record_choices(study: Study, table: Table) -> list[dict[str, str]]:
+    """Every combination of the records and options a study lists."""
+    listed = {
+        name: [str(value) for value in vary.values]
+        for name, vary in study.vary.items()
+        if isinstance(vary, Options) and not isinstance(table.row(name), Input)
+    }
+    return [dict(zip(listed, combination, strict=True)) for combination in itertools.product(*listed.values())]
+
+
+def _with_records(study: Study, records: Mapping[str, str]) -> Study:
+    if not records:
+        return study
+    vary = {name: value for name, value in study.vary.items() if name not in records}
+    return study.model_copy(update={"module": {**study.module, **records}, "vary": vary})

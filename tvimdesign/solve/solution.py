@@ -1,0 +1,69 @@
+"""What the solver found, as plain records: starts, limits that hold the design, the solution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Switch
+
+SAME_OPTIMUM = 1e-4
+"""Two solutions are the same optimum if their objectives differ by no more than this share."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """One run of the solver: where it began, how it ended."""
+
+    number: int
+    status: str
+    converged: bool
+    iterations: int
+    objective: float
+    seconds: float
+    begin: dict[str, float]
+    end: dict[str, float]
+    choices: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Held:
+    """One limit or bound at the solution: its residual (share of its scale, kept where <= 0) and what it costs.
+
+    `price` is the share of the objective that relaxing it by 1 % of its scale would save, in percent.
+    """
+
+    name: str
+    text: str
+    residual: float
+    price: float
+    origin: str
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The best design found, with the account of how. `inputs` is in the order of `model.names`."""
+
+    status: str
+    feasible: bool
+    model: Model
+    inputs: NDArray[np.float64]
+    switch: Switch
+    values: dict[str, float]
+    objective: float
+    starts: tuple[Start, ...]
+    held: tuple[Held, ...]
+    reference: dict[str, float]
+    """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
+    seconds: dict[str, float]
+
+    def distinct_optima(self) -> list[Start]:
+        """Return one converged start for each different optimum, the best first."""
+        found: list[Start] = []
+        for start in sorted((s for s in self.starts if s.converged), key=lambda s: s.objective):
+            if not any(abs(start.objective - o.objective) <= SAME_OPTIMUM * abs(o.objective) for o in found):
+                found.append(start)
+        return found
