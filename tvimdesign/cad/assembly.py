@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from math import pi
 
 import cadquery as cq
@@ -77,7 +77,7 @@ def installed_springs(
 
 
 def place(
-    dims: Dimensions, drawn: dict[str, cq.Solid], rotor_angle: float = 0.0, progress: Progress | None = None
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0, progress: Progress | None = None
 ) -> dict[str, cq.Solid]:
     """Place the drawn parts, and the springs built for the rotor's angle, by name."""
     placed = {name: turned(drawn[name], 0.0 if name == "housing" else rotor_angle)

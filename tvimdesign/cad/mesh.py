@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil, pi
-from typing import Any
 
 import cadquery as cq
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.cad.assembly import installed_coils, spring_locations
-from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.springs import Coil
-from tvimdesign.errors import GeometryError
 
 CHORD = 0.05
 """Largest distance of a mesh from its part [mm]."""
@@ -55,9 +52,9 @@ def solid_mesh(solid: cq.Solid) -> Mesh:
 
 def spring_mesh(coil: Coil) -> Mesh:
     """Tube around the wire's centre. OCC takes seconds for a swept helix, and the file is ten times as large."""
-    centre, normal = _wire_centre(coil)
-    tangent = _ends(coil, centre)
+    centre, normal, tangent = _wire_centre(coil)
     binormal = np.cross(tangent, normal)
+    # Clockwise about the tangent seen from its tip would turn the tube inside out.
     angle = np.arange(_RING) * 2.0 * pi / _RING
     ring = np.cos(angle)[:, None] * normal[:, None, :] + np.sin(angle)[:, None] * binormal[:, None, :]
     tube = (centre[:, None, :] + 0.5 * coil.wire_diameter * ring).reshape(-1, 3)
@@ -76,35 +73,28 @@ def spring_mesh(coil: Coil) -> Mesh:
     return Mesh(vertices, np.concatenate([part.reshape(-1, 3) for part in (*sides, *caps)]))
 
 
-def _wire_centre(coil: Coil) -> tuple[Array, Array]:
-    """Points along the wire's centre from tang to leg, and at each the unit vector away from the coil's axis."""
+def _wire_centre(coil: Coil) -> tuple[Array, Array, Array]:
+    """Points along the wire's centre from tang to leg; the unit vectors there away from the coil's axis, and along."""
     d, rise, up = coil.wire_diameter, coil.rise, np.array([0.0, 0.0, 1.0])
     step = min(0.25, 2.0 * np.sqrt(CHORD / coil.diameter))
     azimuth = coil.start_azimuth + np.linspace(0.0, 2.0 * pi * coil.turns, ceil(2.0 * pi * coil.turns / step) + 1)
     radial = np.stack((np.cos(azimuth), np.sin(azimuth), 0.0 * azimuth), -1)
+    around = np.cross(up, radial)
     level = coil.start_level + coil.pitch * (azimuth - azimuth[0]) / (2.0 * pi)
     helix = 0.5 * coil.diameter * radial + level[:, None] * up
-    tangent = np.cross(up, radial[0])
-    bend_centre = helix[0] + d * (np.sin(rise) * tangent - np.cos(rise) * up)
-    turn = np.linspace(0.5 * pi, rise, 12)[:-1, None]
-    bend = bend_centre - d * (np.sin(turn) * tangent - np.cos(turn) * up)
+    climb = np.cos(rise) * around + np.sin(rise) * up
+    slope = np.linspace(0.5 * pi, rise, 12)[:-1, None]
+    outward = np.sin(slope) * around[0] - np.cos(slope) * up
+    bend = helix[0] + d * (np.sin(rise) * around[0] - np.cos(rise) * up - outward)
+    bending = np.cos(slope) * around[0] + np.sin(slope) * up
     tang_end = bend[0] - coil.tang_length * up
-    leg_end = helix[-1] + coil.leg_length * (np.cross(up, radial[-1]) + np.tan(rise) * up)
+    leg_end = helix[-1] + coil.leg_length / np.cos(rise) * climb[-1]
     centre = np.vstack((tang_end, bend, helix, leg_end))
-    before = np.repeat(radial[:1], 1 + len(bend), axis=0)
-    return centre, np.vstack((before, radial, radial[-1:]))
+    outwards = np.vstack((np.repeat(radial[:1], 1 + len(bend), axis=0), radial, radial[-1:]))
+    return centre, outwards, np.vstack((up, bending, climb, climb[-1:]))
 
 
-def _ends(coil: Coil, centre: Array) -> Array:
-    """Unit tangents of the wire at the points of its centre."""
-    difference = np.gradient(centre, axis=0)
-    # Where a straight piece meets a bend the neighbours are not evenly spaced; the tangents there are known.
-    difference[0] = difference[1] = (0.0, 0.0, 1.0)
-    difference[-2] = difference[-1] = centre[-1] - centre[-2]
-    return np.asarray(difference / np.linalg.norm(difference, axis=1)[:, None])
-
-
-def part_meshes(dims: Dimensions, drawn: dict[str, cq.Solid], coils: dict[str, Coil]) -> dict[str, Mesh]:
+def part_meshes(drawn: Mapping[str, cq.Solid], coils: Mapping[str, Coil]) -> dict[str, Mesh]:
     """Mesh of each kind of part in its own coordinates; `coils` says which shape the springs have."""
     meshes = {kind: solid_mesh(solid) for kind, solid in drawn.items()}
     meshes["spring_right"] = spring_mesh(coils["spring_right"])

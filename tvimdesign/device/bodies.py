@@ -13,7 +13,7 @@ book = Book("Size and weight")
 LINK_SCREWS = 4
 
 
-@book.output("mm^2")
+@book.output("mm^2", headline=True)
 def pcl_area(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
     """Contact area of all PCL arcs together."""
     return layer.area(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
@@ -212,7 +212,7 @@ def peltier_mass(peltier_volume: Scalar, peltier_density: Scalar) -> Scalar:
     return peltier_volume * peltier_density
 
 
-@book.output("g")
+@book.output("g", headline=True)
 def module_mass(
     housing_mass: Scalar,
     rotor_mass: Scalar,
@@ -238,7 +238,7 @@ def link_inertia(link_section: Section, link_thickness: Scalar, structure_densit
     return link_section.polar * link_thickness * structure_density
 
 
-@book.output("kg*mm^2")
+@book.output("kg*mm^2", headline=True)
 def parts_inertia(
     rotor_inertia: Scalar,
     link_inertia: Scalar,

@@ -55,13 +55,14 @@ class Book:
         per_point: bool = False,
         instant: bool = False,
         hidden: bool = False,
+        headline: bool = False,
     ) -> Callable[[F], F]:
         """Add a function as a row."""
 
         def add(function: F) -> F:
             row = Output(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
                          function=function, per_point=per_point, instant=instant, hidden=hidden,
-                         rules=rules, advice=advice)  # fmt: skip
+                         headline=headline, rules=rules, advice=advice)  # fmt: skip
             self.rows.append(row)
             return function
 
@@ -70,7 +71,14 @@ class Book:
     def event(self, function: F) -> F:
         """Add a time: the first instant at which the function, which rises, passes zero."""
         self.rows.append(
-            Event(name=function.__name__, unit="s", description=_summary(function), group=self.group, function=function)
+            Event(
+                name=function.__name__,
+                unit="s",
+                description=_summary(function),
+                group=self.group,
+                function=function,
+                headline=True,
+            )  # fmt: skip
         )
         return function
 
@@ -78,12 +86,12 @@ class Book:
         """Add an intermediate result that other rows use and nobody asks for."""
         return self.output("1", per_point=per_point, instant=instant, hidden=True)
 
-    def path(self, unit: str, reduce: Literal["integral", "maximum"]) -> Callable[[F], F]:
+    def path(self, unit: str, reduce: Literal["integral", "maximum"], *, headline: bool = False) -> Callable[[F], F]:
         """Add what an instant's value adds up to, or reaches, over the switch."""
 
         def add(function: F) -> F:
             row = Path(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                       function=function, reduce=reduce)  # fmt: skip
+                       function=function, reduce=reduce, headline=headline)  # fmt: skip
             self.rows.append(row)
             return function
 

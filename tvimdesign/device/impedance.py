@@ -99,16 +99,14 @@ def loss_factor(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
     return pcl_moduli[1] / pcl_moduli[0]
 
 
-@book.output("N*m/rad", per_point=True)
+@book.output("N*m/rad", per_point=True, headline=True)
 def pcl_stiffness(storage_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar) -> Scalar:
     """Stiffness of the PCL layer alone, K_PCL."""
     return storage_modulus * layer_polar_moment / pcl_thickness
 
 
-@book.output("N*m*s/rad", per_point=True)
-def pcl_damping(
-    loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar, frequency: Scalar
-) -> Scalar:
+@book.output("N*m*s/rad", per_point=True, headline=True)
+def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar, frequency: Scalar) -> Scalar:
     """Damping of the PCL layer alone, b_PCL."""
     return loss_modulus * layer_polar_moment / pcl_thickness / (2.0 * np.pi * frequency)
 
@@ -145,25 +143,25 @@ def branch_stiffness(
     return layer.series_stiffness(pcl_stiffness, 2.0 * np.pi * frequency * pcl_damping, structure_stiffness)
 
 
-@book.output("N*m/rad", per_point=True)
+@book.output("N*m/rad", per_point=True, headline=True)
 def joint_stiffness(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
     """Stiffness of the joint: springs, parallel to the layer in series with the structure."""
     return spring_stiffness + branch_stiffness[0]
 
 
-@book.output("N*m*s/rad", per_point=True)
+@book.output("N*m*s/rad", per_point=True, headline=True)
 def joint_damping(branch_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
     """Damping of the joint: layer in series with the structure."""
     return branch_stiffness[1] / (2.0 * np.pi * frequency)
 
 
-@book.output("Hz", per_point=True)
+@book.output("Hz", per_point=True, headline=True)
 def natural_frequency(joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
     """Undamped natural frequency of the joint with its load."""
     return dynamics.natural_frequency(joint_stiffness, moving_inertia)
 
 
-@book.output("1", per_point=True)
+@book.output("1", per_point=True, headline=True)
 def damping_ratio(joint_damping: Scalar, joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
     """Damping ratio of the joint with its load; above one it creeps back without ringing."""
     return dynamics.damping_ratio(joint_damping, joint_stiffness, moving_inertia)
@@ -181,7 +179,7 @@ def critical_damping(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar
     return 2.0 * np.sqrt(spring_stiffness * moving_inertia)
 
 
-@book.output("1")
+@book.output("1", headline=True)
 def impedance_range(joint_stiffness_at_cold: Scalar, joint_stiffness_at_hot: Scalar) -> Scalar:
     """Stiffness of the joint cold over hot."""
     return joint_stiffness_at_cold / joint_stiffness_at_hot
@@ -193,7 +191,7 @@ def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -
     return joint_damping_at_cold / joint_damping_at_hot
 
 
-@book.output("1")
+@book.output("1", headline=True)
 def layer_strain(pcl_outer_radius: Scalar, stroke: Scalar, pcl_thickness: Scalar) -> Scalar:
     """Shear strain of the molten layer at its outer radius at full stroke."""
     return layer.shear_strain(pcl_outer_radius, stroke, pcl_thickness)
@@ -205,7 +203,7 @@ def layer_strain_safety(pcl_melt_strain_limit: Scalar, layer_strain: Scalar) -> 
     return pcl_melt_strain_limit / layer_strain
 
 
-@book.output("N*m")
+@book.output("N*m", headline=True)
 def holding_torque(
     pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
 ) -> Scalar:

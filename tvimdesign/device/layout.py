@@ -155,17 +155,13 @@ def coil_start_level(wire_diameter: Scalar, helix_slope: Scalar) -> Scalar:
 
 
 @book.output("mm")
-def coil_end_level(
-    coil_start_level: Scalar, coil_pitch: Scalar, coil_count: Scalar, preload_angle: Scalar
-) -> Scalar:
+def coil_end_level(coil_start_level: Scalar, coil_pitch: Scalar, coil_count: Scalar, preload_angle: Scalar) -> Scalar:
     """Level of the wire's centre where the coils of the preloaded spring end and the rotor-side leg begins."""
     return coil_start_level + coil_pitch * (coil_count + preload_angle / (2.0 * np.pi))
 
 
 @book.output("mm")
-def leg_top_level(
-    coil_end_level: Scalar, helix_slope: Scalar, leg_length: Scalar, wire_diameter: Scalar
-) -> Scalar:
+def leg_top_level(coil_end_level: Scalar, helix_slope: Scalar, leg_length: Scalar, wire_diameter: Scalar) -> Scalar:
     """Highest point of a rotor-side leg, which keeps rising as the coil does."""
     return coil_end_level + helix_slope * leg_length + 0.5 * wire_diameter
 
@@ -291,13 +287,13 @@ def retainer_gap(foot_height: Scalar, retainer_thickness: Scalar, running_cleara
 # --- envelope --------------------------------------------------------------------------------------------------------
 
 
-@book.output("mm")
+@book.output("mm", headline=True)
 def envelope_diameter(housing_outer_radius: Scalar) -> Scalar:
     """Diameter of the module."""
     return 2.0 * housing_outer_radius
 
 
-@book.output("mm")
+@book.output("mm", headline=True)
 def envelope_height(
     foot_height: Scalar, floor_thickness: Scalar, link_bottom_level: Scalar, link_thickness: Scalar
 ) -> Scalar:
@@ -305,7 +301,7 @@ def envelope_height(
     return foot_height + floor_thickness + link_bottom_level + link_thickness
 
 
-@book.output("cm^3")
+@book.output("cm^3", headline=True)
 def envelope_volume(envelope_diameter: Scalar, envelope_height: Scalar) -> Scalar:
     """Volume of the cylinder that holds the module."""
     return 0.25 * np.pi * envelope_diameter**2 * envelope_height

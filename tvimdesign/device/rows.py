@@ -77,6 +77,8 @@ class Output:
     instant: bool = False
     hidden: bool = False
     """An intermediate result, of any type, that other rows use and nobody asks for."""
+    headline: bool = False
+    """Whether the row stands in a summary."""
     rules: tuple[Rule, ...] = ()
     """Limits that hold in every study, unless the study sets its own for this row in the same sense."""
     advice: tuple[Rule, ...] = ()

@@ -28,7 +28,7 @@ def active_coils(coil_count: Scalar, coil_diameter: Scalar, leg_arm: Scalar, leg
     return spring.active_coils(coil_count, coil_diameter, leg_arm if leg_model == "bending" else 0.0)
 
 
-@book.output("N*m/rad")
+@book.output("N*m/rad", headline=True)
 def spring_rate(
     spring_youngs_modulus: Scalar,
     wire_diameter: Scalar,
@@ -48,9 +48,7 @@ def spring_index(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
 
 
 @book.output("1")
-def transmission_ratio(
-    pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
-) -> Scalar:
+def transmission_ratio(pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str) -> Scalar:
     """Winding of a spring per angle of the rotor at rest."""
     if transmission == "unity":
         return 1.0
@@ -68,7 +66,7 @@ def transmission_curvature(
     return leg_curvature(pin_radius, placement_radius, 0.0, leg_offset)
 
 
-@book.output("N*m/rad")
+@book.output("N*m/rad", headline=True)
 def spring_stiffness(
     spring_count: Scalar,
     spring_rate: Scalar,
@@ -114,9 +112,7 @@ def preload_reserve(preload_angle: Scalar, spring_unwinding: Scalar) -> Scalar:
 
 
 @book.helper()
-def stress_per_angle(
-    spring_rate: Scalar, wire_diameter: Scalar, spring_index: Scalar
-) -> Scalar:
+def stress_per_angle(spring_rate: Scalar, wire_diameter: Scalar, spring_index: Scalar) -> Scalar:
     """Stress at the inner fibre per radian of winding [Pa]."""
     return spring.bending_stress(spring_rate, wire_diameter, spring.inner_fibre_factor(spring_index))
 
@@ -134,7 +130,7 @@ def spring_tensile_strength(wire_diameter: Scalar, spring_material: Record) -> S
     return spring.tensile_strength(wire_diameter, [(row["coefficient"], row["exponent"]) for row in rows])
 
 
-@book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield"))
+@book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield"), headline=True)
 def spring_static_safety(
     spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, spring_winding: Scalar
 ) -> Scalar:
@@ -142,7 +138,9 @@ def spring_static_safety(
     return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * spring_winding)
 
 
-@book.output("1", advice=(Rule(sense=">=", value=1.0, reason="the spring would break before 1e6 cycles"),))
+@book.output(
+    "1", advice=(Rule(sense=">=", value=1.0, reason="the spring would break before 1e6 cycles"),), headline=True
+)
 def spring_fatigue_safety(
     stress_per_angle: Scalar,
     spring_winding: Scalar,

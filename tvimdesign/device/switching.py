@@ -140,9 +140,7 @@ def mean_temperature(stack_profile: heat.Profile) -> Scalar:
 
 
 @book.output("Pa", instant=True)
-def layer_modulus(
-    stack_profile: heat.Profile, pcl_rheology: polymer.Rheology, frequency_at_hot: Scalar
-) -> Scalar:
+def layer_modulus(stack_profile: heat.Profile, pcl_rheology: polymer.Rheology, frequency_at_hot: Scalar) -> Scalar:
     """Magnitude of the layer's complex modulus, its slices in series."""
     slices = [
         polymer.moduli(t, x, 2.0 * np.pi * frequency_at_hot, pcl_rheology)
@@ -205,13 +203,13 @@ def response_time(
 # --- over the switch -------------------------------------------------------------------------------------------------
 
 
-@book.path("J", "integral")
+@book.path("J", "integral", headline=True)
 def switch_energy(electrical_power: Scalar) -> Scalar:
     """Electrical energy of one switch."""
     return electrical_power
 
 
-@book.path("W", "maximum")
+@book.path("W", "maximum", headline=True)
 def peak_power(electrical_power: Scalar) -> Scalar:
     """Highest electrical power during the switch."""
     return electrical_power

@@ -36,9 +36,7 @@ class Limit:
 
 def limits_of(study: Study, table: Table) -> list[Limit]:
     """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense."""
-    own = [
-        Limit(r.output, r.sense, r.limit, _scale(table, r.output, r.limit), "require") for r in study.require
-    ]
+    own = [Limit(r.output, r.sense, r.limit, _scale(table, r.output, r.limit), "require") for r in study.require]
     taken = {(limit.output, limit.sense) for limit in own}
     for row in table.outputs:
         for rule in row.rules:

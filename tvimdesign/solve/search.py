@@ -34,8 +34,8 @@ def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = 
     for choice in records:
         optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress)
         reference = optimizer.reference
-        for run in _runs(optimizer, sizes, progress):
-            run.start = replace(run.start, number=len(starts), choices=dict(choice))
+        for run, size in _runs(optimizer, sizes, progress):
+            run.start = replace(run.start, number=len(starts), choices={**choice, **size})
             starts.append(run.start)
             if best is None or _order(run.start) < _order(best[1].start):
                 best = (optimizer, run)
@@ -44,7 +44,7 @@ def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = 
     return account(*best, tuple(starts), seconds)
 
 
-def _runs(optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progress) -> Iterator[Run]:
+def _runs(optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progress) -> Iterator[tuple[Run, dict[str, float]]]:
     """Every start, all free; where sizes are listed, then every combination of them, warm from the best start."""
     relaxed = []
     for number, begin in enumerate(optimizer.begin_points()):
@@ -55,7 +55,7 @@ def _runs(optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progres
             f"after {run.start.iterations} iterations"
         )
     if not sizes:
-        yield from relaxed
+        yield from ((run, {}) for run in relaxed)
         return
     best = min(relaxed, key=lambda run: _order(run.start))
     for number, fixed in enumerate(sizes):
@@ -63,7 +63,7 @@ def _runs(optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progres
         if not run.start.converged:
             run = optimizer.solve(fixed)
         progress(f"size {number + 1} of {len(sizes)}: {run.start.status.replace('_', ' ').lower()}")
-        yield run
+        yield run, fixed
 
 
 def _order(start: Start) -> tuple[bool, float]:

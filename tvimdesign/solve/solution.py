@@ -26,7 +26,8 @@ class Start:
     seconds: float
     begin: dict[str, float]
     end: dict[str, float]
-    choices: dict[str, str] = field(default_factory=dict)
+    choices: dict[str, str | float] = field(default_factory=dict)
+    """The listed records and sizes this run was held to."""
 
 
 @dataclass(frozen=True)
@@ -61,9 +62,10 @@ class Solution:
     seconds: dict[str, float]
 
     def distinct_optima(self) -> list[Start]:
-        """Return one converged start for each different optimum, the best first."""
+        """Return one converged start for each different optimum of the best choices, the best first."""
         found: list[Start] = []
-        for start in sorted((s for s in self.starts if s.converged), key=lambda s: s.objective):
+        converged = sorted((s for s in self.starts if s.converged), key=lambda s: s.objective)
+        for start in (s for s in converged if s.choices == converged[0].choices):
             if not any(abs(start.objective - o.objective) <= SAME_OPTIMUM * abs(o.objective) for o in found):
                 found.append(start)
         return found

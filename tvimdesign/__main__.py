@@ -1,0 +1,5 @@
+"""`python -m tvimdesign` is `tvimdesign`."""
+
+from tvimdesign.cli import main
+
+main()

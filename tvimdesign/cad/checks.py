@@ -1,0 +1,118 @@
+"""Holds the built parts against the design: sound solids, the sizes the model used, and no part in another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import combinations
+
+import cadquery as cq
+from OCP.BRepGProp import BRepGProp
+from OCP.gp import gp
+from OCP.GProp import GProp_GProps
+
+from tvimdesign.cad.assembly import place
+from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.kinds import KINDS, SPRINGS, TURNING, kind_of
+from tvimdesign.cad.outcome import Check
+from tvimdesign.study.design import Design
+
+MODEL_TOLERANCE = 0.005
+"""How far volumes, masses and inertias of the solids may be from the rows of the table."""
+ENVELOPE_TOLERANCE = 1e-6
+TOUCHING = 0.01
+"""Common volume [mm^3] up to which two parts touch rather than cut each other."""
+_FIXED = ("housing", "peltier_pad", "pcl_arc")
+_MM3, _MM5 = 1e-9, 1e-15
+
+
+def all_checks(
+    design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], progress: Callable[[str], None] | None = None
+) -> list[Check]:
+    """Run every check at rest and through the stroke."""
+    say = progress or (lambda _: None)
+    at_rest = place(dims, drawn)
+    say("sizes")
+    found = [*size_checks(design, at_rest), *envelope_checks(dims, at_rest)]
+    say("interference at rest")
+    found += interference_checks(at_rest, "at rest")
+    for share in (-1.0, -0.5, 0.5, 1.0):
+        angle = share * dims.stroke
+        say(f"interference at {angle:+.4f} rad")
+        moved = place(dims, drawn, angle)
+        found += interference_checks(moved, f"at {angle:+.4f} rad", lambda a, b: _group(a) != _group(b))
+    return found
+
+
+def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:
+    """Volume, mass and inertia of the solids against the rows of the design."""
+    by_kind: dict[str, list[cq.Solid]] = {kind: [] for kind in KINDS}
+    for name, solid in placed.items():
+        by_kind[kind_of(name)].append(solid)
+    mass = inertia = 0.0
+    for kind, solids in by_kind.items():
+        one = kind in SPRINGS  # the row is the volume of one spring, of the others that of all of a kind
+        volume = sum(solid.Volume() for solid in solids) * _MM3
+        density = design.value(KINDS[kind].density)
+        mass += volume * density
+        yield _against(f"{kind}_volume", volume / (len(solids) if one else 1), design.value(KINDS[kind].volume))
+        if kind in TURNING:
+            about_axis = density * _MM5 * sum(_polar_moment(solid) for solid in solids)
+            inertia += about_axis
+            if f"{kind}_inertia" in design.values:
+                yield _against(f"{kind}_inertia", about_axis, design.value(f"{kind}_inertia"))
+    yield _against("parts_inertia", inertia, design.value("parts_inertia"))
+    yield _against("module_mass", mass, design.value("module_mass"))
+
+
+def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:
+    """Diameter and height of the whole module at rest against the rows, to rounding."""
+    boxes = [solid.BoundingBox() for solid in placed.values()]
+    height = max(box.zmax for box in boxes) - min(box.zmin for box in boxes)
+    width = max(box.ymax for box in boxes) - min(box.ymin for box in boxes)
+    yield _against("envelope_height", height, dims.envelope_height, ENVELOPE_TOLERANCE)
+    yield _against("envelope_diameter", width, dims.envelope_diameter, ENVELOPE_TOLERANCE)
+
+
+def interference_checks(
+    placed: Mapping[str, cq.Solid], where: str, wanted: Callable[[str, str], bool] = lambda _a, _b: True
+) -> Iterator[Check]:
+    """Common volume of every wanted pair whose boxes overlap; one check that says how many pairs are apart."""
+    boxes = {name: solid.BoundingBox() for name, solid in placed.items()}
+    apart = 0
+    for first, second in combinations(placed, 2):
+        if not wanted(first, second):
+            continue
+        if not _overlap(boxes[first], boxes[second]):
+            apart += 1
+            continue
+        common = placed[first].intersect(placed[second]).Volume()
+        text = f"{first} and {second} share {common:.4g} mm3 {where}"
+        yield Check(f"{first} | {second} {where}", common, TOUCHING, common < TOUCHING, text)
+    yield Check(f"pairs apart {where}", apart, 0.0, True, f"{apart} pairs are apart by their boxes {where}")
+
+
+def _group(name: str) -> str:
+    """Parts of one group do not move against each other; each spring is its own."""
+    kind = kind_of(name)
+    return "fixed" if kind in _FIXED else "turning" if kind in TURNING else name
+
+
+def _against(name: str, built: float, model: float, tolerance: float = MODEL_TOLERANCE) -> Check:
+    deviation = built / model - 1.0
+    text = f"{name}: solid {built:.6g}, model {model:.6g}"
+    return Check(name, deviation, tolerance, abs(deviation) <= tolerance, text)
+
+
+def _polar_moment(solid: cq.Solid) -> float:
+    """Integral of the squared distance from the rotor's axis over the solid [mm^5]."""
+    properties = GProp_GProps()
+    BRepGProp.VolumeProperties_s(solid.wrapped, properties)
+    return float(properties.MomentOfInertia(gp.OZ_s()))
+
+
+def _overlap(a: cq.BoundBox, b: cq.BoundBox) -> bool:
+    """Whether two boxes share more than a face."""
+    return all(
+        getattr(a, f"{axis}min") < getattr(b, f"{axis}max") and getattr(b, f"{axis}min") < getattr(a, f"{axis}max")
+        for axis in "xyz"
+    )

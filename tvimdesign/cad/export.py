@@ -1,0 +1,96 @@
+"""Writes the parts and the assembly: STEP and STL of each part, STEP and GLB of the whole, each file whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import cadquery as cq
+import numpy as np
+import trimesh
+
+from tvimdesign.cad.assembly import free_springs, installed_coils, place
+from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.kinds import KINDS, kind_of
+from tvimdesign.cad.mesh import Array, Instance, Mesh, part_meshes
+from tvimdesign.cad.springs import free_coil
+from tvimdesign.cad.step import Product, write_assembly, write_part
+from tvimdesign.errors import GeometryError
+from tvimdesign.study.design import Design, write_whole
+
+_TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1.0]])
+"""glTF measures in metres and its y axis points up."""
+
+
+def export(
+    design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], out: Path, progress: Callable[[str], None]
+) -> list[str]:
+    """Write every file into `out`; returns their paths relative to it. Raises GeometryError where one cannot be made."""
+    folder = out / "parts"
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    free = free_springs(dims)
+    coil = free_coil(dims)
+    meshes = part_meshes(drawn, {"spring_right": coil, "spring_left": coil})
+    for kind, solid in {**drawn, **free}.items():
+        progress(f"writing {kind}")
+        write_part(folder / f"{kind}.step", solid, product(design, kind))
+        write_whole(folder / f"{kind}.stl", stl_bytes(kind, meshes[kind]))
+        files += [f"parts/{kind}.step", f"parts/{kind}.stl"]
+    progress("writing assembly")
+    placed = place(dims, drawn)
+    products = {name: product(design, kind_of(name)) for name in placed}
+    write_assembly(out / "assembly.step", design.name, placed, products)
+    write_whole(out / "assembly.glb", glb_bytes(instances(dims, drawn, placed)))
+    return [*files, "assembly.step", "assembly.glb"]
+
+
+def product(design: Design, kind: str) -> Product:
+    """Return what a STEP file says of a kind of part."""
+    made_of = KINDS[kind]
+    material = design.choices.get(made_of.material, made_of.material)
+    return Product(name=kind, colour=made_of.colour, material=material, density=design.value(made_of.density))
+
+
+def instances(dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, cq.Solid]) -> dict[str, Instance]:
+    """Mesh and place of every part at rest, by name."""
+    meshes = part_meshes(drawn, installed_coils(dims))
+    return {name: Instance(meshes[kind_of(name)], _matrix(solid.location())) for name, solid in placed.items()}
+
+
+def stl_bytes(name: str, mesh: Mesh) -> bytes:
+    """Return a mesh as binary STL in millimetres; raises GeometryError where it does not enclose a body."""
+    body = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+    body.merge_vertices(digits_vertex=6, merge_norm=True, merge_tex=True)
+    if not body.is_watertight or body.volume <= 0.0:
+        raise GeometryError(f"{name}: its triangle mesh is not watertight; the STEP file is sound, print from that")
+    return bytes(body.export(file_type="stl"))
+
+
+def glb_bytes(placed: Mapping[str, Instance]) -> bytes:
+    """Return the assembly as binary glTF, named and coloured; copies of a part share its mesh."""
+    scene = trimesh.Scene()
+    known: set[str] = set()
+    for name, instance in placed.items():
+        kind = kind_of(name)
+        matrix = _TO_GLTF @ instance.matrix
+        if kind in known:
+            scene.graph.update(frame_to=name, matrix=matrix, geometry=kind)
+            continue
+        known.add(kind)
+        material = trimesh.visual.material.PBRMaterial(
+            name=kind, baseColorFactor=[*KINDS[kind].colour, 1.0], metallicFactor=0.1, roughnessFactor=0.6
+        )
+        body = trimesh.Trimesh(
+            instance.mesh.vertices, instance.mesh.faces, process=False,
+            visual=trimesh.visual.TextureVisuals(material=material),
+        )  # fmt: skip
+        scene.add_geometry(body, node_name=name, geom_name=kind, transform=matrix)
+    return bytes(scene.export(file_type="glb", include_normals=True))
+
+
+def _matrix(location: cq.Location) -> Array:
+    """4 x 4 matrix of a location."""
+    place_of = location.wrapped.Transformation()
+    rows = [[place_of.Value(row, column) for column in range(1, 5)] for row in range(1, 4)]
+    return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])

@@ -1,0 +1,106 @@
+"""Makes the parts of a design in a child process that is ended when it takes too long."""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO, Any
+
+import tvimdesign
+from tvimdesign.cad.outcome import CadReport, Check
+from tvimdesign.errors import GeometryError, InputError
+
+TIMEOUT = 300.0
+"""Seconds; a module takes about ten."""
+
+
+def make_cad(
+    design_path: Path, out: Path, timeout_s: float = TIMEOUT, progress: Callable[[str], None] | None = None
+) -> CadReport:
+    """Build, check and write the parts of the design file into the folder `out`.
+
+    `progress` is told each step. The files are written even where a check fails (`report.failed`), so that one can look
+    at what collides. Raises GeometryError, naming the part, where one cannot be built, the process crashes or
+    `timeout_s` [s] have passed; InputError where the design cannot be read.
+    """
+    out.mkdir(parents=True, exist_ok=True)
+    state: dict[str, Any] = {"progress": "starting"}
+    with tempfile.TemporaryFile() as talk:
+        process = _start(design_path, out, talk)
+        try:
+            for message in _messages(process, time.monotonic() + timeout_s):
+                state |= message
+                if progress and "progress" in message:
+                    progress(message["progress"])
+            code = process.wait(timeout=10.0)
+        except TimeoutError:
+            code = None
+        finally:
+            process.kill()
+            process.wait()
+        return _report(out, state, code, timeout_s, _tail(talk))
+
+
+def _start(design_path: Path, out: Path, talk: IO[bytes]) -> subprocess.Popen[str]:
+    here = str(Path(tvimdesign.__file__).parents[1])
+    paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
+    return subprocess.Popen(
+        [sys.executable, "-m", "tvimdesign.cad.job", str(design_path.resolve()), str(out.resolve())],
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=talk, text=True, encoding="utf-8",
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+    )  # fmt: skip
+
+
+def _messages(process: subprocess.Popen[str], deadline: float) -> Iterator[dict[str, Any]]:
+    """What the child says, until it ends; raises TimeoutError at the deadline."""
+    said: queue.Queue[str | None] = queue.Queue()
+
+    def listen() -> None:
+        assert process.stdout is not None
+        with process.stdout:
+            for line in process.stdout:
+                said.put(line)
+        said.put(None)
+
+    threading.Thread(target=listen, daemon=True).start()
+    while True:
+        try:
+            line = said.get(timeout=max(0.0, deadline - time.monotonic()))
+        except queue.Empty:
+            raise TimeoutError from None
+        if line is None:
+            return
+        message = json.loads(line)
+        yield message
+
+
+def _report(out: Path, state: dict[str, Any], code: int | None, timeout_s: float, tail: str) -> CadReport:
+    """Turn what the child said, and how it ended, into a report or an error."""
+    why = f"no answer in {timeout_s:g} s" if code is None else f"the CAD process ended with code {code}"
+    if "error" in state:
+        raise (GeometryError if state["code"] == GeometryError.exit_code else InputError)(state["error"])
+    if "checks" not in state:
+        raise GeometryError(f"{state['progress']}: {why}{f' ({tail})' if tail else ''}; no parts were made")
+    pictured = "picture" in state
+    return CadReport(
+        folder=out,
+        files=tuple(state["files"]) + ((state["picture"],) if pictured else ()),
+        checks=tuple(Check(**check) for check in state["checks"]),
+        seconds=state["seconds"],
+        notes=() if pictured else (f"no preview.png: {why}",),
+    )
+
+
+def _tail(talk: IO[bytes]) -> str:
+    """Last line of what the child wrote to standard error."""
+    talk.seek(0)
+    written = talk.read().decode(errors="replace").strip().splitlines()
+    return written[-1] if written else ""

@@ -1,0 +1,142 @@
+"""The command line: thin, and quick to answer; what a command needs is imported when the command runs."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from tvimdesign.errors import InputError, TvimError
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="Size thermo-active variable impedance modules: a study file in, a module that can be made out.",
+    epilog="Exit codes: 0 done, 2 bad input, 3 infeasible or not converged, 4 partly done, 130 interrupted.",
+)
+
+StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (YAML).")]
+Out = Annotated[Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study> unless given.")]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the results of an earlier run in that folder.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print results as JSON.")]
+
+
+@app.callback()
+def _options(
+    version: Annotated[bool, typer.Option("--version", help="Print the version.", is_eager=True)] = False,
+) -> None:
+    if version:
+        from tvimdesign import __version__
+
+        typer.echo(__version__)
+        raise typer.Exit
+
+
+@app.command()
+def run(
+    study: StudyFile,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    cad: Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, STL, GLB, preview.")] = True,
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
+    json: AsJson = False,
+) -> None:
+    """Evaluate or optimise a study and write a folder of results."""
+    from tvimdesign.report.run import run_study
+
+    run_study(study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, as_json=json)
+
+
+@app.command()
+def check(study: StudyFile, json: AsJson = False) -> None:
+    """Read a study and say everything that is wrong with it."""
+    from tvimdesign.report.run import describe
+    from tvimdesign.study import read_study
+
+    found = read_study(study)
+    typer.echo(found.model_dump_json(indent=2) if json else describe(found))
+
+
+@app.command()
+def new(
+    file: Annotated[Path, typer.Argument(help="Study file to write.")] = Path("study.yaml"),
+) -> None:
+    """Write a commented study to start from."""
+    from tvimdesign.study import template_text
+
+    try:
+        with file.open("x", encoding="utf-8") as stream:
+            stream.write(template_text())
+    except FileExistsError as error:
+        raise InputError(f"{file}: exists already; name another file") from error
+    except OSError as error:
+        raise InputError(f"{file}: cannot be written: {error.strerror}") from error
+    typer.echo(f"{file} written; next: tvimdesign run {file}")
+
+
+@app.command()
+def cad(
+    design: Annotated[Path, typer.Argument(metavar="DESIGN|STUDY", help="design.json of a run, or a study file.")],
+    out: Out = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
+    """Make the parts of a design: STEP, STL, GLB, preview, and the checks on the solids."""
+    from tvimdesign.report.run import make_parts
+
+    make_parts(design, out or _default_folder(design), overwrite=overwrite, as_json=json)
+
+
+@app.command()
+def ledger(json: AsJson = False) -> None:
+    """Print the paper against its own numbers, as computed by this code."""
+    from tvimdesign.report.ledger import print_ledger
+
+    print_ledger(as_json=json)
+
+
+@app.command()
+def rows(
+    mode: Annotated[str, typer.Option("--mode", help="Mode whose rows are listed.")] = "shear",
+    match: Annotated[str, typer.Argument(help="Only rows with this in their name or description.")] = "",
+    json: AsJson = False,
+) -> None:
+    """List the names a study may use: variables, choices and outputs, with units and limits."""
+    from tvimdesign.report.rows import print_rows
+
+    print_rows(mode, match, as_json=json)
+
+
+def _default_folder(source: Path) -> Path:
+    """results/<study>, or cad beside a run's design.json."""
+    return source.parent / "cad" if source.suffix == ".json" else Path("results") / source.stem
+
+
+def main() -> None:
+    """Run the command line; every error is a message and an exit code, never a traceback."""
+    sys.exit(_guarded(lambda: app(standalone_mode=False)))
+
+
+def _guarded(command: Callable[[], Any]) -> int:
+    import click
+
+    try:
+        code = command()
+        return code if isinstance(code, int) else 0
+    except TvimError as error:
+        sys.stderr.write(f"{error}\n")
+        return error.exit_code
+    except click.ClickException as error:
+        error.show()
+        return 2
+    except (KeyboardInterrupt, click.exceptions.Abort):
+        sys.stderr.write("interrupted; what was finished is kept\n")
+        return 130
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 0

@@ -1,0 +1,1 @@
+"""Tables, plots, the results folder and the ledger: how an answer is told."""

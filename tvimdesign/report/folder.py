@@ -1,0 +1,122 @@
+"""The results folder: every file whole, a manifest of what made it, nobody else's files touched."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+import shutil
+import subprocess
+from datetime import UTC, datetime
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from tvimdesign import __version__
+from tvimdesign.errors import InputError
+from tvimdesign.study.design import write_whole
+
+MANIFEST = "manifest.json"
+_LIBRARIES = ("casadi", "numpy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh")
+
+
+class ResultsFolder:
+    """A folder that one run writes; files go in whole, and the manifest says which and with what hash."""
+
+    def __init__(self, path: Path, overwrite: bool = False) -> None:
+        """Make the folder, or empty it of an earlier run's files where `overwrite` says so. Raises InputError."""
+        self.path = path
+        self._started = datetime.now(UTC)
+        try:
+            self._claim(overwrite)
+        except OSError as error:
+            raise InputError(f"{path}: cannot be used as a results folder: {error.strerror}") from error
+
+    def _claim(self, overwrite: bool) -> None:
+        if self.path.exists() and not self.path.is_dir():
+            raise InputError(f"{self.path}: is a file; name a folder with --out")
+        self.path.mkdir(parents=True, exist_ok=True)
+        if not any(self.path.iterdir()):
+            return
+        manifest = self.path / MANIFEST
+        if not overwrite:
+            raise InputError(
+                f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder"
+            )
+        if not manifest.exists():
+            raise InputError(f"{self.path}: not a folder of results (no {MANIFEST}); --overwrite would lose other files")
+        for name in _listed(manifest):
+            target = (self.path / name).resolve()
+            if target.is_relative_to(self.path.resolve()):
+                target.unlink(missing_ok=True)
+        for folder in ("plots", "cad"):
+            _remove_if_empty(self.path / folder)
+
+    def write(self, name: str, data: str | bytes) -> Path:
+        """Write one file, whole."""
+        path = self.path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, data.encode() if isinstance(data, str) else data)
+        return path
+
+    def write_json(self, name: str, data: Any) -> Path:
+        """Write one JSON file, whole; infinities are not JSON and raise ValueError."""
+        return self.write(name, json.dumps(data, indent=2, allow_nan=False) + "\n")
+
+    def finish(self, status: str, inputs: dict[str, Path], study: dict[str, Any]) -> None:
+        """Write the manifest: versions, commit, seed, hashes of what went in and of what came out."""
+        files = sorted(p for p in self.path.rglob("*") if p.is_file() and p.name != MANIFEST)
+        self.write_json(
+            MANIFEST,
+            {
+                "status": status,
+                "tvimdesign": __version__,
+                "commit": _commit(),
+                "python": platform.python_version(),
+                "platform": platform.platform(),
+                "libraries": {name: _version(name) for name in _LIBRARIES},
+                "started": self._started.isoformat(timespec="seconds"),
+                "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
+                "seed": study.get("solver", {}).get("seed"),
+                "inputs": {name: _hash(path) for name, path in inputs.items()},
+                "files": {p.relative_to(self.path).as_posix(): _hash(p) for p in files},
+            },
+        )
+
+
+def _listed(manifest: Path) -> list[str]:
+    """Files an earlier run says it wrote, with the manifest itself."""
+    try:
+        return [*json.loads(manifest.read_bytes()).get("files", {}), MANIFEST]
+    except (ValueError, AttributeError) as error:
+        raise InputError(f"{manifest}: not a manifest tvimdesign wrote; --overwrite would lose other files") from error
+
+
+def _remove_if_empty(folder: Path) -> None:
+    if folder.is_dir() and not any(p.is_file() for p in folder.rglob("*")):
+        shutil.rmtree(folder)
+
+
+def _hash(path: Path) -> str:
+    return "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _version(name: str) -> str | None:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def _commit() -> str | None:
+    """Commit of the source tree this package runs from, or None when it runs from an installed wheel."""
+    source = Path(__file__).resolve().parents[2]
+    if not (source / ".git").exists():
+        return None
+    try:
+        found = subprocess.run(
+            ["git", "rev-parse", "HEAD"], cwd=source, capture_output=True, text=True, timeout=5, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return found.stdout.strip() or None

@@ -1,0 +1,65 @@
+"""What the figures are drawn from: an answer's numbers in the units of the axes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from tvimdesign.device import Output, Table
+from tvimdesign.solve.answer import Answer
+from tvimdesign.study.design import Design
+from tvimdesign.units import from_si, pretty
+
+
+def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
+    """Data of every figure by the figure's name."""
+    design = answer.design
+
+    def shown(name: str) -> float:
+        return from_si(design.value(name), table.unit(name))
+
+    melting = [shown("pcl_melting_start"), shown("pcl_melting_end")]
+    return {
+        "switch_temperatures": {
+            "history": answer.history,
+            "melting": melting,
+            "target": shown("target_temperature"),
+            "thickness": shown("pcl_thickness"),
+        },
+        "impedance": {
+            "sweep": answer.sweep,
+            "melting": melting,
+            "frequency": shown("frequency@hot"),
+            "springs": shown("spring_stiffness"),
+        },
+        "mass": {"parts": _parts(design, table)},
+        "bounds": {"free": _free(answer, table), "limits": _limits(answer)},
+    }
+
+
+def _parts(design: Design, table: Table) -> dict[str, float]:
+    """Mass [g] of each part: the rows the module's mass is the sum of."""
+    total = table.row("module_mass")
+    assert isinstance(total, Output)
+    return {name.removesuffix("_mass"): from_si(design.value(name), "g") for name in total.needs}
+
+
+def _free(answer: Answer, table: Table) -> list[dict[str, Any]]:
+    if answer.solution is None:
+        return []
+    rows = []
+    for name, begin in answer.solution.starts[0].begin.items():
+        vary, value = answer.design.study["vary"][name], answer.design.value(name)
+        lower, upper = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
+        width = (upper - lower) or 1.0
+        unit = table.unit(name)
+        text = f"{from_si(value, unit):.4g} {pretty(unit)}"
+        rows.append({"name": name, "share": (value - lower) / width, "start": (begin - lower) / width, "text": text})
+    return rows
+
+
+def _limits(answer: Answer) -> list[dict[str, Any]]:
+    return [
+        {"name": check.text, "margin": check.margin if math.isfinite(check.margin) else -1.0, "kept": check.kept}
+        for check in answer.checks
+    ]

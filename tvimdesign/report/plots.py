@@ -1,0 +1,70 @@
+"""Draws a run's plots from plain data, in a process of its own that loads matplotlib while the solver works.
+
+Run as `python -m tvimdesign.report.plots`: reads one JSON object on standard input, `{"folder": ..., "plots": {...}}`,
+and writes PNG files. `PlotProcess` is the other end.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import subprocess
+import sys
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from tvimdesign.errors import TvimError
+from tvimdesign.study.design import write_whole
+
+TIME_LIMIT = 120.0  # s
+
+
+class PlotProcess:
+    """A process that has matplotlib loaded by the time there is something to draw; stopped if there never is."""
+
+    def __init__(self) -> None:
+        """Start it."""
+        self._child = subprocess.Popen(
+            [sys.executable, "-m", "tvimdesign.report.plots"],
+            stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        )  # fmt: skip
+
+    def __enter__(self) -> PlotProcess:
+        """Return itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        """End the process if it has not ended."""
+        if self._child.poll() is None:
+            self._child.kill()
+        self._child.communicate()
+
+    def draw(self, folder: Path, plots: dict[str, Any]) -> None:
+        """Draw every plot into the folder. Raises TvimError where that fails."""
+        message = json.dumps({"folder": str(folder.resolve()), "plots": plots}).encode()
+        try:
+            _, complaint = self._child.communicate(message, timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired as error:
+            raise TvimError(f"the plots took longer than {TIME_LIMIT:g} s and were stopped") from error
+        if self._child.returncode != 0:
+            last = complaint.decode(errors="replace").strip().splitlines()[-1:]
+            raise TvimError(f"the plots could not be drawn: {' '.join(last)}")
+
+
+def main() -> None:
+    """Load matplotlib, wait for the data, draw."""
+    from tvimdesign.report import figures
+
+    request = json.load(sys.stdin)
+    folder = Path(request["folder"])
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, data in request["plots"].items():
+        figure = getattr(figures, name)(data)
+        stream = io.BytesIO()
+        figure.savefig(stream, format="png", dpi=120, metadata={"Software": None})
+        write_whole(folder / f"{name}.png", stream.getvalue())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,75 @@
+"""Lists the rows of a mode's table: what a study may set, vary, require and minimise."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table as Grid
+
+from tvimdesign.device import Choice, Input, Output, table_for
+from tvimdesign.device.rows import Row
+from tvimdesign.errors import InputError
+from tvimdesign.report.tables import number
+from tvimdesign.units import from_si, pretty
+
+
+def print_rows(mode: str, match: str, as_json: bool) -> None:
+    """Print the rows whose name or description has `match` in it. Raises InputError where none has."""
+    rows = [row for row in table_for(mode).rows if not _internal(row)]
+    found = [row for row in rows if match.lower() in f"{row.name} {row.description}".lower()]
+    if not found:
+        raise InputError(f"no row of {mode} mode has {match!r} in its name or description")
+    if as_json:
+        print(json.dumps([_plain(row) for row in found], indent=2))
+        return
+    console = Console()
+    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
+    for column in ("name", "kind", "unit", "default", "allowed", "meaning"):
+        grid.add_column(column, overflow="fold")
+    group = ""
+    for row in found:
+        if row.group != group:
+            grid.add_section()
+            grid.add_row(f"[bold]{row.group}[/bold]", "", "", "", "", "")
+            group = row.group
+        plain = _plain(row)
+        grid.add_row(
+            plain["name"], plain["kind"], plain["unit"], plain["default"], plain["allowed"], plain["description"]
+        )
+    console.print(grid)
+
+
+def _internal(row: Row) -> bool:
+    return isinstance(row, Output) and (row.hidden or row.instant)
+
+
+def _plain(row: Row) -> dict[str, Any]:
+    if isinstance(row, Choice):
+        allowed = ", ".join(row.options) if row.options else f"a record of {row.shelf}"
+        return _entry(row, "choice", "", row.default, allowed)
+    name = f"{row.name}@point" if row.per_point else row.name
+    if isinstance(row, Input):
+        kind = "variable" if row.variable else "input"
+        if row.record:
+            return _entry(row, kind, row.unit, f"from {row.record[0]}", "", name)
+        default = "" if row.default is None else number(from_si(row.default, row.unit))
+        ends = (row.lower, row.upper)
+        allowed = " to ".join(number(from_si(end, row.unit)) if math.isfinite(end) else "any" for end in ends)
+        return _entry(row, kind, row.unit, default, allowed, name)
+    rules = "; ".join(f"{r.sense} {number(from_si(r.value, row.unit))}" for r in row.rules)
+    return _entry(row, "output", row.unit, "", rules, name)
+
+
+def _entry(row: Row, kind: str, unit: str, default: str, allowed: str, name: str = "") -> dict[str, Any]:
+    return {
+        "name": name or row.name,
+        "kind": kind,
+        "unit": pretty(unit),
+        "default": default,
+        "allowed": allowed,
+        "group": row.group,
+        "description": row.description,
+    }

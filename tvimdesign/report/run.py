@@ -1,0 +1,145 @@
+"""One run, from a study file to a finished folder: the order of things, and what the terminal says meanwhile."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from rich.console import Console
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Choice, Table, table_for
+from tvimdesign.errors import TvimError
+from tvimdesign.report.folder import ResultsFolder
+from tvimdesign.study import Study, read_study
+from tvimdesign.study.design import Design, read_design
+
+Progress = Callable[[str], None]
+CAD_TIME_LIMIT = 300.0  # s
+
+
+def describe(study: Study) -> str:
+    """One line on what a valid study asks."""
+    what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
+    return f"{study.name}: valid; {what} under {len(study.require)} requirements ({study.mode} mode)."
+
+
+def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool) -> None:
+    """Answer a study and write its folder. Raises InputError, InfeasibleError, and GeometryError for parts."""
+    from tvimdesign.report.plots import PlotProcess
+
+    study = read_study(path)
+    folder = ResultsFolder(out, overwrite)
+    with ExitStack() as stack:
+        progress = stack.enter_context(_talk())
+        drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
+        _answer(study, path, folder, drawing, progress, make_cad=cad and study.write.cad, as_json=as_json)
+
+
+def _answer(
+    study: Study, path: Path, folder: ResultsFolder, drawing: object, progress: Progress, *, make_cad: bool,
+    as_json: bool,
+) -> None:  # fmt: skip
+    from tvimdesign.report.plot_data import plot_data
+    from tvimdesign.report.plots import PlotProcess
+    from tvimdesign.report.summary import print_summary
+    from tvimdesign.report.tables import curves_csv, results, results_csv
+    from tvimdesign.solve.answer import answer, verdict
+
+    table = table_for(study.mode)
+    catalog = catalog_of(study, path)
+    found = answer(study, catalog, table, progress)
+    told = results(found, table)
+    folder.write("study.yaml", path.read_bytes())
+    folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
+    design = folder.write("design.json", found.design.model_dump_json(indent=2) + "\n")
+    folder.write_json("results.json", told)
+    folder.write("results.csv", results_csv(told["values"]))
+    folder.write("temperatures.csv", curves_csv(found.history))
+    folder.write("impedance.csv", curves_csv(found.sweep))
+    troubles: list[TvimError] = []
+    if isinstance(drawing, PlotProcess):
+        progress("drawing")
+        with _noting(troubles):
+            drawing.draw(folder.path / "plots", plot_data(found, table))
+    converged = found.solution is None or found.design.status == "optimal"
+    if make_cad and converged:
+        with _noting(troubles):
+            _parts(design, folder.path / "cad", progress)
+    folder.finish(found.design.status, {"study": path, **_records(found.design, catalog, table)}, found.design.study)
+    progress("")
+    if as_json:
+        print(json.dumps(told, indent=2, allow_nan=False))
+    else:
+        console = Console()
+        print_summary(found, table, console)
+        console.print(f"\nResults are in [bold]{folder.path}[/bold]", highlight=False, soft_wrap=True)
+    verdict(found)
+    if troubles:
+        raise _partly(troubles)
+
+
+def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
+    """Make the parts of a design.json, or of a study, which is answered first."""
+    if source.suffix != ".json":
+        run_study(source, out, overwrite=overwrite, cad=True, plots=False, as_json=as_json)
+        return
+    design = read_design(source)
+    folder = ResultsFolder(out, overwrite)
+    with _talk() as progress:
+        report = _parts(source, folder.path, progress)
+    folder.finish(design.status, {"design": source}, design.study)
+    if as_json:
+        print(json.dumps(report, indent=2))
+    else:
+        Console().print(f"{len(report['checks'])} checks on the solids hold; parts are in [bold]{out}[/bold]",
+                        highlight=False, soft_wrap=True)  # fmt: skip
+
+
+def _parts(design: Path, out: Path, progress: Progress) -> dict[str, list[object]]:
+    from tvimdesign.cad import make_cad
+
+    progress("parts: starting the CAD kernel")
+    return make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
+
+
+def catalog_of(study: Study, path: Path) -> Catalog:
+    """The catalogue a study uses: the shipped records and those of the folder it names."""
+    return Catalog(path.parent / study.catalog_folder if study.catalog_folder else None)
+
+
+def _records(design: Design, catalog: Catalog, table: Table) -> dict[str, Path]:
+    """Files of the catalogue records a design uses."""
+    return {
+        f"{row.shelf}/{design.choices[row.name]}": catalog.path(row.shelf, design.choices[row.name])
+        for row in table.rows
+        if isinstance(row, Choice) and row.shelf
+    }
+
+
+@contextmanager
+def _talk() -> Iterator[Progress]:
+    """Say on standard error what is going on: one moving line on a terminal, plain lines elsewhere."""
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda text: console.print(f"... {text}", highlight=False, markup=False) if text else None
+        return
+    with console.status("reading") as status:
+        yield lambda text: status.update(text) if text else status.stop()
+
+
+@contextmanager
+def _noting(troubles: list[TvimError]) -> Iterator[None]:
+    """Keep a failure for the end, so that what else can be done is done."""
+    try:
+        yield
+    except TvimError as error:
+        troubles.append(error)
+
+
+def _partly(troubles: list[TvimError]) -> TvimError:
+    error = TvimError("done in part: " + "; ".join(str(trouble) for trouble in troubles))
+    error.exit_code = 4
+    return error

@@ -1,0 +1,115 @@
+"""An answer as rows in the units people read: the tables of the terminal, of results.json and of results.csv."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from tvimdesign.device import Input, Table
+from tvimdesign.solve.answer import Answer, Check
+from tvimdesign.study.design import Design
+from tvimdesign.units import from_si, pretty
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number for people: `digits` significant figures, no needless zeros, `never` for an infinite time."""
+    if math.isinf(value):
+        return "never"
+    text = f"{value:.{digits}g}"
+    return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
+
+
+def headline_rows(design: Design, table: Table) -> list[tuple[str, str, str, str, str]]:
+    """(group, name, value, unit, description) of the rows that stand in a summary."""
+    return [
+        (row.group, name, number(from_si(value, row.unit)), pretty(row.unit), row.description)
+        for name, value in design.values.items()
+        if not isinstance(row := table.row(name), Input) and getattr(row, "headline", False)
+    ]
+
+
+def variable_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str, str]]:
+    """(name, start, optimum, unit, range) of what the study varied."""
+    if answer.solution is None:
+        return []
+    rows = []
+    first = answer.solution.starts[0].begin
+    for name, vary in answer.design.study["vary"].items():
+        if name not in first:
+            rows.append((name, "", answer.design.choices[name], "", ", ".join(str(v) for v in vary["values"])))
+            continue
+        unit = table.unit(name)
+        shown = [number(from_si(value, unit)) for value in (first[name], answer.design.values[name])]
+        ends = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
+        low, high = (number(from_si(end, unit)) for end in ends)
+        rows.append((name, *shown, pretty(unit), f"{low} to {high}" + ("" if "lower" in vary else ", listed")))
+    return rows
+
+
+def check_row(check: Check, table: Table) -> dict[str, Any]:
+    """One check as plain data, in the row's unit."""
+    unit = table.unit(check.output)
+    return {
+        "limit": check.text,
+        "value": _finite(from_si(check.value, unit)),
+        "unit": pretty(unit),
+        "margin": _finite(check.margin),
+        "kept": check.kept,
+        "origin": check.origin,
+    }
+
+
+def results(answer: Answer, table: Table) -> dict[str, Any]:
+    """Everything a script wants to know: every number in its unit, every check, how it was found."""
+    design = answer.design
+    return {
+        "name": design.name,
+        "mode": design.mode,
+        "status": design.status,
+        "feasible": answer.feasible,
+        "choices": design.choices,
+        "values": {name: _entry(name, value, table) for name, value in design.values.items()},
+        "checks": [check_row(check, table) for check in answer.checks],
+        "warnings": [check_row(check, table) for check in answer.warnings],
+        "solution": design.solution,
+    }
+
+
+def _entry(name: str, value: float, table: Table) -> dict[str, Any]:
+    row = table.row(name)
+    unit = table.unit(name)
+    return {
+        "value": _finite(from_si(value, unit)),
+        "unit": pretty(unit),
+        "kind": "input" if isinstance(row, Input) else "output",
+        "group": row.group,
+        "description": row.description,
+    }
+
+
+def _finite(value: float) -> float | None:
+    """JSON has no infinity: what never happens is null."""
+    return value if math.isfinite(value) else None
+
+
+def results_csv(entries: Mapping[str, Mapping[str, Any]]) -> str:
+    """The values of `results` as CSV."""
+    stream = io.StringIO()
+    columns = ["name", "value", "unit", "kind", "group", "description"]
+    writer = csv.DictWriter(stream, columns, lineterminator="\n")
+    writer.writeheader()
+    for name, entry in entries.items():
+        writer.writerow({"name": name, **entry})
+    return stream.getvalue()
+
+
+def curves_csv(curves: Mapping[str, list[float]]) -> str:
+    """Columns of equal length as CSV."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(curves)
+    writer.writerows([f"{value:.8g}" for value in row] for row in zip(*curves.values(), strict=True))
+    return stream.getvalue()
