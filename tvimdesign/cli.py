@@ -123,20 +123,21 @@ def main() -> None:
 
 
 def _guarded(command: Callable[[], Any]) -> int:
-    import click
-
+    usage_error = typer.BadParameter.__mro__[2]  # the base of every usage error, whose home moves between versions
     try:
         code = command()
         return code if isinstance(code, int) else 0
     except TvimError as error:
         sys.stderr.write(f"{error}\n")
         return error.exit_code
-    except click.ClickException as error:
-        error.show()
-        return 2
-    except (KeyboardInterrupt, click.exceptions.Abort):
+    except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write("interrupted; what was finished is kept\n")
         return 130
     except BrokenPipeError:
         sys.stderr.close()
         return 0
+    except Exception as error:
+        if not isinstance(error, usage_error):
+            raise
+        error.show()  # type: ignore[attr-defined]  # every usage error has it
+        return 2

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from math import pi
 
 import cadquery as cq
 
 from tvimdesign.cad import parts
 from tvimdesign.cad.dimensions import Dimensions, dimensions
-from tvimdesign.cad.shapes import turned
+from tvimdesign.cad.shapes import polar, turned
 from tvimdesign.cad.springs import Coil, free_coil, installed_coil, spring_solid
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import Design
@@ -38,8 +39,8 @@ def build(design: Design, rotor_angle: float = 0.0, progress: Progress | None = 
 def drawn_parts(dims: Dimensions, progress: Progress | None = None) -> dict[str, cq.Solid]:
     """Build one of every part but the springs, in the module's coordinates, by kind."""
     if dims.count("spring_count") % 2:
-        raise GeometryError(f"spring_count is {dims.spring_count:g}; half of the springs are left-hand, so it must be even")
-    return {name: _built(name, lambda draw=draw: draw(dims), progress) for name, draw in _DRAWN.items()}
+        raise GeometryError(f"spring_count is {dims.spring_count:g}; half of them are left-hand, so it must be even")
+    return {name: _built(name, partial(draw, dims), progress) for name, draw in _DRAWN.items()}
 
 
 def free_springs(dims: Dimensions, progress: Progress | None = None) -> dict[str, cq.Solid]:
@@ -57,7 +58,7 @@ def spring_locations(dims: Dimensions) -> dict[str, cq.Location]:
     """Where the springs stand, by name."""
     locations = {}
     for index, azimuth in enumerate(dims.azimuths("spring_count")):
-        x, y = parts.polar(dims.placement_radius, azimuth)
+        x, y = polar(dims.placement_radius, azimuth)
         name = f"spring_{parts.hand_of(index)}_{index + 1}"
         locations[name] = cq.Location(cq.Vector(x, y, 0), cq.Vector(0, 0, 1), azimuth * 180.0 / pi)
     return locations

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from itertools import combinations
+from math import nan, sqrt
 
 import cadquery as cq
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.BRepGProp import BRepGProp
 from OCP.gp import gp
 from OCP.GProp import GProp_GProps
@@ -14,6 +16,8 @@ from tvimdesign.cad.assembly import place
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import KINDS, SPRINGS, TURNING, kind_of
 from tvimdesign.cad.outcome import Check
+from tvimdesign.cad.springs import installed_coil
+from tvimdesign.physics.transmission import pin_distance
 from tvimdesign.study.design import Design
 
 MODEL_TOLERANCE = 0.005
@@ -33,6 +37,7 @@ def all_checks(
     at_rest = place(dims, drawn)
     say("sizes")
     found = [*size_checks(design, at_rest), *envelope_checks(dims, at_rest)]
+    found += bearing_checks(dims)
     say("interference at rest")
     found += interference_checks(at_rest, "at rest")
     for share in (-1.0, -0.5, 0.5, 1.0):
@@ -73,6 +78,17 @@ def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterato
     yield _against("envelope_diameter", width, dims.envelope_diameter, ENVELOPE_TOLERANCE)
 
 
+def bearing_checks(dims: Dimensions) -> Iterator[Check]:
+    """How far the legs reach beyond the pins they bear on, at rest and at either end of the stroke [mm]."""
+    for angle in (-dims.stroke, 0.0, dims.stroke):
+        coil = installed_coil(dims, angle)
+        offset = 0.5 * (coil.diameter + coil.wire_diameter + dims.pin_diameter)
+        distance = pin_distance(dims.pin_radius, dims.placement_radius, angle)
+        beyond = coil.leg_length - float(sqrt(distance**2 - offset**2))
+        text = f"the springs' legs reach {beyond:.3g} mm beyond their pins at {angle:+.4f} rad"
+        yield Check(f"leg beyond pin at {angle:+.4f} rad", beyond, 0.0, beyond > 0.0, text)
+
+
 def interference_checks(
     placed: Mapping[str, cq.Solid], where: str, wanted: Callable[[str, str], bool] = lambda _a, _b: True
 ) -> Iterator[Check]:
@@ -85,10 +101,18 @@ def interference_checks(
         if not _overlap(boxes[first], boxes[second]):
             apart += 1
             continue
-        common = placed[first].intersect(placed[second]).Volume()
+        common = _common_volume(placed[first], placed[second])
         text = f"{first} and {second} share {common:.4g} mm3 {where}"
         yield Check(f"{first} | {second} {where}", common, TOUCHING, common < TOUCHING, text)
     yield Check(f"pairs apart {where}", apart, 0.0, True, f"{apart} pairs are apart by their boxes {where}")
+
+
+def _common_volume(first: cq.Solid, second: cq.Solid) -> float:
+    """Volume both solids fill [mm^3]; not a number, which fails the check, where the kernel cannot tell."""
+    operation = BRepAlgoAPI_Common(first.wrapped, second.wrapped)
+    if not operation.IsDone():
+        return nan
+    return float(cq.Shape.cast(operation.Shape()).Volume())
 
 
 def _group(name: str) -> str:

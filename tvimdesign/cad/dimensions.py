@@ -28,12 +28,12 @@ class Dimensions:
             raise GeometryError(f"the design has no dimension {name!r}; write it anew with `tvimdesign run`")
         value = self._values[name]
         if not math.isfinite(value):
-            raise GeometryError(f"{name} is {value}; the parts cannot be drawn. Ask `tvimdesign check` which rule fails")
+            raise GeometryError(f"{name} is {value}: no part can be drawn to that; see which rules the design breaks")
         return value
 
     def count(self, name: str) -> int:
         """Value of a row that counts something; raises GeometryError where it is no whole number above zero."""
-        value = getattr(self, name)
+        value: float = getattr(self, name)
         if value < 1 or value != round(value):
             raise GeometryError(f"{name} is {value:g}; it must be a whole number above zero")
         return round(value)

@@ -1,4 +1,4 @@
-"""Writes the parts and the assembly: STEP and STL of each part, STEP and GLB of the whole, each file whole or not at all."""
+"""Writes STEP and STL of each part, STEP and GLB of the assembly; each file appears whole or not at all."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 
 def export(
     design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], out: Path, progress: Callable[[str], None]
 ) -> list[str]:
-    """Write every file into `out`; returns their paths relative to it. Raises GeometryError where one cannot be made."""
+    """Write every file into `out` and return their paths relative to it; raises GeometryError where one fails."""
     folder = out / "parts"
     folder.mkdir(parents=True, exist_ok=True)
     files = []

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from tvimdesign.errors import TvimError
-from tvimdesign.study.design import read_design, write_whole
+from tvimdesign.study.design import read_design
 
 
 def run(design_path: Path, out: Path, lines: TextIO) -> None:
@@ -39,8 +39,7 @@ def run(design_path: Path, out: Path, lines: TextIO) -> None:
     drawn = drawn_parts(dims, progress)
     checks = [asdict(check) for check in all_checks(design, dims, drawn, progress)]
     files = export(design, dims, drawn, out, progress)
-    write_whole(out / "checks.json", json.dumps(checks, indent=1).encode() + b"\n")
-    say(checks=checks, files=[*files, "checks.json"], seconds=time.perf_counter() - started)
+    say(checks=checks, files=files, seconds=time.perf_counter() - started)
     # The picture comes last: where the graphics driver takes the process with it, the parts are there.
     progress("drawing the picture")
     from tvimdesign.cad.preview import write_preview

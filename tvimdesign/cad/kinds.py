@@ -1,4 +1,4 @@
-"""What kinds of part a module has: the colour of each, what it is made of, and the rows of the table that describe it."""
+"""The kinds of part a module has: the colour of each, what it is made of, and the rows that describe it."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ CHORD = 0.05
 TURN = 0.15
 """Largest angle between neighbouring triangles of a curved face [rad]."""
 _RING = 24
-"""Points around the wire."""
+"""Points around the wire, as far out as gives their polygon the area of the wire's section."""
 Array = NDArray[np.float64]
 
 
@@ -54,10 +54,10 @@ def spring_mesh(coil: Coil) -> Mesh:
     """Tube around the wire's centre. OCC takes seconds for a swept helix, and the file is ten times as large."""
     centre, normal, tangent = _wire_centre(coil)
     binormal = np.cross(tangent, normal)
-    # Clockwise about the tangent seen from its tip would turn the tube inside out.
     angle = np.arange(_RING) * 2.0 * pi / _RING
     ring = np.cos(angle)[:, None] * normal[:, None, :] + np.sin(angle)[:, None] * binormal[:, None, :]
-    tube = (centre[:, None, :] + 0.5 * coil.wire_diameter * ring).reshape(-1, 3)
+    radius = 0.5 * coil.wire_diameter * np.sqrt((2.0 * pi / _RING) / np.sin(2.0 * pi / _RING))
+    tube = (centre[:, None, :] + radius * ring).reshape(-1, 3)
     here = np.arange(_RING)
     following = (here + 1) % _RING
     first = np.arange(len(centre) - 1)[:, None] * _RING

@@ -1,4 +1,4 @@
-"""The parts, drawn in the module's coordinates: rotor axis z, the floor's upper face z = 0. Springs have their own room."""
+"""The drawn parts in the module's coordinates: rotor axis z, the floor's upper face z = 0. Not the springs."""
 
 from __future__ import annotations
 
@@ -38,10 +38,12 @@ def housing(dims: Dimensions) -> cq.Shape:
     """Floor with hub, wall, skirt and spring posts; less bore, pad pockets, windows and tang holes."""
     floor_bottom = -dims.floor_thickness
     floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
-    wall = ring(dims.housing_inner_radius, dims.housing_outer_radius, floor_bottom - dims.foot_height, dims.pin_top_level)
+    ground, rim = floor_bottom - dims.foot_height, dims.pin_top_level
+    wall = ring(dims.housing_inner_radius, dims.housing_outer_radius, ground, rim)
     hub = cylinder(dims.hub_radius, 0, dims.pcl_thickness)
+    post_top = dims.coil_end_level + 0.5 * dims.wire_diameter
     posts = [
-        cylinder(dims.post_radius, 0, dims.coil_end_level + 0.5 * dims.wire_diameter, polar(dims.placement_radius, azimuth))
+        cylinder(dims.post_radius, 0, post_top, polar(dims.placement_radius, azimuth))
         for azimuth in dims.azimuths("spring_count")
     ]
     bore = cylinder(dims.core_radius + dims.running_clearance, floor_bottom, dims.pcl_thickness)
@@ -68,10 +70,9 @@ def rotor(dims: Dimensions) -> cq.Shape:
         cylinder(0.5 * dims.pin_diameter, dims.rotor_top_level, dims.pin_top_level, polar(dims.pin_radius, azimuth))
         for azimuth in dims.azimuths("spring_count")
     ]
-    link_top = dims.link_bottom_level
-    pilots = [
-        cylinder(0.5 * dims.link_screw_pilot, link_top - dims.link_screw_depth, link_top, at) for at in link_screws(dims)
-    ]
+    core_top = dims.link_bottom_level
+    pilot_bottom = core_top - dims.link_screw_depth
+    pilots = [cylinder(0.5 * dims.link_screw_pilot, pilot_bottom, core_top, at) for at in link_screws(dims)]
     retainer_pilot = cylinder(0.5 * dims.retainer_screw_pilot, core_bottom, core_bottom + dims.retainer_screw_depth)
     return join(plate, [core, *pins]).cut(retainer_pilot, *pilots)
 

@@ -27,11 +27,11 @@ from vtkmodules.vtkRenderingCore import (
 
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import KINDS, Rgb, kind_of
-from tvimdesign.cad.mesh import Instance, Mesh, solid_mesh
+from tvimdesign.cad.mesh import Array, Instance, Mesh, solid_mesh
 from tvimdesign.study.design import write_whole
 
-_SIZE = (1800, 900)
-_LEGEND_HEIGHT = 0.09
+_SIZE = (1800, 800)
+_LEGEND_HEIGHT = 0.1
 _EDGE_ANGLE = 30.0
 _CUT = ("housing", "rotor")
 _HIDDEN = ("link",)
@@ -86,12 +86,14 @@ def _view(placed: Mapping[str, Instance], dims: Dimensions) -> vtkRenderer:
     middle = 0.5 * (dims.link_bottom_level + dims.link_thickness - dims.floor_thickness - dims.foot_height)
     towards = np.array(camera.GetPosition()) - np.array(camera.GetFocalPoint())
     camera.SetFocalPoint(0.0, 0.0, middle)
-    camera.SetPosition(*(towards + [0.0, 0.0, middle]))
-    camera.SetParallelScale(0.56 * dims.envelope_diameter)
-    light = vtkLight()
-    light.SetLightTypeToCameraLight()
-    light.SetPosition(-0.6, 0.9, 1.0)
-    renderer.AddLight(light)
+    camera.SetPosition(towards[0], towards[1], towards[2] + middle)
+    camera.SetParallelScale(0.5 * dims.envelope_diameter)
+    for position, intensity in (((-0.6, 0.9, 1.0), 0.8), ((0.9, 0.1, 0.8), 0.45)):
+        light = vtkLight()
+        light.SetLightTypeToCameraLight()
+        light.SetPosition(*position)
+        light.SetIntensity(intensity)
+        renderer.AddLight(light)
     renderer.ResetCameraClippingRange()
     return renderer
 
@@ -130,12 +132,16 @@ def _actor(source: vtkPolyDataNormals | vtkFeatureEdges, colour: Rgb) -> vtkActo
     return actor
 
 
-def _poly_data(mesh: Mesh, matrix: np.ndarray) -> vtkPolyData:
+def _poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3], deep=True))
+    placed = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    points.SetData(numpy_to_vtk(placed, deep=True))  # type: ignore[no-untyped-call]
     cells = np.hstack((np.full((len(mesh.faces), 1), 3), mesh.faces)).astype(np.int64)
     triangles = vtkCellArray()
-    triangles.SetCells(len(mesh.faces), numpy_to_vtkIdTypeArray(cells.ravel(), deep=True))
+    triangles.SetCells(
+        len(mesh.faces),
+        numpy_to_vtkIdTypeArray(cells.ravel(), deep=True),  # type: ignore[no-untyped-call]
+    )
     data = vtkPolyData()
     data.SetPoints(points)
     data.SetPolys(triangles)

@@ -1,4 +1,4 @@
-"""Drawing aids: upright cylinders, rings, annular sectors and slots between two levels. Lengths in mm, angles in rad."""
+"""Drawing aids: upright cylinders, rings, sectors and slots between two levels. Lengths in mm, angles in rad."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from math import cos, pi, sin
 
 import cadquery as cq
+
+from tvimdesign.errors import GeometryError
 
 Point = tuple[float, float]
 _UP = cq.Vector(0, 0, 1)
@@ -16,29 +18,38 @@ def polar(radius: float, azimuth: float) -> Point:
     return radius * cos(azimuth), radius * sin(azimuth)
 
 
+def _require(**lengths: float) -> None:
+    """Raise GeometryError for a size that is zero or negative; the kernel would draw it inside out, or crash."""
+    for name, value in lengths.items():
+        if not value > 0.0:
+            raise GeometryError(f"{name.replace('_', ' ')} is {value:.4g}; it must be above zero to be drawn")
+
+
 def cylinder(radius: float, bottom: float, top: float, at: Point = (0.0, 0.0)) -> cq.Solid:
     """Upright cylinder between two levels."""
+    _require(radius=radius, height=top - bottom)
     return cq.Solid.makeCylinder(radius, top - bottom, cq.Vector(*at, bottom), _UP)
 
 
 def ring(inner: float, outer: float, bottom: float, top: float) -> cq.Solid:
     """Upright ring about the axis between two levels."""
-    circles = (cq.Wire.makeCircle(radius, cq.Vector(0, 0, bottom), _UP) for radius in (outer, inner))
-    outside, inside = circles
+    _require(inner_radius=inner, width_of_a_ring=outer - inner, height=top - bottom)
+    outside, inside = (cq.Wire.makeCircle(radius, cq.Vector(0, 0, bottom), _UP) for radius in (outer, inner))
     return cq.Solid.extrudeLinear(outside, [inside], cq.Vector(0, 0, top - bottom))
 
 
-def sector(inner: float, outer: float, span: float, bottom: float, top: float, azimuth: float = 0.0) -> cq.Solid:
-    """Upright annular sector about the axis, centred on an azimuth, between two levels."""
-    first, last = azimuth - 0.5 * span, azimuth + 0.5 * span
+def sector(inner: float, outer: float, span: float, bottom: float, top: float) -> cq.Solid:
+    """Upright annular sector about the axis, centred on the x axis, between two levels."""
+    _require(inner_radius=inner, width_of_a_sector=outer - inner, span=span, height=top - bottom)
+    first, last = -0.5 * span, 0.5 * span
 
     def at(radius: float, angle: float) -> cq.Vector:
         return cq.Vector(*polar(radius, angle), bottom)
 
     outline = cq.Wire.assembleEdges([
-        cq.Edge.makeThreePointArc(at(outer, first), at(outer, azimuth), at(outer, last)),
+        cq.Edge.makeThreePointArc(at(outer, first), at(outer, 0.0), at(outer, last)),
         cq.Edge.makeLine(at(outer, last), at(inner, last)),
-        cq.Edge.makeThreePointArc(at(inner, last), at(inner, azimuth), at(inner, first)),
+        cq.Edge.makeThreePointArc(at(inner, last), at(inner, 0.0), at(inner, first)),
         cq.Edge.makeLine(at(inner, first), at(outer, first)),
     ])  # fmt: skip
     return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
@@ -46,6 +57,7 @@ def sector(inner: float, outer: float, span: float, bottom: float, top: float, a
 
 def slot(half_width: float, length: float, bottom: float, top: float) -> cq.Solid:
     """Upright obround from the axis to `length` along x, with a half disc at each end."""
+    _require(half_width=half_width, length=length, height=top - bottom)
     b = half_width
     corners = [cq.Vector(x, y, bottom) for x, y in ((0, -b), (length, -b), (length, b), (0, b))]
     far, near = cq.Vector(length + b, 0, bottom), cq.Vector(-b, 0, bottom)

@@ -71,16 +71,16 @@ class Coil:
     def check(self) -> None:
         """Raise GeometryError where no wire can be bent to this shape."""
         d, gap = self.wire_diameter, self.pitch * cos(self.rise) - self.wire_diameter
-        for name, value, limit in (
-            ("wire_diameter", d, 0.0),
-            ("coil diameter less wire diameter", self.diameter - d, 0.0),
-            ("number of coils", self.turns, 0.0),
-            ("gap between coils", gap, 0.0),
-            ("leg_length", self.leg_length, 0.0),
-            ("tang_length", self.tang_length, 0.0),
+        for name, value in (
+            ("wire_diameter", d),
+            ("coil diameter less wire diameter", self.diameter - d),
+            ("number of coils", self.turns),
+            ("gap between coils", gap),
+            ("leg_length", self.leg_length),
+            ("tang_length", self.tang_length),
         ):
-            if not (isfinite(value) and value > limit):
-                raise GeometryError(f"spring: {name} is {value:.4g}; it must be above {limit:g} mm for the wire to be bent")
+            if not (isfinite(value) and value > 0.0):
+                raise GeometryError(f"spring: {name} is {value:.4g}; it must be above zero")
 
 
 def free_coil(dims: Dimensions) -> Coil:
@@ -125,7 +125,7 @@ def _leg_azimuth(dims: Dimensions, rotor_angle: float, diameter: float) -> float
     offset = 0.5 * (diameter + dims.wire_diameter + dims.pin_diameter)
     reach = dims.placement_radius - dims.pin_radius
     if not 0.0 < offset < reach:
-        raise GeometryError(f"spring: the leg passes {offset:.4g} mm beside the axis and cannot reach the pin at {reach:.4g} mm")
+        raise GeometryError(f"spring: its leg, {offset:.4g} mm beside its axis, cannot reach a pin {reach:.4g} mm away")
     return float(leg_direction(dims.pin_radius, dims.placement_radius, rotor_angle, offset))
 
 

@@ -23,6 +23,7 @@ from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
 from tvimdesign.cad.kinds import Rgb
+from tvimdesign.cad.part21 import in_fixed_order
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import write_whole
 
@@ -86,7 +87,7 @@ class _Document:
             beside = Path(folder) / path.name
             if writer.Write(str(beside)) != IFSelect_ReturnStatus.IFSelect_RetDone:
                 raise GeometryError(f"{name}: the CAD kernel could not write {path}")
-            write_whole(path, beside.read_bytes())
+            write_whole(path, in_fixed_order(beside.read_text("latin-1")).encode("latin-1"))
 
 
 def write_part(path: Path, solid: cq.Solid, product: Product) -> None:

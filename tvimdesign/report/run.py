@@ -5,19 +5,22 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Table, table_for
-from tvimdesign.errors import TvimError
+from tvimdesign.errors import GeometryError, TvimError
 from tvimdesign.report.folder import ResultsFolder
 from tvimdesign.study import Study, read_study
-from tvimdesign.study.design import Design, read_design
+from tvimdesign.study.design import Design, read_design, write_whole
 
 Progress = Callable[[str], None]
 CAD_TIME_LIMIT = 300.0  # s
+WIDTH = 132
 
 
 def describe(study: Study) -> str:
@@ -73,7 +76,7 @@ def _answer(
     if as_json:
         print(json.dumps(told, indent=2, allow_nan=False))
     else:
-        console = Console()
+        console = wide_console()
         print_summary(found, table, console)
         console.print(f"\nResults are in [bold]{folder.path}[/bold]", highlight=False, soft_wrap=True)
     verdict(found)
@@ -88,21 +91,37 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         return
     design = read_design(source)
     folder = ResultsFolder(out, overwrite)
-    with _talk() as progress:
+    troubles: list[TvimError] = []
+    with _talk() as progress, _noting(troubles):
         report = _parts(source, folder.path, progress)
+        if as_json:
+            print(json.dumps(report, indent=2))
+        else:
+            wide_console().print(f"{len(report['checks'])} checks on the solids hold; parts are in [bold]{out}[/bold]",
+                                 soft_wrap=True)  # fmt: skip
     folder.finish(design.status, {"design": source}, design.study)
-    if as_json:
-        print(json.dumps(report, indent=2))
-    else:
-        Console().print(f"{len(report['checks'])} checks on the solids hold; parts are in [bold]{out}[/bold]",
-                        highlight=False, soft_wrap=True)  # fmt: skip
+    if troubles:
+        raise _partly(troubles)
 
 
-def _parts(design: Path, out: Path, progress: Progress) -> dict[str, list[object]]:
+def _parts(design: Path, out: Path, progress: Progress) -> dict[str, Any]:
+    """Make the parts beside their checks.json. Raises GeometryError where a part or a check fails."""
     from tvimdesign.cad import make_cad
 
     progress("parts: starting the CAD kernel")
-    return make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
+    report = make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
+    told = {"checks": [asdict(check) for check in report.checks], "files": report.files, "notes": report.notes}
+    write_whole(out / "checks.json", (json.dumps(told, indent=2) + "\n").encode())
+    if report.failed:
+        failed = "; ".join(f"{check.text}: {check.value:.4g}, limit {check.limit:.4g}" for check in report.failed)
+        raise GeometryError(f"the parts are written, but do not pass: {failed}; see {out / 'checks.json'}")
+    return told
+
+
+def wide_console() -> Console:
+    """Standard output: as wide as the terminal, and wide enough for a table where there is none."""
+    console = Console(highlight=False)
+    return console if console.is_terminal else Console(highlight=False, width=WIDTH)
 
 
 def catalog_of(study: Study, path: Path) -> Catalog:

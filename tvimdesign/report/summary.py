@@ -7,7 +7,7 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from tvimdesign.device import Table
-from tvimdesign.report.tables import headline_rows, number, variable_rows
+from tvimdesign.report.tables import headline_rows, number, point_rows, variable_rows
 from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.units import from_si, pretty
 
@@ -25,17 +25,34 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
         for row in variables:
             grid.add_row(*row)
         console.print(grid)
+    _print_points(answer, table, console)
     grid = _grid("What the module is", ("", "value", "unit", "meaning"), right=(1,))
     group = ""
     for section, name, value, unit, description in headline_rows(design, table):
         if section != group:
-            grid.add_section()
+            grid.add_row(f"[dim]{section}[/dim]")
             group = section
         grid.add_row(name, value, unit, description)
     console.print(grid)
     _print_checks(answer, table, console)
     _print_prices(answer, console)
     _print_warnings(answer, table, console)
+
+
+def _print_points(answer: Answer, table: Table, console: Console) -> None:
+    points, rows = point_rows(answer.design, table)
+    right = tuple(range(1, len(points) + 1))
+    grid = _grid("At the operating points", ("", *points, "unit", "meaning"), right=right)
+    for row in rows:
+        grid.add_row(*row)
+    console.print(grid)
+    for point in points:
+        low, high = (answer.design.value(f"pcl_melting_{end}") for end in ("start", "end"))
+        if low < answer.design.value(f"temperature@{point}") < high:
+            console.print(
+                f"[yellow]Mind[/yellow] the point {point} lies in the melting range: there the layer depends on its "
+                "history, and these figures are those of the equilibrium curve, right in order of magnitude only."
+            )
 
 
 def _grid(title: str, columns: tuple[str, ...], right: tuple[int, ...] = ()) -> Grid:
@@ -81,9 +98,10 @@ def _print_checks(answer: Answer, table: Table, console: Console) -> None:
         unit = table.unit(check.output)
         because = "the study" if check.origin == "require" else check.origin
         grid.add_row(mark, check.text, number(from_si(check.value, unit)), pretty(unit), _share(check.margin), because)
-    console.print(grid)
+    if grid.row_count:
+        console.print(grid)
     if hidden:
-        console.print(f"[dim]and {hidden} rules of the machine that hold with room to spare[/dim]")
+        console.print(f"[dim]{hidden} rules of the machine hold with room to spare.[/dim]")
 
 
 def _binds(check: Check) -> bool:
@@ -100,9 +118,9 @@ def _print_prices(answer: Answer, console: Console) -> None:
     held = sorted((h for h in answer.solution.held if h.price > _PRICE_SHOWN), key=lambda h: -h.price)
     if not held:
         return
-    grid = _grid("What holds the design back", ("limit", "relaxing it by 1 % lowers the objective by"), right=(1,))
+    grid = _grid("What holds the design back", ("limit", "relaxed by", "lowers the objective by"), right=(1, 2))
     for row in held:
-        grid.add_row(row.text, f"{row.price:.2g} %")
+        grid.add_row(row.text, row.step, f"{row.price:.2g} %")
     console.print(grid)
 
 

@@ -23,12 +23,29 @@ def number(value: float, digits: int = 4) -> str:
 
 
 def headline_rows(design: Design, table: Table) -> list[tuple[str, str, str, str, str]]:
-    """(group, name, value, unit, description) of the rows that stand in a summary."""
+    """(group, name, value, unit, description) of the rows with one value that stand in a summary."""
     return [
-        (row.group, name, number(from_si(value, row.unit)), pretty(row.unit), row.description)
-        for name, value in design.values.items()
-        if not isinstance(row := table.row(name), Input) and getattr(row, "headline", False)
+        (row.group, row.name, number(from_si(design.value(row.name), row.unit)), pretty(row.unit), row.description)
+        for row in table.outputs
+        if row.headline and not row.per_point
     ]
+
+
+def point_rows(design: Design, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
+    """Names of the operating points, and (name, one value a point, unit, description) of the rows that have several."""
+    points = list(design.study["operating_points"])
+    shown = [row for row in table.inputs if row.per_point]
+    shown += [row for row in table.outputs if row.per_point and row.headline]
+    rows = [
+        (
+            row.name,
+            *(number(from_si(design.value(f"{row.name}@{point}"), row.unit)) for point in points),
+            pretty(row.unit),
+            row.description,
+        )
+        for row in shown
+    ]
+    return points, rows
 
 
 def variable_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str, str]]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
-from tvimdesign.solve.limits import Limit, in_words, on_switch
+from tvimdesign.solve.limits import in_words, make_limit, on_switch
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer, Run
 from tvimdesign.solve.solution import Held, Solution, Start
+from tvimdesign.study import Range
 
 SWITCH_TOLERANCE = 2e-3
 """Share by which a limit on a row that depends on a switch may be broken: collocation against the simulation."""
@@ -50,6 +51,7 @@ def _held_by_limits(optimizer: Optimizer, run: Run, values: dict[str, float]) ->
             text=in_words(limit, optimizer.table),
             residual=float(limit.residual(values[limit.output])),
             price=float(price) / (run.start.objective or 1.0),
+            step=limit.step,
             origin=limit.origin,
         )
         for limit, price in zip(optimizer.problem.limits, prices, strict=True)
@@ -57,16 +59,15 @@ def _held_by_limits(optimizer: Optimizer, run: Run, values: dict[str, float]) ->
 
 
 def _held_by_bounds(optimizer: Optimizer, run: Run) -> list[Held]:
-    """The bounds of what varies; the price of a bound is that of moving it by 1 %."""
+    """The ends of the ranges; a listed size has no end to move."""
     found = []
+    senses: tuple[tuple[Literal["<=", ">="], float], ...] = (("<=", 1.0), (">=", -1.0))
     for i, free in enumerate(optimizer.free):
+        if not isinstance(optimizer.study.vary[free.name], Range):
+            continue
         value = run.inputs[optimizer.model.index[free.name]]
-        senses: tuple[tuple[Literal["<=", ">="], float, float], ...] = (
-            ("<=", free.upper, 1.0),
-            (">=", free.lower, -1.0),
-        )
-        for sense, bound, sign in senses:
-            limit = Limit(free.name, sense, bound, abs(bound) or abs(free.reference), "vary")
+        for sense, sign in senses:
+            limit = make_limit(optimizer.table, free.name, sense, free.upper if sense == "<=" else free.lower, "vary")
             multiplier = max(sign * float(run.bound_multipliers[i]), 0.0)
             per_scale = limit.scale / abs(value if free.logarithmic else free.reference)
             found.append(
@@ -75,6 +76,7 @@ def _held_by_bounds(optimizer: Optimizer, run: Run) -> list[Held]:
                     text=in_words(limit, optimizer.table),
                     residual=float(limit.residual(value)),
                     price=float(multiplier * per_scale / (run.start.objective or 1.0)),
+                    step=limit.step,
                     origin="vary",
                 )
             )

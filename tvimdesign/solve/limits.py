@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from tvimdesign.device import Event, Path, Rule, Table
+from tvimdesign.device import Event, Path, Table
 from tvimdesign.study import Study
 from tvimdesign.units import from_si, pretty, to_si
 
@@ -23,6 +23,9 @@ class Limit:
     origin: str
     """`require` for the study's own, otherwise the reason the machine has it."""
 
+    step: str = "1 %"
+    """What a hundredth of the scale is, in words."""
+
     @property
     def name(self) -> str:
         """Output and sense, unique in a study."""
@@ -36,12 +39,12 @@ class Limit:
 
 def limits_of(study: Study, table: Table) -> list[Limit]:
     """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense."""
-    own = [Limit(r.output, r.sense, r.limit, _scale(table, r.output, r.limit), "require") for r in study.require]
+    own = [make_limit(table, r.output, r.sense, r.limit, "require") for r in study.require]
     taken = {(limit.output, limit.sense) for limit in own}
     for row in table.outputs:
         for rule in row.rules:
             if (row.name, rule.sense) not in taken:
-                own.append(_of_rule(table, row.name, rule))
+                own.append(make_limit(table, row.name, rule.sense, rule.value, rule.reason))
     return own
 
 
@@ -58,18 +61,19 @@ def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
 
 def advice_of(table: Table) -> list[Limit]:
     """Return the limits that are reported where they are broken."""
-    return [_of_rule(table, row.name, rule) for row in table.outputs for rule in row.advice]
+    return [
+        make_limit(table, row.name, rule.sense, rule.value, rule.reason) for row in table.outputs for rule in row.advice
+    ]
 
 
-def _of_rule(table: Table, name: str, rule: Rule) -> Limit:
-    return Limit(name, rule.sense, rule.value, _scale(table, name, rule.value), rule.reason)
-
-
-def _scale(table: Table, name: str, limit: float) -> float:
-    if limit != 0.0:
-        return abs(limit)
+def make_limit(table: Table, name: str, sense: Literal["<=", ">="], limit: float, origin: str) -> Limit:
+    """Return a limit with its scale: its own size; for a zero its unit; for a temperature 100 K."""
     unit = table.unit(name)
-    return abs(to_si(1.0, unit) - to_si(0.0, unit))
+    if unit == "degC":
+        return Limit(name, sense, limit, 100.0, origin, "1 K")
+    if limit != 0.0:
+        return Limit(name, sense, limit, abs(limit), origin)
+    return Limit(name, sense, limit, abs(to_si(1.0, unit)), origin, f"0.01 {pretty(unit)}".rstrip())
 
 
 def in_words(limit: Limit, table: Table) -> str:

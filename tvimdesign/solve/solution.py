@@ -34,13 +34,14 @@ class Start:
 class Held:
     """One limit or bound at the solution: its residual (share of its scale, kept where <= 0) and what it costs.
 
-    `price` is the share of the objective that relaxing it by 1 % of its scale would save, in percent.
+    `price` is how much of the objective, in percent, relaxing it by `step` would save; `step` is in words.
     """
 
     name: str
     text: str
     residual: float
     price: float
+    step: str
     origin: str
 
 

@@ -1,0 +1,39 @@
+"""Puts a STEP file's colours in a fixed order: the CAD kernel writes them in the order of memory addresses."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+
+_STYLES = re.compile(r"^#(\d+) = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\('',", re.MULTILINE)
+_NUMBER = re.compile(r"#(\d+)")
+_CONTEXT = re.compile(r",#(\d+)\);")
+
+
+def in_fixed_order(text: str) -> str:
+    """Sort the blocks of colours at the end of a STEP file by the part they belong to, and number them anew.
+
+    Each block is one presentation with the entities it refers to; its last reference is the part's context, which
+    stands earlier in the file and has the same number every time.
+    """
+    starts = [match.start() for match in _STYLES.finditer(text)]
+    if len(starts) < 2:
+        return text
+    end = text.index("ENDSEC;", starts[-1])
+    blocks = [_unwrapped(text[first:last]) for first, last in pairwise([*starts, end])]
+    first_number = min(int(_NUMBER.match(block)[1]) for block in blocks)  # type: ignore[index]  # it starts with one
+    blocks.sort(key=_context)
+    old = [int(number) for block in blocks for number in re.findall(r"^#(\d+) =", block, re.MULTILINE)]
+    new = {number: first_number + index for index, number in enumerate(old)}
+    tail = _NUMBER.sub(lambda match: f"#{new.get(int(match[1]), int(match[1]))}", "".join(blocks))
+    return text[: starts[0]] + tail + text[end:]
+
+
+def _unwrapped(block: str) -> str:
+    """One entity a line; where the kernel breaks lines depends on the numbers."""
+    return re.sub(r"\n +", "", block)
+
+
+def _context(block: str) -> int:
+    found = _CONTEXT.search(block.partition("\n")[0])
+    return int(found[1]) if found else 0

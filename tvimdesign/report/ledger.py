@@ -1,0 +1,176 @@
+"""The paper against its own numbers: each row says what the paper states, what its formulas give here, the verdict.
+
+The paper is T. Exley et al., "TVIM: Thermo-Active Variable Impedance Module: Evaluating Shear-Mode Capabilities of
+Polycaprolactone". What it states stands in `paper_claims.yaml`; every other number is computed when the ledger is.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib import resources
+from typing import Any
+
+import yaml
+
+from tvimdesign.physics import dynamics, layer, spring, transmission
+from tvimdesign.units import from_si, to_si
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One row of the ledger."""
+
+    claim: str
+    where: str
+    computed: str
+    verdict: str
+
+
+@cache
+def claims() -> dict[str, Any]:
+    """What the paper states: values with units, and the places."""
+    text = resources.files("tvimdesign.report").joinpath("paper_claims.yaml").read_text(encoding="utf-8")
+    loaded: dict[str, Any] = yaml.safe_load(text)
+    return loaded
+
+
+def _stated(name: str) -> float:
+    """SI value of a number the paper states."""
+    entry = claims()["numbers"][name]
+    return to_si(float(entry["value"]), entry["unit"])
+
+
+def _spring_rate(wire_diameter: float) -> float:
+    return float(
+        spring.rate(_stated("youngs_modulus"), wire_diameter, _stated("coil_diameter"), _stated("coil_count"))
+    )
+
+
+def _torsion_rate() -> str:
+    rate, stated = _spring_rate(_stated("wire_diameter")), _stated("torsion_rate")
+    inch_pounds = rate / (to_si(1.0, "lbf") * to_si(1.0, "in"))
+    needed = _stated("wire_diameter") * (stated / rate) ** 0.25
+    return (
+        f"E d^4/(64 D n) = {rate:.4f} N·m/rad = {inch_pounds:.2f} in·lbf/rad, which is {stated / rate:.2f} times less; "
+        f"{from_si(stated, 'N*m/rad'):g} N·m/rad needs d = {from_si(needed, 'mm'):.2f} mm"
+    )
+
+
+def _output_stiffness() -> str:
+    rate = _spring_rate(_stated("wire_diameter"))
+    unity = transmission.output_stiffness(_stated("springs"), rate, 0.0, 1.0, 0.0)
+    return (
+        f"N·m/rad on the left, N·m·rad on the right; the paper's own energy line gives K_s = 4 k (alpha/theta)^2 = "
+        f"{unity:.2f} N·m/rad, not {transmission.output_stiffness(4, rate, 0.0, _stated('stroke'), 0.0):.4f} at 0.104 rad"
+    )
+
+
+def _inertia() -> str:
+    inertia = _stated("inertia")
+    stiffness = 4.0 * _spring_rate(_stated("wire_diameter"))
+    return (
+        f"{inertia:.3e} kg·m2 as kg·mm2; on springs of {stiffness:.2f} N·m/rad that rings at "
+        f"{dynamics.natural_frequency(stiffness, inertia):.1f} Hz"
+    )
+
+
+def _motion() -> str:
+    stiffness, inertia = 4.0 * _spring_rate(_stated("wire_diameter")), _stated("inertia")
+    growth = math.sqrt(stiffness / inertia)
+    return (
+        f"with K on the wrong side the springs push away from rest: a deflection would grow as exp({growth:.0f} t/s); "
+        f"I theta'' + b theta' + K theta = T rings, and is critically damped at b = "
+        f"{2.0 * math.sqrt(stiffness * inertia):.4f} N·m·s/rad"
+    )
+
+
+def _creep() -> str:
+    first, second = _stated("recovery_methods"), _stated("recovery_results")
+    return f"two different times for one test: {first:g} s and {second:g} s, a factor of {second / first:g}"
+
+
+def _area() -> str:
+    answer = _published()
+    area = from_si(answer["pcl_area"], "mm^2")
+    thickness = from_si(answer["pcl_thickness"], "mm")
+    strain = answer["layer_strain"]
+    return (
+        f"four arcs of 26 to 40 mm radius and 49 degrees give {area:.1f} mm2; K, b and heating time all hang on the "
+        f"thickness, assumed here as {thickness:g} mm: then the melt is sheared by {strain:.0%} at full stroke"
+    )
+
+
+def _response() -> str:
+    answer = _published()
+    return (
+        f"at 1.5 A with a flexible Peltier (assumed), 1 mm of PCL and a plastic rotor: far face {answer['far_face_time']:.0f} s, "
+        f"near face {answer['near_face_time']:.0f} s, impedance soft after {answer['softening_time']:.0f} s; "
+        f"thickness, Peltier, contact, rotor and sensor place trade off"
+    )
+
+
+def _ratio() -> str:
+    place, rate = _stated("placement_radius"), _spring_rate(_stated("wire_diameter"))
+    pins = (0.5 * place, 38e-3)
+    stiffness = [
+        transmission.output_stiffness(4, rate, 0.0, transmission.leg_ratio(pin, place, 0.0, 0.0), 0.0) for pin in pins
+    ]
+    strain = layer.shear_strain(40e-3, _stated("stroke"), 1e-3)
+    return (
+        f"alpha/theta = p/(r - p) for a pin at radius p: one only at p = {pins[0] * 1e3:.1f} mm (K_s {stiffness[0]:.2f}), "
+        f"K_s = {stiffness[1]:.1f} N·m/rad at p = 38 mm; a layer of 1 mm is sheared by {strain:.0%} at r = 40 mm"
+    )
+
+
+@cache
+def _published() -> dict[str, float]:
+    """Values of the paper's module as published, one switch simulated."""
+    from tvimdesign.catalog import Catalog
+    from tvimdesign.device import table_for
+    from tvimdesign.solve.answer import answer
+    from tvimdesign.study import read_study_text
+
+    study = read_study_text(claims()["study"], "the paper's module")
+    return answer(study, Catalog(), table_for(study.mode)).design.values
+
+
+_COMPUTED: dict[str, Callable[[], str]] = {
+    "torsion_rate": _torsion_rate,
+    "output_stiffness": _output_stiffness,
+    "inertia": _inertia,
+    "motion": _motion,
+    "creep": _creep,
+    "area": _area,
+    "response": _response,
+    "ratio": _ratio,
+}
+
+
+def findings() -> list[Finding]:
+    """Compute every row of the ledger."""
+    return [
+        Finding(claim=row["claim"], where=row["where"], computed=_COMPUTED[row["row"]](), verdict=row["verdict"])
+        for row in claims()["rows"]
+    ]
+
+
+def print_ledger(as_json: bool) -> None:
+    """Print the ledger for people or for scripts."""
+    rows = findings()
+    if as_json:
+        print(json.dumps([asdict(row) for row in rows], indent=2, ensure_ascii=False))
+        return
+    from rich.table import Table as Grid
+
+    from tvimdesign.report.run import wide_console
+
+    grid = Grid(title="The paper against its own numbers", title_justify="left", show_lines=True)
+    for column, share in (("the paper says", 3), ("computed here", 5), ("verdict", 3)):
+        grid.add_column(column, ratio=share)
+    for row in rows:
+        grid.add_row(f"{row.claim}\n[dim]{row.where}[/dim]", row.computed, row.verdict)
+    wide_console().print(grid)
