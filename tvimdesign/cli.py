@@ -21,7 +21,9 @@ app = typer.Typer(
 )
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (YAML).")]
-Out = Annotated[Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study> unless given.")]
+Out = Annotated[
+    Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study> unless given.")
+]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the results of an earlier run in that folder.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print results as JSON.")]
 

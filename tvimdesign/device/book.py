@@ -26,16 +26,36 @@ class Book:
         self.rows.append(row)
 
     def condition(
-        self, name: str, unit: str, default: float, lower: float, upper: float, description: str, **flags: bool
+        self,
+        name: str,
+        unit: str,
+        default: float,
+        lower: float,
+        upper: float,
+        description: str,
+        *,
+        integer: bool = False,
+        per_point: bool = False,
     ) -> None:
-        """Add a number that a study may set but not vary. SI; flags: `integer`, `per_point`."""
-        row = Input(name=name, unit=unit, description=description, group=self.group, default=default, lower=lower,
-                    upper=upper, **flags)  # type: ignore[arg-type]  # the flags are bools of Input  # fmt: skip
-        self.rows.append(row)
+        """Add a number that a study may set but not vary. SI."""
+        self.rows.append(
+            Input(
+                name=name,
+                unit=unit,
+                description=description,
+                group=self.group,
+                default=default,
+                lower=lower,
+                upper=upper,
+                integer=integer,
+                per_point=per_point,
+            )
+        )
 
     def property(self, name: str, unit: str, record: tuple[str, str], description: str) -> None:
         """Add a number that comes from a chosen record, (choice, field), unless the study sets it."""
-        self.rows.append(Input(name=name, unit=unit, description=description, group=self.group, record=record))
+        row = Input(name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record)
+        self.rows.append(row)
 
     def record(self, name: str, shelf: str, default: str, description: str) -> None:
         """Add the choice of a catalogue record."""

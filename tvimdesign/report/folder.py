@@ -44,7 +44,9 @@ class ResultsFolder:
                 f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder"
             )
         if not manifest.exists():
-            raise InputError(f"{self.path}: not a folder of results (no {MANIFEST}); --overwrite would lose other files")
+            raise InputError(
+                f"{self.path}: not a folder of results (no {MANIFEST}); --overwrite would lose other files"
+            )
         for name in _listed(manifest):
             target = (self.path / name).resolve()
             if target.is_relative_to(self.path.resolve()):

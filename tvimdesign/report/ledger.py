@@ -45,9 +45,7 @@ def _stated(name: str) -> float:
 
 
 def _spring_rate(wire_diameter: float) -> float:
-    return float(
-        spring.rate(_stated("youngs_modulus"), wire_diameter, _stated("coil_diameter"), _stated("coil_count"))
-    )
+    return float(spring.rate(_stated("youngs_modulus"), wire_diameter, _stated("coil_diameter"), _stated("coil_count")))
 
 
 def _torsion_rate() -> str:
@@ -62,10 +60,11 @@ def _torsion_rate() -> str:
 
 def _output_stiffness() -> str:
     rate = _spring_rate(_stated("wire_diameter"))
-    unity = transmission.output_stiffness(_stated("springs"), rate, 0.0, 1.0, 0.0)
+    count, stroke = _stated("springs"), _stated("stroke")
+    unity = transmission.output_stiffness(count, rate, 0.0, 1.0, 0.0)
     return (
         f"N·m/rad on the left, N·m·rad on the right; the paper's own energy line gives K_s = 4 k (alpha/theta)^2 = "
-        f"{unity:.2f} N·m/rad, not {transmission.output_stiffness(4, rate, 0.0, _stated('stroke'), 0.0):.4f} at 0.104 rad"
+        f"{unity:.2f} N·m/rad, not {count * rate * stroke**2:.4f} at {stroke:g} rad"
     )
 
 
@@ -105,12 +104,54 @@ def _area() -> str:
 
 
 def _response() -> str:
-    answer = _published()
+    stated = _stated("response_time")
+    thickness, simulate = _switches()
+    now, insulated = simulate({}), simulate(_INSULATED)
+
+    def late(trial: float) -> float:
+        return simulate({**_INSULATED, "pcl_thickness": trial})["far_face_time"] - stated
+
+    reached = _bisect(late, 0.2 * thickness, 4.0 * thickness)
     return (
-        f"at 1.5 A with a flexible Peltier (assumed), 1 mm of PCL and a plastic rotor: far face {answer['far_face_time']:.0f} s, "
-        f"near face {answer['near_face_time']:.0f} s, impedance soft after {answer['softening_time']:.0f} s; "
-        f"thickness, Peltier, contact, rotor and sensor place trade off"
+        f"at 1.5 A with a flexible Peltier (assumed) and {thickness * 1e3:g} mm of PCL: far face "
+        f"{now['far_face_time']:.0f} s, near face {now['near_face_time']:.0f} s, impedance soft after "
+        f"{now['softening_time']:.0f} s, since a plastic rotor takes as much heat as the layer; with a rotor that takes "
+        f"none, far face {insulated['far_face_time']:.0f} s, and {stated:g} s at {reached * 1e3:.2f} mm"
     )
+
+
+_INSULATED = {"rotor_contact": 1e-3}
+"""A rotor behind no thermal contact at all: the other end of what the paper leaves open."""
+
+
+def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
+    """The paper's thickness as assumed here [m], and a function from changed inputs to the values of one switch."""
+    from tvimdesign.catalog import Catalog
+    from tvimdesign.device import table_for
+    from tvimdesign.solve.model import Model
+    from tvimdesign.solve.simulate import Simulator
+    from tvimdesign.study import given, read_study_text
+
+    study = read_study_text(claims()["study"], "the paper's module")
+    table = table_for(study.mode)
+    model = Model(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+    simulator = Simulator(model)
+
+    def simulate(changes: dict[str, float]) -> dict[str, float]:
+        inputs = model.start.copy()
+        for name, value in changes.items():
+            inputs[model.index[name]] = value
+        return simulator.run(inputs).values
+
+    return float(model.start[model.index["pcl_thickness"]]), simulate
+
+
+def _bisect(function: Callable[[float], float], low: float, high: float, steps: int = 12) -> float:
+    """Where a rising function passes zero, to a 4000th of the interval."""
+    for _ in range(steps):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if function(middle) < 0.0 else (low, middle)
+    return 0.5 * (low + high)
 
 
 def _ratio() -> str:
@@ -121,8 +162,8 @@ def _ratio() -> str:
     ]
     strain = layer.shear_strain(40e-3, _stated("stroke"), 1e-3)
     return (
-        f"alpha/theta = p/(r - p) for a pin at radius p: one only at p = {pins[0] * 1e3:.1f} mm (K_s {stiffness[0]:.2f}), "
-        f"K_s = {stiffness[1]:.1f} N·m/rad at p = 38 mm; a layer of 1 mm is sheared by {strain:.0%} at r = 40 mm"
+        f"alpha/theta = p/(r - p) for a pin at radius p: one only at p = {pins[0] * 1e3:.1f} mm "
+        f"(K_s {stiffness[0]:.2f}), K_s = {stiffness[1]:.1f} N·m/rad at p = 38 mm; a layer of 1 mm is sheared by {strain:.0%} at r = 40 mm"
     )
 
 

@@ -132,4 +132,6 @@ def _print_warnings(answer: Answer, table: Table, console: Console) -> None:
     if answer.solution and answer.design.status == "optimal":
         optima = answer.solution.distinct_optima()
         for start in optima[1:]:
-            console.print(f"[yellow]Mind[/yellow] run {start.number + 1} ended elsewhere, objective {start.objective:.5g}.")
+            console.print(
+                f"[yellow]Mind[/yellow] run {start.number + 1} ended elsewhere, objective {start.objective:.5g}."
+            )

@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from tvimdesign.device import Input, Table
+from tvimdesign.device import Input, Output, Table
 from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si, pretty
@@ -34,7 +34,7 @@ def headline_rows(design: Design, table: Table) -> list[tuple[str, str, str, str
 def point_rows(design: Design, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
     """Names of the operating points, and (name, one value a point, unit, description) of the rows that have several."""
     points = list(design.study["operating_points"])
-    shown = [row for row in table.inputs if row.per_point]
+    shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
     shown += [row for row in table.outputs if row.per_point and row.headline]
     rows = [
         (

@@ -9,11 +9,11 @@ from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.errors import InfeasibleError
+from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.curves import Curves, impedance_sweep, switch_history
 from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Progress
-from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.simulate import Simulator
 from tvimdesign.solve.solution import Solution

@@ -8,7 +8,7 @@ import os
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
-import casadi as ca
+import casadi as ca  # noqa: E402  # the threads are set before it loads
 
 # Equations are written with numpy's functions; this makes CasADi answer to them.
 ca.GlobalOptions.setNumpyMode(1)

@@ -62,7 +62,15 @@ class Run:
 class Optimizer:
     """One study with its records chosen: the problem and its solvers, built once."""
 
-    def __init__(self, study: Study, catalog: Catalog, table: Table, runs: int, reference: dict[str, float] | None = None, progress: Progress = lambda _: None) -> None:  # fmt: skip
+    def __init__(
+        self,
+        study: Study,
+        catalog: Catalog,
+        table: Table,
+        runs: int,
+        reference: dict[str, float] | None = None,
+        progress: Progress = lambda _: None,
+    ) -> None:
         """Compile the device, simulate the study's start, and build the problem for about `runs` runs.
 
         `reference` are the values the minimised outputs are divided by: the study's start unless given. Raises
@@ -121,13 +129,14 @@ class Optimizer:
 
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:
-            options = {
-                **_IPOPT, **(_WARM if warm else {}),
-                "max_iter": self.study.solver.max_iterations, "tol": self.study.solver.tolerance,
-            }  # fmt: skip
-            self._solvers[warm] = ca.nlpsol(
-                "design", "ipopt", self.problem.function, {"ipopt": options, "print_time": False, "expand": self._many}
-            )
+            ipopt: dict[str, Any] = {
+                **_IPOPT,
+                **(_WARM if warm else {}),
+                "max_iter": self.study.solver.max_iterations,
+                "tol": self.study.solver.tolerance,
+            }
+            options: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "expand": self._many}
+            self._solvers[warm] = ca.nlpsol("design", "ipopt", self.problem.function, options)
         return self._solvers[warm]
 
     # --- starts ---
@@ -162,11 +171,14 @@ class Optimizer:
         for block in self.problem.blocks:
             end = switch.values[block.event]
             end = end if np.isfinite(end) else switch.trajectory.times[-1]
-            parts += [guess(switch.trajectory, self.problem.elements).ravel(order="F"), [np.log(max(end, 1e-3))]]
+            parts += [
+                guess(switch.trajectory, self.problem.elements).ravel(order="F"),
+                np.array([np.log(max(end, 1e-3))]),
+            ]
         for name in self.problem.peaks:
             row = self.table.row(name)
             assert isinstance(row, Path)
-            parts.append([switch.values[name] / self.problem.peak_scale(row)])
+            parts.append(np.array([switch.values[name] / self.problem.peak_scale(row)]))
         return np.concatenate(parts)
 
     # --- solving ---

@@ -44,7 +44,9 @@ def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = 
     return account(*best, tuple(starts), seconds)
 
 
-def _runs(optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progress) -> Iterator[tuple[Run, dict[str, float]]]:
+def _runs(
+    optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progress
+) -> Iterator[tuple[Run, dict[str, float]]]:
     """Every start, all free; where sizes are listed, then every combination of them, warm from the best start."""
     relaxed = []
     for number, begin in enumerate(optimizer.begin_points()):

@@ -1,0 +1,49 @@
+# The front door. Each target makes what it needs: a fresh machine has Python 3.11 or newer with pip and venv, no more.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+
+.DEFAULT_GOAL := help
+.PHONY: help study test test-all lint format types contracts schema cad clean
+
+help:  ## this list
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+$(STAMP): pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
+	@touch $@
+
+study: $(STAMP)  ## run studies/paper_shear.yaml and say where the results are
+	$(BIN)/tvimdesign run studies/paper_shear.yaml --overwrite
+
+test: $(STAMP)  ## the fast tests
+	$(BIN)/python -m pytest -q -n 2
+
+test-all: $(STAMP)  ## all tests, the long ones too
+	$(BIN)/python -m pytest -q -n 2 -m ''
+
+lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(STAMP)
+	$(BIN)/mypy
+
+contracts: $(STAMP)
+	$(BIN)/lint-imports
+
+format: $(STAMP)  ## let ruff put the code in form
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+schema: $(STAMP)  ## write the study's JSON Schema from the table
+	$(BIN)/python -m tvimdesign.study.schema
+
+cad: $(STAMP)  ## write the reference parts in cad/ from studies/paper_shear.yaml
+	$(BIN)/tvimdesign run studies/paper_shear.yaml --out results/reference --overwrite --no-plots
+	$(BIN)/python cad/release.py results/reference
+
+clean:  ## remove the environment and all results
+	rm -rf $(VENV) results build *.egg-info
