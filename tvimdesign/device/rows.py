@@ -1,12 +1,12 @@
 """The machinery of the one table: what a row is, and how a table of rows is evaluated.
 
 A table says what a module is. `Input` rows are numbers that a study may set, `Choice` rows are words (a catalogue
-record or an option), `Output` rows are what follows. An output's function names what it needs by its parameters: the parameter
-`wire_diameter` is the row `wire_diameter`. So the table is also the dependency graph, and floats, arrays and CasADi
-symbols go through the same functions.
+record or an option), `Output` rows are what follows. An output's function names what it needs by its parameters: the
+parameter `wire_diameter` is the row `wire_diameter`. So the table is also the dependency graph, and floats, arrays and
+CasADi symbols go through the same functions.
 
-A row with `per_point=True` has one value at each operating point and is written `name@point`; another row asks for
-it at a certain point with a parameter `name_at_point`. A row with `instant=True` has a value at each instant of the switch.
+A row with `per_point=True` has one value at each operating point and is written `name@point`; another row asks for it
+at a certain point with a parameter `name_at_point`. A row with `instant=True` has a value at each instant of a switch.
 `Event` rows are the times at which something that rises passes zero; `Path` rows reduce an instant's value over the
 switch. The solver, or a simulation, supplies those two; everything else is arithmetic.
 """

@@ -4,8 +4,8 @@ One dimension, finite volumes. The polymer's states are enthalpies, not temperat
 so the latent heat is never stepped over (Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709). Faces between
 cells carry the two half-cell resistances in series (Patankar, Numerical Heat Transfer and Fluid Flow, 1980, sec. 4.2).
 
-A state is a list of scalars: cold side, hot side, polymer cells from the hot side on, plate cells. Temperatures stand in
-it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the order of one.
+A state is a list of scalars: cold side, hot side, polymer cells from the hot side on, plate cells. Temperatures stand
+in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the order of one.
 """
 
 from __future__ import annotations
