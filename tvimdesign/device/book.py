@@ -90,16 +90,9 @@ class Book:
 
     def event(self, function: F) -> F:
         """Add a time: the first instant at which the function, which rises, passes zero."""
-        self.rows.append(
-            Event(
-                name=function.__name__,
-                unit="s",
-                description=_summary(function),
-                group=self.group,
-                function=function,
-                headline=True,
-            )  # fmt: skip
-        )
+        name, about = function.__name__, _summary(function)
+        row = Event(name=name, unit="s", description=about, group=self.group, function=function, headline=True)
+        self.rows.append(row)
         return function
 
     def helper(self, *, per_point: bool = False, instant: bool = False) -> Callable[[F], F]:

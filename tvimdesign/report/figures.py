@@ -111,8 +111,8 @@ def bounds(data: dict[str, Any]) -> Figure:
     colours = ["tab:red" if not row["kept"] else "tab:green" if row["margin"] > 1e-3 else "tab:orange"
                for row in reversed(limits)]  # fmt: skip
     margins.barh(range(len(limits)), [value if abs(value) > 0.01 else 0.01 for value in shown], color=colours)
-    margins.set(yticks=range(len(limits)), yticklabels=[row["name"] for row in reversed(limits)], xlim=(-1.05, 1.05),
-                xlabel="margin as a share of the limit (cut at one)", title="What must hold (orange: at its limit)")  # fmt: skip
+    margins.set(yticks=range(len(limits)), yticklabels=[row["name"] for row in reversed(limits)], xlim=(-1.05, 1.05))
+    margins.set(xlabel="margin as a share of the limit (cut at one)", title="What must hold (orange: at its limit)")
     margins.tick_params(axis="y", labelsize=7)
     for axes in (where, margins):
         axes.grid(axis="y", visible=False)

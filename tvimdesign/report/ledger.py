@@ -115,8 +115,8 @@ def _response() -> str:
     return (
         f"at 1.5 A with a flexible Peltier (assumed) and {thickness * 1e3:g} mm of PCL: far face "
         f"{now['far_face_time']:.0f} s, near face {now['near_face_time']:.0f} s, impedance soft after "
-        f"{now['softening_time']:.0f} s, since a plastic rotor takes as much heat as the layer; with a rotor that takes "
-        f"none, far face {insulated['far_face_time']:.0f} s, and {stated:g} s at {reached * 1e3:.2f} mm"
+        f"{now['softening_time']:.0f} s, since a plastic rotor takes as much heat as the layer; with a rotor that "
+        f"takes none, far face {insulated['far_face_time']:.0f} s, and {stated:g} s at {reached * 1e3:.2f} mm"
     )
 
 
@@ -163,7 +163,8 @@ def _ratio() -> str:
     strain = layer.shear_strain(40e-3, _stated("stroke"), 1e-3)
     return (
         f"alpha/theta = p/(r - p) for a pin at radius p: one only at p = {pins[0] * 1e3:.1f} mm "
-        f"(K_s {stiffness[0]:.2f}), K_s = {stiffness[1]:.1f} N·m/rad at p = 38 mm; a layer of 1 mm is sheared by {strain:.0%} at r = 40 mm"
+        f"(K_s {stiffness[0]:.2f}), K_s = {stiffness[1]:.1f} N·m/rad at p = 38 mm; "
+        f"a layer of 1 mm is sheared by {strain:.0%} at r = 40 mm"
     )
 
 

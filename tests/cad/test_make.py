@@ -1,0 +1,142 @@
+"""The child process and the files it writes."""
+
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import cadquery as cq
+import matplotlib.image
+import numpy as np
+import pytest
+import trimesh
+
+from tests.cad.conftest import design_of
+from tvimdesign.cad.kinds import KINDS
+from tvimdesign.cad.make import _report, make_cad
+from tvimdesign.cad.outcome import CadReport
+from tvimdesign.cad.part21 import in_fixed_order
+from tvimdesign.errors import GeometryError, InputError
+from tvimdesign.study.design import write_design
+
+Made = tuple[CadReport, list[str]]
+
+
+def test_importing_cad_does_not_load_the_kernel() -> None:
+    code = "import sys, tvimdesign.cad; sys.exit(any(m in sys.modules for m in ('cadquery', 'OCP', 'vtk', 'trimesh')))"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
+    report, steps = made
+    assert report.failed == ()
+    assert report.notes == ()
+    expected = {f"parts/{kind}.{suffix}" for kind in KINDS for suffix in ("step", "stl")}
+    assert set(report.files) == expected | {"assembly.step", "assembly.glb", "preview.png"}
+    found = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}
+    assert found == set(report.files)
+    assert {"housing", "rotor", "spring_right"} <= set(steps)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_step_and_stl_read_back_as_the_part(made: Made, kind: str) -> None:
+    values = design_of("paper", {}).values
+    copies = 4 if kind in ("pcl_arc", "peltier_pad") else 1
+    expected = 1e9 * values[KINDS[kind].volume] / copies
+    solid = cq.importers.importStep(str(made[0].folder / f"parts/{kind}.step")).val()
+    assert isinstance(solid, cq.Solid)
+    assert solid.Volume() == pytest.approx(expected, rel=1e-5)
+    mesh = trimesh.load_mesh(made[0].folder / f"parts/{kind}.stl")
+    assert mesh.is_watertight
+    assert mesh.volume == pytest.approx(expected, rel=5e-3)
+
+
+def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
+    path = made[0].folder / "assembly.step"
+    parts = {name: (shape, colour) for shape, name, _, colour in cq.Assembly.importStep(str(path))}
+    assert len(parts) == 16
+    for name, (shape, colour) in parts.items():
+        kind = name.split("/")[-1].rstrip("_0123456789")
+        assert isinstance(shape, cq.Solid)
+        assert colour.toTuple()[:3] == pytest.approx(KINDS[kind].colour, abs=0.01)
+    text = path.read_text()
+    assert "AP242" in text
+    assert "'petg'" in text
+    assert "2000-01-01T00:00:00" in text
+
+
+def test_glb_is_the_module_in_metres_with_y_up(made: Made) -> None:
+    scene = trimesh.load_scene(made[0].folder / "assembly.glb")
+    values = design_of("paper", {}).values
+    width, height = values["envelope_diameter"], values["envelope_height"]
+    assert scene.extents == pytest.approx([width, height, width], rel=1e-3)
+    assert {"housing", "spring_left_4", "pcl_arc_2"} <= set(scene.graph.nodes_geometry)
+
+
+def test_picture_shows_the_parts(made: Made) -> None:
+    image = matplotlib.image.imread(made[0].folder / "preview.png")[:700, :, :3]
+    drawn = np.any(np.abs(image - 1.0) > 0.05, axis=2)
+    assert 0.2 < drawn.mean() < 0.9
+    for colour in ((0.92, 0.62, 0.20), (0.95, 0.93, 0.82), (0.15, 0.48, 0.38)):
+        assert np.any(np.abs(image - colour).max(axis=2) < 0.1)
+
+
+@pytest.mark.slow
+def test_the_same_design_gives_the_same_bytes(made: Made, job: Callable[..., CadReport], tmp_path: Path) -> None:
+    write_design(design_of("paper", {}), tmp_path / "design.json")
+    again = make_cad(tmp_path / "design.json", tmp_path / "again")
+    for name in made[0].files:
+        first, second = ((folder / name).read_bytes() for folder in (made[0].folder, again.folder))
+        assert hashlib.sha256(first).digest() == hashlib.sha256(second).digest(), name
+
+
+def test_colours_are_put_in_the_order_of_their_parts() -> None:
+    def block(number: int, context: int) -> str:
+        return (
+            f"#{number} = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(\n    #{number + 1}),#{context});\n"
+            f"#{number + 1} = COLOUR_RGB('',0.{context});\n"
+        )
+
+    head, end = "#1 = A();\n#2 = B();\n", "ENDSEC;\n"
+    one = in_fixed_order(head + block(3, 2) + block(5, 1) + end)
+    other = in_fixed_order(head + block(3, 1) + block(5, 2) + end)
+    assert one == other
+    assert one.startswith(head + "#3 = MECHANICAL")
+    assert "#4),#1);" in one
+    assert one.endswith(end)
+
+
+def test_a_coil_that_cannot_be_built_names_the_spring(job: Callable[..., CadReport]) -> None:
+    with pytest.raises(GeometryError, match="spring"):
+        job(coil_diameter=1e-3)
+
+
+def test_a_part_the_model_has_wrong_is_written_and_reported(job: Callable[..., CadReport]) -> None:
+    report = job(retainer_thickness=2.6e-3)
+    assert "retainer_volume" in {check.name for check in report.failed}
+    assert (report.folder / "parts/retainer.step").exists()
+
+
+def test_time_out_is_an_error(job: Callable[..., CadReport]) -> None:
+    with pytest.raises(GeometryError, match=r"no answer in 0.2 s"):
+        job(timeout_s=0.2)
+
+
+def test_a_crash_names_the_part() -> None:
+    with pytest.raises(GeometryError, match="rotor: the CAD process ended with code -11"):
+        _report(Path(), {"progress": "rotor"}, -11, 60.0, "")
+
+
+def test_a_crash_of_the_graphics_costs_only_the_picture() -> None:
+    state = {"progress": "drawing the picture", "checks": [], "files": ["a.step"], "seconds": 1.0}
+    report = _report(Path(), state, -11, 60.0, "")
+    assert report.files == ("a.step",)
+    assert "code -11" in report.notes[0]
+
+
+def test_no_design_is_an_input_error(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="cannot be read"):
+        make_cad(tmp_path / "none.json", tmp_path / "cad")

@@ -1,0 +1,105 @@
+"""The spring's solid and its shape on the pin, against closed forms."""
+
+from __future__ import annotations
+
+from math import atan2, hypot, pi, sin, sqrt
+
+import cadquery as cq
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.cad.conftest import CASES, design_of
+from tvimdesign.cad.assembly import build
+from tvimdesign.cad.dimensions import dimensions
+from tvimdesign.cad.mesh import spring_mesh
+from tvimdesign.cad.springs import Coil, free_coil, installed_coil, spring_solid
+from tvimdesign.errors import GeometryError
+from tvimdesign.study.design import Design
+
+
+def coil(**changes: float) -> Coil:
+    shape = {"wire_diameter": 2.0, "diameter": 20.0, "turns": 3.25, "pitch": 2.1, "leg_length": 20.0,
+             "tang_length": 4.0, "leg_azimuth": 0.4}  # fmt: skip
+    return Coil(**(shape | changes))
+
+
+@settings(max_examples=12, deadline=None)
+@given(index=st.floats(4.0, 16.0), turns=st.floats(2.0, 12.0), leg_azimuth=st.floats(-pi, pi))
+def test_any_coil_is_one_solid_with_the_volume_of_its_wire(index: float, turns: float, leg_azimuth: float) -> None:
+    shape = coil(diameter=2.0 * index, turns=turns, leg_azimuth=leg_azimuth)
+    solid = spring_solid(shape)
+    assert solid.isValid()
+    assert solid.Volume() == pytest.approx(0.25 * pi * 4.0 * shape.wire_length, rel=1e-4)
+
+
+def test_free_spring_is_the_wire_of_the_model(design: Design) -> None:
+    shape = free_coil(dimensions(design))
+    assert shape.wire_length == pytest.approx(1e3 * design.values["wire_length"], rel=1e-12)
+    assert shape.start_level == pytest.approx(1e3 * design.values["coil_start_level"], rel=1e-12)
+    assert spring_solid(shape).Volume() == pytest.approx(1e9 * design.values["spring_volume"], rel=1e-4)
+
+
+def test_winding_keeps_the_wire_and_the_tang(design: Design) -> None:
+    dims = dimensions(design)
+    wire = dims.coil_count * hypot(pi * dims.coil_diameter, dims.coil_pitch)
+    rest = installed_coil(dims)
+    assert rest.turns == pytest.approx(dims.coil_count + dims.preload_angle / (2.0 * pi), rel=1e-12)
+    for angle in np.linspace(-dims.stroke, dims.stroke, 5):
+        moved = installed_coil(dims, angle)
+        assert moved.turns * hypot(pi * moved.diameter, moved.pitch) == pytest.approx(wire, rel=1e-12)
+        assert sin(moved.start_azimuth - rest.start_azimuth) == pytest.approx(0.0, abs=1e-12)
+        assert (moved.turns > rest.turns) == (angle < 0.0)
+    assert rest.end_level == pytest.approx(1e3 * design.values["coil_end_level"], abs=1e-3)
+
+
+def test_leg_lies_against_its_pin_on_the_winding_side(design: Design) -> None:
+    dims = dimensions(design)
+    for angle in (-dims.stroke, 0.0, dims.stroke):
+        shape = installed_coil(dims, angle)
+        pin = np.array([dims.pin_radius * np.cos(angle) - dims.placement_radius, dims.pin_radius * np.sin(angle)])
+        along = np.array([np.cos(shape.leg_azimuth), np.sin(shape.leg_azimuth)])
+        right = np.array([along[1], -along[0]])
+        leg_offset = 0.5 * shape.diameter  # the leg leaves a counter-clockwise coil on its right
+        assert pin @ right - leg_offset == pytest.approx(0.5 * (dims.wire_diameter + dims.pin_diameter), rel=1e-9)
+        assert pin @ along == pytest.approx(sqrt(pin @ pin - (pin @ right) ** 2), rel=1e-9)
+        assert atan2(*(-right)) is not None
+
+
+def test_solid_leg_touches_the_pin(design: Design) -> None:
+    for angle in (0.0, 0.7 * design.values["stroke"]):
+        parts = build(design, angle)
+        for name in ("spring_right_1", "spring_left_2"):
+            assert parts["rotor"].distance(parts[name]) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_mesh_is_the_solid() -> None:
+    shape = coil(turns=4.6)
+    mesh = spring_mesh(shape)
+    body = trimesh.Trimesh(mesh.vertices, mesh.faces)
+    solid = spring_solid(shape)
+    assert body.is_watertight
+    assert body.volume == pytest.approx(solid.Volume(), rel=2e-3)
+    box = solid.BoundingBox()
+    limits = [[box.xmin, box.ymin, box.zmin], [box.xmax, box.ymax, box.zmax]]
+    assert np.allclose(body.bounds, limits, atol=0.05)
+    inside = cq.Solid.makeBox(0.1, 0.1, 0.1)
+    assert inside.isValid()
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [({"diameter": 1.5}, "coil diameter"), ({"pitch": 1.9}, "gap between coils"), ({"leg_length": 0.0}, "leg_length")],
+)
+def test_a_wire_that_cannot_be_bent_is_an_error(changes: dict[str, float], words: str) -> None:
+    with pytest.raises(GeometryError, match=words):
+        spring_solid(coil(**changes))
+
+
+def test_a_pin_out_of_reach_is_an_error() -> None:
+    good = design_of("paper", CASES["paper"])
+    design = good.model_copy(update={"values": good.values | {"pin_radius": 0.05}})
+    with pytest.raises(GeometryError, match="cannot reach"):
+        build(design)
