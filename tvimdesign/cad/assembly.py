@@ -101,7 +101,7 @@ def _built(name: str, draw: Callable[[], cq.Shape], progress: Progress | None) -
         shape = draw()
     except GeometryError as error:
         text = str(error)
-        raise GeometryError(text if text.startswith(("spring", name)) else f"{name}: {text}") from error
+        raise GeometryError(text if text.startswith((f"{name}: ", "spring: ")) else f"{name}: {text}") from error
     except Exception as error:  # OCC raises a dozen classes, and none of them names the part
         raise GeometryError(f"{name}: the CAD kernel cannot build it ({type(error).__name__}: {error})") from error
     solids = shape.Solids()

@@ -34,7 +34,7 @@ def all_checks(
 ) -> list[Check]:
     """Run every check at rest and through the stroke."""
     say = progress or (lambda _: None)
-    at_rest = place(dims, drawn)
+    at_rest = place(dims, drawn, progress=progress)
     say("sizes")
     found = [*size_checks(design, at_rest), *envelope_checks(dims, at_rest)]
     found += bearing_checks(dims)
@@ -43,7 +43,7 @@ def all_checks(
     for share in (-1.0, -0.5, 0.5, 1.0):
         angle = share * dims.stroke
         say(f"interference at {angle:+.4f} rad")
-        moved = place(dims, drawn, angle)
+        moved = place(dims, drawn, angle, progress)
         found += interference_checks(moved, f"at {angle:+.4f} rad", lambda a, b: _group(a) != _group(b))
     return found
 

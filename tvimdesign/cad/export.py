@@ -29,12 +29,13 @@ def export(
     folder = out / "parts"
     folder.mkdir(parents=True, exist_ok=True)
     files = []
-    free = free_springs(dims)
+    free = free_springs(dims, progress)
     coil = free_coil(dims)
     meshes = part_meshes(drawn, {"spring_right": coil, "spring_left": coil})
     for kind, solid in {**drawn, **free}.items():
         progress(f"writing {kind}")
         write_part(folder / f"{kind}.step", solid, product(design, kind))
+        _read_back(folder / f"{kind}.step", kind, solid.Volume())
         write_whole(folder / f"{kind}.stl", stl_bytes(kind, meshes[kind]))
         files += [f"parts/{kind}.step", f"parts/{kind}.stl"]
     progress("writing assembly")
@@ -43,6 +44,13 @@ def export(
     write_assembly(out / "assembly.step", design.name, placed, products)
     write_whole(out / "assembly.glb", glb_bytes(instances(dims, drawn, placed)))
     return [*files, "assembly.step", "assembly.glb"]
+
+
+def _read_back(path: Path, kind: str, volume: float) -> None:
+    """Raise GeometryError where a written part does not come back from its STEP file as the same one solid."""
+    read = cq.importers.importStep(str(path)).vals()
+    if len(read) != 1 or not isinstance(read[0], cq.Solid) or abs(read[0].Volume() / volume - 1.0) > 1e-4:
+        raise GeometryError(f"{kind}: {path.name} does not read back as the one solid that was written")
 
 
 def product(design: Design, kind: str) -> Product:

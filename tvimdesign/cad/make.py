@@ -41,7 +41,7 @@ def make_cad(
                 if progress and "progress" in message:
                     progress(message["progress"])
             code = process.wait(timeout=10.0)
-        except TimeoutError:
+        except (TimeoutError, subprocess.TimeoutExpired):
             code = None
         finally:
             process.kill()

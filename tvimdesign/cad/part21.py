@@ -1,4 +1,4 @@
-"""Puts a STEP file's colours in a fixed order: the CAD kernel writes them in the order of memory addresses."""
+"""Puts right what the CAD kernel leaves in a STEP file: colours in the order of memory addresses, and UTF-8 text."""
 
 from __future__ import annotations
 
@@ -27,6 +27,15 @@ def in_fixed_order(text: str) -> str:
     new = {number: first_number + index for index, number in enumerate(old)}
     tail = _NUMBER.sub(lambda match: f"#{new.get(int(match[1]), int(match[1]))}", "".join(blocks))
     return text[: starts[0]] + tail + text[end:]
+
+
+def plain_text(text: str) -> bytes:
+    """Encode a STEP file: letters beyond ASCII are written as ISO 10303-21 has them, hexadecimal between X2 and X0."""
+
+    def escaped(letters: re.Match[str]) -> str:
+        return "\\X2\\" + letters[0].encode("utf-16-be").hex().upper() + "\\X0\\"
+
+    return re.sub(r"[^\x00-\x7f]+", escaped, text).encode("ascii")
 
 
 def _unwrapped(block: str) -> str:

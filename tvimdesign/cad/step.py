@@ -23,7 +23,7 @@ from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
 from tvimdesign.cad.kinds import Rgb
-from tvimdesign.cad.part21 import in_fixed_order
+from tvimdesign.cad.part21 import in_fixed_order, plain_text
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import write_whole
 
@@ -87,7 +87,7 @@ class _Document:
             beside = Path(folder) / path.name
             if writer.Write(str(beside)) != IFSelect_ReturnStatus.IFSelect_RetDone:
                 raise GeometryError(f"{name}: the CAD kernel could not write {path}")
-            write_whole(path, in_fixed_order(beside.read_text("latin-1")).encode("latin-1"))
+            write_whole(path, plain_text(in_fixed_order(beside.read_text("utf-8"))))
 
 
 def write_part(path: Path, solid: cq.Solid, product: Product) -> None:
@@ -119,4 +119,4 @@ def _text(text: str) -> TCollection_HAsciiString:
 
 
 def _name(label: TDF_Label, name: str) -> None:
-    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name))
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))

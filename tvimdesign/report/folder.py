@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import platform
 import shutil
 import subprocess
 from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
+from types import TracebackType
 from typing import Any
 
 from tvimdesign import __version__
@@ -17,20 +19,35 @@ from tvimdesign.errors import InputError
 from tvimdesign.study.design import write_whole
 
 MANIFEST = "manifest.json"
+RUNNING = "running"
 _LIBRARIES = ("casadi", "numpy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh")
 
 
 class ResultsFolder:
-    """A folder that one run writes; files go in whole, and the manifest says which and with what hash."""
+    """A folder that one run writes; files go in whole, and the manifest says which and with what hash.
+
+    As a context manager it always leaves a manifest: of a run that ended early, too.
+    """
 
     def __init__(self, path: Path, overwrite: bool = False) -> None:
         """Make the folder, or empty it of an earlier run's files where `overwrite` says so. Raises InputError."""
         self.path = path
         self._started = datetime.now(UTC)
+        self._finished = False
         try:
             self._claim(overwrite)
         except OSError as error:
             raise InputError(f"{path}: cannot be used as a results folder: {error.strerror}") from error
+        self.write_json(MANIFEST, {"status": RUNNING, "process": os.getpid(), "host": platform.node()})
+
+    def __enter__(self) -> ResultsFolder:
+        """Return itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        """Leave a manifest of a run that did not come to its end."""
+        if not self._finished:
+            self.finish("interrupted" if kind is KeyboardInterrupt else "failed", {}, {})
 
     def _claim(self, overwrite: bool) -> None:
         if self.path.exists() and not self.path.is_dir():
@@ -38,21 +55,34 @@ class ResultsFolder:
         self.path.mkdir(parents=True, exist_ok=True)
         if not any(self.path.iterdir()):
             return
-        manifest = self.path / MANIFEST
         if not overwrite:
             raise InputError(
                 f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder"
             )
+        for target in self._earlier():
+            if target.resolve().is_relative_to(self.path.resolve()):
+                target.unlink(missing_ok=True)
+        for folder in ("plots", "cad"):
+            _remove_if_empty(self.path / folder)
+
+    def _earlier(self) -> list[Path]:
+        """Files of an earlier run; raises InputError where another run is at work, or none ever was."""
+        manifest = self.path / MANIFEST
         if not manifest.exists():
             raise InputError(
                 f"{self.path}: not a folder of results (no {MANIFEST}); --overwrite would lose other files"
             )
-        for name in _listed(manifest):
-            target = (self.path / name).resolve()
-            if target.is_relative_to(self.path.resolve()):
-                target.unlink(missing_ok=True)
-        for folder in ("plots", "cad"):
-            _remove_if_empty(self.path / folder)
+        try:
+            said = json.loads(manifest.read_bytes())
+            files = [*said.get("files", {}), MANIFEST]
+        except (ValueError, AttributeError) as error:
+            raise InputError(f"{manifest}: not written by tvimdesign; --overwrite would lose other files") from error
+        if said.get("status") != RUNNING:
+            return [self.path / name for name in files]
+        if said.get("host") == platform.node() and _alive(said.get("process")):
+            raise InputError(f"{self.path}: another run (process {said['process']}) is writing it; name another --out")
+        # A run that was killed: it began in an empty folder, so what is here is its own.
+        return [path for path in self.path.rglob("*") if path.is_file()]
 
     def write(self, name: str, data: str | bytes) -> Path:
         """Write one file, whole."""
@@ -67,6 +97,7 @@ class ResultsFolder:
 
     def finish(self, status: str, inputs: dict[str, Path], study: dict[str, Any]) -> None:
         """Write the manifest: versions, commit, seed, hashes of what went in and of what came out."""
+        self._finished = True
         files = sorted(p for p in self.path.rglob("*") if p.is_file() and p.name != MANIFEST)
         self.write_json(
             MANIFEST,
@@ -86,12 +117,17 @@ class ResultsFolder:
         )
 
 
-def _listed(manifest: Path) -> list[str]:
-    """Files an earlier run says it wrote, with the manifest itself."""
+def _alive(process: object) -> bool:
+    """Whether a process of this number runs here."""
+    if not isinstance(process, int) or process == os.getpid():
+        return False
     try:
-        return [*json.loads(manifest.read_bytes()).get("files", {}), MANIFEST]
-    except (ValueError, AttributeError) as error:
-        raise InputError(f"{manifest}: not a manifest tvimdesign wrote; --overwrite would lose other files") from error
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def _remove_if_empty(folder: Path) -> None:

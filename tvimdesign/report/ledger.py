@@ -208,7 +208,7 @@ def print_ledger(as_json: bool) -> None:
         return
     from rich.table import Table as Grid
 
-    from tvimdesign.report.run import wide_console
+    from tvimdesign.report.talk import wide_console
 
     grid = Grid(title="The paper against its own numbers", title_justify="left", show_lines=True)
     for column, share in (("the paper says", 3), ("computed here", 5), ("verdict", 3)):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -54,6 +55,7 @@ class PlotProcess:
 
 def main() -> None:
     """Load matplotlib, wait for the data, draw."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     from tvimdesign.report import figures
 
     request = json.load(sys.stdin)

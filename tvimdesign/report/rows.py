@@ -6,13 +6,13 @@ import json
 import math
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table as Grid
 
 from tvimdesign.device import Choice, Input, Output, table_for
 from tvimdesign.device.rows import Row
 from tvimdesign.errors import InputError
 from tvimdesign.report.tables import number
+from tvimdesign.report.talk import wide_console
 from tvimdesign.units import from_si, pretty
 
 
@@ -25,7 +25,7 @@ def print_rows(mode: str, match: str, as_json: bool) -> None:
     if as_json:
         print(json.dumps([_plain(row) for row in found], indent=2))
         return
-    console = Console()
+    console = wide_console()
     grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
     for column in ("name", "kind", "unit", "default", "allowed", "meaning"):
         grid.add_column(column, overflow="fold")

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
-
-from rich.console import Console
+from typing import TYPE_CHECKING, Any
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Table, table_for
 from tvimdesign.errors import GeometryError, TvimError
 from tvimdesign.report.folder import ResultsFolder
+from tvimdesign.report.talk import Progress, talk, wide_console
 from tvimdesign.study import Study, read_study
 from tvimdesign.study.design import Design, read_design, write_whole
 
-Progress = Callable[[str], None]
+if TYPE_CHECKING:
+    from tvimdesign.solve.answer import Answer
+
 CAD_TIME_LIMIT = 300.0  # s
-WIDTH = 132
 
 
 def describe(study: Study) -> str:
@@ -31,57 +31,65 @@ def describe(study: Study) -> str:
 
 def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool) -> None:
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and GeometryError for parts."""
-    from tvimdesign.report.plots import PlotProcess
-
-    study = read_study(path)
-    folder = ResultsFolder(out, overwrite)
-    with ExitStack() as stack:
-        progress = stack.enter_context(_talk())
-        drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        _answer(study, path, folder, drawing, progress, make_cad=cad and study.write.cad, as_json=as_json)
-
-
-def _answer(
-    study: Study, path: Path, folder: ResultsFolder, drawing: object, progress: Progress, *, make_cad: bool,
-    as_json: bool,
-) -> None:  # fmt: skip
     from tvimdesign.report.plot_data import plot_data
     from tvimdesign.report.plots import PlotProcess
     from tvimdesign.report.summary import print_summary
-    from tvimdesign.report.tables import curves_csv, results, results_csv
-    from tvimdesign.solve.answer import answer, verdict
+    from tvimdesign.report.tables import results
+    from tvimdesign.solve.answer import verdict
 
-    table = table_for(study.mode)
-    catalog = catalog_of(study, path)
-    found = answer(study, catalog, table, progress)
-    told = results(found, table)
+    study = read_study(path)
+    table, catalog = table_for(study.mode), catalog_of(study, path)
+    troubles: list[TvimError] = []
+    with ExitStack() as stack:
+        folder = stack.enter_context(ResultsFolder(out, overwrite))
+        progress = stack.enter_context(talk())
+        drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
+        found = _answer(study, catalog, table, progress)
+        told = results(found, table)
+        design = _write(folder, path, study, found, told)
+        progress("")
+        if as_json:
+            print(json.dumps(told, indent=2, allow_nan=False))
+        else:
+            print_summary(found, table, wide_console())
+        if drawing:
+            progress("drawing the plots")
+            with _noting(troubles):
+                drawing.draw(folder.path / "plots", plot_data(found, table))
+        if cad and study.write.cad and _to_be_made(found):
+            with _noting(troubles):
+                _parts(design, folder.path / "cad", progress)
+        inputs = {"study": path, **_records(found.design, catalog, table)}
+        folder.finish(found.design.status, inputs, found.design.study)
+    if not as_json:
+        wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
+    verdict(found)
+    if troubles:
+        raise _partly(troubles)
+
+
+def _answer(study: Study, catalog: Catalog, table: Table, progress: Progress) -> Answer:
+    from tvimdesign.solve.answer import answer
+
+    return answer(study, catalog, table, progress)
+
+
+def _to_be_made(found: Answer) -> bool:
+    """Whether a design is worth its parts: evaluated, or optimal."""
+    return found.solution is None or found.design.status == "optimal"
+
+
+def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any]) -> Path:
+    """Write everything but pictures and parts; returns the design's file."""
+    from tvimdesign.report.tables import curves_csv, results_csv
+
     folder.write("study.yaml", path.read_bytes())
     folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
-    design = folder.write("design.json", found.design.model_dump_json(indent=2) + "\n")
     folder.write_json("results.json", told)
     folder.write("results.csv", results_csv(told["values"]))
     folder.write("temperatures.csv", curves_csv(found.history))
     folder.write("impedance.csv", curves_csv(found.sweep))
-    troubles: list[TvimError] = []
-    if isinstance(drawing, PlotProcess):
-        progress("drawing")
-        with _noting(troubles):
-            drawing.draw(folder.path / "plots", plot_data(found, table))
-    converged = found.solution is None or found.design.status == "optimal"
-    if make_cad and converged:
-        with _noting(troubles):
-            _parts(design, folder.path / "cad", progress)
-    folder.finish(found.design.status, {"study": path, **_records(found.design, catalog, table)}, found.design.study)
-    progress("")
-    if as_json:
-        print(json.dumps(told, indent=2, allow_nan=False))
-    else:
-        console = wide_console()
-        print_summary(found, table, console)
-        console.print(f"\nResults are in [bold]{folder.path}[/bold]", highlight=False, soft_wrap=True)
-    verdict(found)
-    if troubles:
-        raise _partly(troubles)
+    return folder.write("design.json", found.design.model_dump_json(indent=2) + "\n")
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
@@ -90,16 +98,16 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         run_study(source, out, overwrite=overwrite, cad=True, plots=False, as_json=as_json)
         return
     design = read_design(source)
-    folder = ResultsFolder(out, overwrite)
     troubles: list[TvimError] = []
-    with _talk() as progress, _noting(troubles):
-        report = _parts(source, folder.path, progress)
-        if as_json:
-            print(json.dumps(report, indent=2))
-        else:
-            wide_console().print(f"{len(report['checks'])} checks on the solids hold; parts are in [bold]{out}[/bold]",
-                                 soft_wrap=True)  # fmt: skip
-    folder.finish(design.status, {"design": source}, design.study)
+    with ResultsFolder(out, overwrite) as folder:
+        with talk() as progress, _noting(troubles):
+            report = _parts(source, folder.path, progress)
+            if as_json:
+                print(json.dumps(report, indent=2))
+            else:
+                said = f"{len(report['checks'])} checks on the solids hold; parts are in [bold]{out}[/bold]"
+                wide_console().print(said, soft_wrap=True)
+        folder.finish(design.status, {"design": source}, design.study)
     if troubles:
         raise _partly(troubles)
 
@@ -118,12 +126,6 @@ def _parts(design: Path, out: Path, progress: Progress) -> dict[str, Any]:
     return told
 
 
-def wide_console() -> Console:
-    """Standard output: as wide as the terminal, and wide enough for a table where there is none."""
-    console = Console(highlight=False)
-    return console if console.is_terminal else Console(highlight=False, width=WIDTH)
-
-
 def catalog_of(study: Study, path: Path) -> Catalog:
     """The catalogue a study uses: the shipped records and those of the folder it names."""
     return Catalog(path.parent / study.catalog_folder if study.catalog_folder else None)
@@ -136,17 +138,6 @@ def _records(design: Design, catalog: Catalog, table: Table) -> dict[str, Path]:
         for row in table.rows
         if isinstance(row, Choice) and row.shelf
     }
-
-
-@contextmanager
-def _talk() -> Iterator[Progress]:
-    """Say on standard error what is going on: one moving line on a terminal, plain lines elsewhere."""
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda text: console.print(f"... {text}", highlight=False, markup=False) if text else None
-        return
-    with console.status("reading") as status:
-        yield lambda text: status.update(text) if text else status.stop()
 
 
 @contextmanager

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
@@ -65,6 +67,9 @@ def _grid(title: str, columns: tuple[str, ...], right: tuple[int, ...] = ()) -> 
 def _verdict(answer: Answer) -> str:
     broken = sum(not check.kept for check in answer.checks)
     solution = answer.solution
+    if math.isinf(answer.design.value("response_time")):
+        unreached = "The switch never ends: the current is too weak, or the cold side too warm, for this criterion."
+        return f"[red]{unreached}[/red]"
     if solution is None:
         return (
             "[green]Evaluated; every rule and requirement holds.[/green]"
@@ -113,7 +118,7 @@ def _share(margin: float) -> str:
 
 
 def _print_prices(answer: Answer, console: Console) -> None:
-    if answer.solution is None:
+    if answer.solution is None or answer.design.status != "optimal":
         return
     held = sorted((h for h in answer.solution.held if h.price > _PRICE_SHOWN), key=lambda h: -h.price)
     if not held:

@@ -91,7 +91,7 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
         "values": {name: _entry(name, value, table) for name, value in design.values.items()},
         "checks": [check_row(check, table) for check in answer.checks],
         "warnings": [check_row(check, table) for check in answer.warnings],
-        "solution": design.solution,
+        "solution": _all_finite(design.solution),
     }
 
 
@@ -110,6 +110,15 @@ def _entry(name: str, value: float, table: Table) -> dict[str, Any]:
 def _finite(value: float) -> float | None:
     """JSON has no infinity: what never happens is null."""
     return value if math.isfinite(value) else None
+
+
+def _all_finite(data: Any) -> Any:
+    """Plain data with null for what is not finite."""
+    if isinstance(data, Mapping):
+        return {key: _all_finite(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_all_finite(value) for value in data]
+    return _finite(data) if isinstance(data, float) else data
 
 
 def results_csv(entries: Mapping[str, Mapping[str, Any]]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -115,6 +116,8 @@ def verdict(result: Answer) -> None:
         return
     broken = sorted((check for check in result.checks if not check.kept), key=lambda check: check.margin)
     lines = [f"  {check.text}: {-check.margin:.1%} beyond" for check in broken]
+    if math.isinf(result.design.value("response_time")):
+        lines.append("  response_time: the switch does not end at this current within `horizon`")
     raise InfeasibleError(
         "\n".join(
             [f"{result.design.name}: {result.design.status}.", "At the last point, broken were:", *lines]

@@ -201,6 +201,8 @@ class Optimizer:
             lbg=np.concatenate([np.zeros(equations), np.full(rest, -np.inf)]), ubg=np.zeros(equations + rest),
         )  # fmt: skip
         stats = solver.stats()
+        if stats["return_status"] == "User_Requested_Stop":  # an interrupt that reached IPOPT first
+            raise KeyboardInterrupt
         unknowns = np.asarray(answer["x"]).ravel()
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds

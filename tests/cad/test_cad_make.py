@@ -13,12 +13,13 @@ import matplotlib.image
 import numpy as np
 import pytest
 import trimesh
+from cad_designs import design_of
 
-from tests.cad.conftest import design_of
+from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.kinds import KINDS
-from tvimdesign.cad.make import _report, make_cad
-from tvimdesign.cad.outcome import CadReport
+from tvimdesign.cad.make import _report
 from tvimdesign.cad.part21 import in_fixed_order
+from tvimdesign.cad.step import Product, write_assembly
 from tvimdesign.errors import GeometryError, InputError
 from tvimdesign.study.design import write_design
 
@@ -85,7 +86,7 @@ def test_picture_shows_the_parts(made: Made) -> None:
 
 
 @pytest.mark.slow
-def test_the_same_design_gives_the_same_bytes(made: Made, job: Callable[..., CadReport], tmp_path: Path) -> None:
+def test_the_same_design_gives_the_same_bytes(made: Made, tmp_path: Path) -> None:
     write_design(design_of("paper", {}), tmp_path / "design.json")
     again = make_cad(tmp_path / "design.json", tmp_path / "again")
     for name in made[0].files:
@@ -95,9 +96,9 @@ def test_the_same_design_gives_the_same_bytes(made: Made, job: Callable[..., Cad
 
 def test_colours_are_put_in_the_order_of_their_parts() -> None:
     def block(number: int, context: int) -> str:
+        styles = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION"
         return (
-            f"#{number} = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(\n    #{number + 1}),#{context});\n"
-            f"#{number + 1} = COLOUR_RGB('',0.{context});\n"
+            f"#{number} = {styles}('',(\n    #{number + 1}),#{context});\n#{number + 1} = COLOUR_RGB('',0.{context});\n"
         )
 
     head, end = "#1 = A();\n#2 = B();\n", "ENDSEC;\n"
@@ -109,11 +110,20 @@ def test_colours_are_put_in_the_order_of_their_parts() -> None:
     assert one.endswith(end)
 
 
+def test_a_name_in_any_script_survives_step(tmp_path: Path) -> None:
+    box = cq.Solid.makeBox(1, 1, 1)
+    product = Product(name="box", colour=(1, 0, 0), material="Stahl für Übung", density=7850.0)
+    write_assembly(tmp_path / "a.step", "Gelenk ü'; #5 = 日本", {"box_1": box}, {"box_1": product})
+    assert (tmp_path / "a.step").read_bytes().isascii()
+    assert cq.Assembly.importStep(str(tmp_path / "a.step")).name == "Gelenk ü'; #5 = 日本"
+
+
 def test_a_coil_that_cannot_be_built_names_the_spring(job: Callable[..., CadReport]) -> None:
     with pytest.raises(GeometryError, match="spring"):
         job(coil_diameter=1e-3)
 
 
+@pytest.mark.slow
 def test_a_part_the_model_has_wrong_is_written_and_reported(job: Callable[..., CadReport]) -> None:
     report = job(retainer_thickness=2.6e-3)
     assert "retainer_volume" in {check.name for check in report.failed}

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot, pi, sin, sqrt
+from math import hypot, pi, sin, sqrt
 
-import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
+from cad_designs import design_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.cad.conftest import CASES, design_of
 from tvimdesign.cad.assembly import build
 from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.mesh import spring_mesh
@@ -65,7 +64,6 @@ def test_leg_lies_against_its_pin_on_the_winding_side(design: Design) -> None:
         leg_offset = 0.5 * shape.diameter  # the leg leaves a counter-clockwise coil on its right
         assert pin @ right - leg_offset == pytest.approx(0.5 * (dims.wire_diameter + dims.pin_diameter), rel=1e-9)
         assert pin @ along == pytest.approx(sqrt(pin @ pin - (pin @ right) ** 2), rel=1e-9)
-        assert atan2(*(-right)) is not None
 
 
 def test_solid_leg_touches_the_pin(design: Design) -> None:
@@ -85,8 +83,6 @@ def test_mesh_is_the_solid() -> None:
     box = solid.BoundingBox()
     limits = [[box.xmin, box.ymin, box.zmin], [box.xmax, box.ymax, box.zmax]]
     assert np.allclose(body.bounds, limits, atol=0.05)
-    inside = cq.Solid.makeBox(0.1, 0.1, 0.1)
-    assert inside.isValid()
 
 
 @pytest.mark.parametrize(
@@ -99,7 +95,7 @@ def test_a_wire_that_cannot_be_bent_is_an_error(changes: dict[str, float], words
 
 
 def test_a_pin_out_of_reach_is_an_error() -> None:
-    good = design_of("paper", CASES["paper"])
+    good = design_of("paper", {})
     design = good.model_copy(update={"values": good.values | {"pin_radius": 0.05}})
     with pytest.raises(GeometryError, match="cannot reach"):
         build(design)

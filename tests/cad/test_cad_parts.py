@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import cadquery as cq
 import pytest
+from cad_designs import broken_rules, design_of
 
-from tests.cad.conftest import broken_rules, design_of
 from tvimdesign.cad.assembly import build, drawn_parts
 from tvimdesign.cad.checks import all_checks, interference_checks, size_checks
 from tvimdesign.cad.dimensions import dimensions
@@ -64,9 +64,13 @@ def test_a_core_in_the_way_of_the_legs_is_found() -> None:
 
 @pytest.mark.parametrize(
     ("row", "value", "words"),
-    [("spring_count", 5.0, "even"), ("arc_span", 0.01, "housing: span"), ("rotor_radius", float("nan"), "rotor: rotor_radius"),
-     ("arc_count", 2.5, "whole number")],
-)  # fmt: skip
+    [
+        ("spring_count", 5.0, "even"),
+        ("arc_count", 2.5, "whole number"),
+        ("arc_span", 0.01, "housing: span"),
+        ("rotor_radius", float("nan"), "rotor: rotor_radius is nan"),
+    ],
+)
 def test_what_cannot_be_drawn_names_the_part(paper: Design, row: str, value: float, words: str) -> None:
     design = paper.model_copy(update={"values": paper.values | {row: value}})
     with pytest.raises(GeometryError, match=words):

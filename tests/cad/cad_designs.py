@@ -1,0 +1,65 @@
+"""Designs to make parts of: the paper's module, one for a wrist, and one whose coils end at an odd angle."""
+
+from __future__ import annotations
+
+from math import radians
+from typing import Any
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.device.rows import Event
+from tvimdesign.device.rows import Path as SwitchPath
+from tvimdesign.study.design import Design
+
+MM = 1e-3
+TABLE = table_for("shear")
+WRIST = {
+    "wire_diameter": 1.4 * MM, "coil_diameter": 9.0 * MM, "coil_count": 4.25, "placement_radius": 26.5 * MM,
+    "pcl_inner_radius": 11.5 * MM, "pcl_outer_radius": 18.5 * MM, "arc_span": radians(60.0), "pcl_thickness": 0.6 * MM,
+    "core_radius": 5.0 * MM, "hub_wall": 2.0 * MM, "radial_clearance": 0.6 * MM, "rotor_rim": 1.0 * MM,
+    "rotor_thickness": 2.5 * MM, "pin_diameter": 2.5 * MM, "leg_overhang": 3.0 * MM,
+    # Half the size takes smaller screws: M2 in the core.
+    "link_screw_pilot": 1.6 * MM, "link_screw_clearance": 2.4 * MM, "link_screw_depth": 6.0 * MM,
+    "retainer_screw_pilot": 2.5 * MM, "retainer_screw_clearance": 3.4 * MM, "retainer_screw_depth": 6.0 * MM,
+}  # fmt: skip
+ODD = WRIST | {"coil_count": 4.6, "spring_count": 6, "arc_count": 3, "preload_angle": 0.21}
+CASES: dict[str, dict[str, float]] = {"paper": {}, "wrist": WRIST, "odd": ODD}
+
+
+def given(overrides: dict[str, float]) -> dict[str, Any]:
+    """Every input and choice of the table at its default, but for the overrides."""
+    catalog = Catalog()
+    known: dict[str, Any] = {row.name: catalog.record(row.shelf, row.default) if row.shelf else row.default
+                             for row in TABLE.choices}  # fmt: skip
+    for row in TABLE.inputs:
+        if row.name in overrides:
+            known[row.name] = overrides[row.name]
+        elif row.record:
+            known[row.name] = known[row.record[0]].value(row.record[1])
+        else:
+            known[row.name] = row.default
+    return known
+
+
+def design_of(name: str, overrides: dict[str, float]) -> Design:
+    """A design with every row of the geometry."""
+    known = given(overrides)
+    geometry = ("Layout", "Size and weight", "Springs")
+    simple = [row for row in TABLE.outputs if not (row.hidden or row.per_point or row.instant)]
+    wanted = [row.name for row in simple if row.group in geometry and not isinstance(row, Event | SwitchPath)]
+    values = {key: float(value) for key, value in known.items() if isinstance(value, int | float)}
+    values |= {key: float(value) for key, value in TABLE.evaluate(known, wanted).items()}
+    choices = {row.name: row.default for row in TABLE.choices}
+    return Design(
+        tvimdesign="0", name=name, mode="shear", status="evaluated", choices=choices, values=values, study={}
+    )  # fmt: skip
+
+
+def broken_rules(design: Design) -> list[str]:
+    """Rules of the layout that a design breaks."""
+    return [
+        row.name for row in TABLE.outputs
+        if row.group == "Layout" and row.name in design.values
+        for rule in row.rules
+        if (design.values[row.name] - rule.value) * (1 if rule.sense == ">=" else -1) < -1e-12
+    ]  # fmt: skip

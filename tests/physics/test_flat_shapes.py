@@ -1,0 +1,59 @@
+"""Areas and polar second moments against quadrature that never uses the closed forms."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tvimdesign.physics import shapes
+
+
+def integrate(function: Callable[[float], float], start: float, end: float) -> float:
+    return float(quad(function, start, end, epsabs=0.0, epsrel=1e-10, limit=200)[0])
+
+
+def by_strips(height: Callable[[float], float], start: float, end: float) -> shapes.Section:
+    """Section symmetric about the x axis, of the half height h(x): polar of a strip 2 (x^2 h + h^3/3) dx."""
+    area = integrate(lambda x: 2.0 * height(x), start, end)
+    polar = integrate(lambda x: 2.0 * (x**2 * height(x) + height(x) ** 3 / 3.0), start, end)
+    return shapes.Section(area, polar)
+
+
+def plus(first: shapes.Section, second: shapes.Section) -> shapes.Section:
+    return shapes.Section(first.area + second.area, first.polar + second.polar)
+
+
+def test_sector_is_its_thin_arcs() -> None:
+    span, inner, outer = 0.85, 26e-3, 40e-3
+    area = integrate(lambda r: span * r, inner, outer)
+    polar = integrate(lambda r: span * r**3, inner, outer)
+    assert shapes.sector(span, inner, outer) == pytest.approx((area, polar), rel=1e-9)
+
+
+def test_ring_is_a_disc_less_a_disc() -> None:
+    disc = by_strips(lambda x: np.sqrt(40e-3**2 - x**2), -40e-3, 40e-3)
+    hole = by_strips(lambda x: np.sqrt(26e-3**2 - x**2), -26e-3, 26e-3)
+    assert shapes.ring(26e-3, 40e-3) == pytest.approx(disc - hole, rel=1e-8)
+
+
+@pytest.mark.parametrize("distance", [0.0, 3e-3, 28.5e-3])
+def test_disc_off_the_axis_is_its_strips(distance: float) -> None:
+    radius = 2e-3
+    strips = by_strips(
+        lambda x: np.sqrt(max(radius**2 - (x - distance) ** 2, 0.0)), distance - radius, distance + radius
+    )
+    assert shapes.disc_at(radius, distance) == pytest.approx(strips, rel=1e-8)
+
+
+@pytest.mark.parametrize(("half_width", "length"), [(12e-3, 62.6e-3), (5e-3, 3e-3)])
+def test_slot_is_its_strips(half_width: float, length: float) -> None:
+    near = by_strips(lambda x: np.sqrt(max(half_width**2 - x**2, 0.0)), -half_width, 0.0)
+    strip = by_strips(lambda _: half_width, 0.0, length)
+    far = by_strips(lambda x: np.sqrt(max(half_width**2 - (x - length) ** 2, 0.0)), length, length + half_width)
+    assert shapes.slot(half_width, length) == pytest.approx(plus(plus(near, strip), far), rel=1e-8)
+
+
+def test_sections_repeat_and_subtract() -> None:
+    one, other = shapes.Section(5.0, 7.0), shapes.Section(1.0, 3.0)
+    assert one.times(4) - other == shapes.Section(19.0, 25.0)

@@ -1,0 +1,65 @@
+"""The sheared layer against quadrature and against complex arithmetic done by Python."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from tvimdesign.physics import layer
+
+SPAN, INNER, OUTER = 4.0 * 0.8546, 26e-3, 40e-3
+moduli = st.tuples(st.floats(1e2, 1e9), st.floats(1e2, 1e9))
+
+
+def test_polar_moment_is_the_integral_of_the_squared_radius() -> None:
+    expected, _ = quad(lambda r: r**2 * SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
+    assert layer.polar_moment(SPAN, INNER, OUTER) == pytest.approx(expected, rel=1e-10)
+
+
+def test_area_is_the_integral_over_the_arcs() -> None:
+    expected, _ = quad(lambda r: SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
+    assert layer.area(SPAN, INNER, OUTER) == pytest.approx(expected, rel=1e-12)
+
+
+def test_four_arcs_of_49_degrees_have_the_papers_contact_area() -> None:
+    # Exley et al., table I: 1579.2 mm^2. The arcs from 26 to 40 mm are the reference layout.
+    assert layer.area(4.0 * np.radians(49.0), INNER, OUTER) == pytest.approx(1579.2e-6, rel=5e-3)
+
+
+def test_two_slices_in_series_as_worked_by_hand() -> None:
+    # G1 = 3 + 4i, G2 = 1: the mean of 1/G is ((3 - 4i)/25 + 1)/2 = 0.56 - 0.08i; its inverse 1.75 + 0.25i.
+    assert layer.series_modulus([(3.0, 4.0), (1.0, 0.0)]) == pytest.approx((1.75, 0.25), rel=1e-12)
+
+
+@given(slices=st.lists(moduli, min_size=1, max_size=8))
+def test_slices_in_series_add_their_complex_compliances(slices: list[tuple[float, float]]) -> None:
+    expected = 1.0 / np.mean([1.0 / complex(*pair) for pair in slices])
+    storage, loss = layer.series_modulus(slices)
+    assert complex(storage, loss) == pytest.approx(expected, rel=1e-9)
+
+
+@given(branch=moduli, support=st.floats(1e2, 1e9))
+def test_a_branch_behind_a_support_is_the_complex_series(branch: tuple[float, float], support: float) -> None:
+    star = complex(*branch)
+    expected = star * support / (star + support)
+    assert complex(*layer.series_stiffness(*branch, support)) == pytest.approx(expected, rel=1e-9)
+
+
+@given(slices=st.lists(moduli, min_size=2, max_size=8))
+def test_no_slice_in_series_can_make_the_layer_more_than_its_share_softer(slices: list[tuple[float, float]]) -> None:
+    # The magnitudes: n |G|_min >= |G| since no compliance is negative, and all lie in one quadrant.
+    magnitude = abs(complex(*layer.series_modulus(slices)))
+    softest = min(abs(complex(*pair)) for pair in slices)
+    assert softest * (1.0 - 1e-9) <= magnitude <= len(slices) * softest * (1.0 + 1e-9)
+
+
+def test_strain_of_50_mm_and_1_mm_at_the_papers_stroke_is_520_percent() -> None:
+    assert layer.shear_strain(50e-3, 0.104, 1e-3) == pytest.approx(5.2, rel=1e-12)
+
+
+def test_torque_at_a_traction_is_the_moment_of_a_linear_traction() -> None:
+    limit = 2e6
+    expected, _ = quad(lambda r: (limit * r / OUTER) * r * SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
+    found = layer.torque_at_traction(limit, layer.polar_moment(SPAN, INNER, OUTER), OUTER)
+    assert found == pytest.approx(expected, rel=1e-10)
