@@ -27,6 +27,10 @@ class InfeasibleError(TvimError):
     exit_code = 3
 
 
+class SimulationError(InfeasibleError):
+    """The heat equation could not be integrated for a design."""
+
+
 class GeometryError(TvimError):
     """A part could not be built, or a built part is not what the model says it is."""
 

@@ -1,4 +1,4 @@
-"""What the terminal sees while a run works: results on standard output, progress on standard error, interrupts heard."""
+"""What the terminal sees while a run works: results on standard output, progress on standard error."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ def wide_console() -> Console:
 def talk() -> Iterator[Progress]:
     """Say on standard error what is going on: one moving line on a terminal, plain lines elsewhere.
 
-    An interrupt that a library swallows is raised again at the next thing said; CasADi swallows some. An empty text ends the line, to print something else.
+    An interrupt that a library swallows is raised again at the next thing said; CasADi swallows some. An empty text
+    ends the line, to print something else.
     """
     interrupted: list[int] = []
 
@@ -49,5 +50,9 @@ def talk() -> Iterator[Progress]:
     try:
         with status or nullcontext():
             yield say
+    except RuntimeError as error:
+        if interrupted:
+            raise KeyboardInterrupt from error
+        raise
     finally:
         signal.signal(signal.SIGINT, before)

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
-from tvimdesign.errors import InfeasibleError
+from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.limits import Limit, in_words, is_constant, limits_of
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, Problem
-from tvimdesign.solve.simulate import Simulator
+from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.solve.solution import Start
 from tvimdesign.solve.transcription import guess
 from tvimdesign.study import Range, Study, given
@@ -135,7 +135,12 @@ class Optimizer:
                 "max_iter": self.study.solver.max_iterations,
                 "tol": self.study.solver.tolerance,
             }
-            options: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "expand": self._many}
+            options: dict[str, Any] = {
+                "ipopt": ipopt,
+                "print_time": False,
+                "expand": self._many,
+                "show_eval_warnings": False,
+            }
             self._solvers[warm] = ca.nlpsol("design", "ipopt", self.problem.function, options)
         return self._solvers[warm]
 
@@ -164,9 +169,7 @@ class Optimizer:
 
     def _guess(self, inputs: Array) -> Array:
         """Unknowns at a point: the free numbers, and the switch simulated there (the start's where it stalls)."""
-        switch = self.simulator.run(inputs) if inputs is not self.model.start else self.start_switch
-        if not np.isfinite(switch.values["response_time"]):
-            switch = self.start_switch
+        switch = self.start_switch if inputs is self.model.start else self._trial(inputs)
         parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.free])]
         for block in self.problem.blocks:
             end = switch.values[block.event]
@@ -180,6 +183,14 @@ class Optimizer:
             assert isinstance(row, Path)
             parts.append(np.array([switch.values[name] / self.problem.peak_scale(row)]))
         return np.concatenate(parts)
+
+    def _trial(self, inputs: Array) -> Switch:
+        """The switch at a point, or the start's where it does not end."""
+        try:
+            switch = self.simulator.run(inputs)
+        except SimulationError:
+            return self.start_switch
+        return switch if np.isfinite(switch.values["response_time"]) else self.start_switch
 
     # --- solving ---
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.errors import SimulationError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.model import Model
 
@@ -90,7 +91,11 @@ class Simulator:
 
     def _stretch(self, begin: Array, inputs: Array, length: float) -> Array:
         """States at STEPS + 1 equally spaced times from `begin` over `length` seconds."""
-        after = np.asarray(self._integrator(x0=begin, p=np.append(inputs, length))["xf"])
+        try:
+            after = np.asarray(self._integrator(x0=begin, p=np.append(inputs, length))["xf"])
+        except RuntimeError as error:
+            reason = str(error).strip().splitlines()[-1]
+            raise SimulationError(f"this design's switch cannot be simulated; check its inputs ({reason})") from error
         return np.column_stack([begin, after])
 
     def _watch(self, stretch: Array, inputs: Array) -> Array:

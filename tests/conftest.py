@@ -1,0 +1,39 @@
+"""What all tests share: the command line as a user calls it, the studies, and a study's model."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+STUDIES = sorted((ROOT / "studies").glob("*.yaml"))
+
+Command = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+@pytest.fixture(scope="session")
+def tvimdesign() -> Command:
+    """Run `python -m tvimdesign` with arguments; returns the finished process."""
+
+    def call(*arguments: object, cwd: Path = ROOT, timeout: float = 300.0) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [sys.executable, "-m", "tvimdesign", *map(str, arguments)],
+            capture_output=True,
+            text=True,
+            cwd=cwd,
+            timeout=timeout,
+            check=False,
+            env={**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "120"},
+        )
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    return ROOT

@@ -1,0 +1,181 @@
+"""The command line: answers at once, says what is wrong, exits with the right code."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, Command
+
+HEAVY = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy", "numpy", "pint")
+
+
+def test_help_loads_no_heavy_library() -> None:
+    code = f"""
+import sys
+sys.argv = ["tvimdesign", "--help"]
+from tvimdesign.cli import main
+try:
+    main()
+except SystemExit as ended:
+    assert ended.code == 0, ended.code
+found = sorted(set({HEAVY!r}) & set(sys.modules))
+assert not found, found
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "Commands:" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "command",
+    [[], ["run"], ["check"], ["new"], ["cad"], ["ledger"], ["rows"]],
+    ids=lambda words: " ".join(words) or "tvimdesign",
+)
+def test_every_command_explains_itself(tvimdesign: Command, command: list[str]) -> None:
+    done = tvimdesign(*command, "--help")
+    assert done.returncode == 0
+    assert "Usage:" in done.stdout
+
+
+def test_a_new_study_is_valid_and_never_replaces_a_file(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    assert tvimdesign("new", file).returncode == 0
+    written = file.read_text()
+    checked = tvimdesign("check", file)
+    assert checked.returncode == 0, checked.stderr
+    assert "valid" in checked.stdout
+    again = tvimdesign("new", file)
+    assert again.returncode == 2
+    assert "exists already" in again.stderr
+    assert file.read_text() == written
+
+
+def test_the_new_study_runs(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    tvimdesign("new", file)
+    done = tvimdesign("run", file, "--no-cad", "--no-plots", "--json", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["status"] == "optimal"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["run", "nowhere.yaml"], "no such file"),
+        (["check", "README.md"], ""),
+        (["cad", "nowhere.json"], "nowhere.json"),
+        (["rows", "no such thing"], "no row"),
+        (["rows", "--mode", "bending"], "bending"),
+        (["runn"], "runn"),
+        (["run"], "STUDY"),
+    ],
+)
+def test_bad_input_is_a_message_and_exit_code_2(tvimdesign: Command, arguments: list[str], words: str) -> None:
+    done = tvimdesign(*arguments)
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_every_mistake_in_a_study_is_told_with_its_place(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "wrong.yaml"
+    file.write_text(
+        'mode: shear\nmodule:\n  wire_diamter: 2 mm\n  coil_count: 3,25\nrequire: {module_mass: "<= 3 m"}\n'
+    )
+    done = tvimdesign("run", file)
+    assert done.returncode == 2
+    assert "wrong.yaml:3:3" in done.stderr
+    assert "did you mean 'wire_diameter'" in done.stderr
+    assert "wrong.yaml:4:" in done.stderr
+    assert "wrong.yaml:5:" in done.stderr
+
+
+def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "small.yaml"
+    file.write_text(
+        'mode: shear\nvary: {current: [0.5 A, 2 A]}\nrequire: {envelope_diameter: "<= 100 mm"}\nminimize: response_time\n'
+    )
+    done = tvimdesign("run", file, "--no-cad", "--out", tmp_path / "out")
+    assert done.returncode == 3
+    assert "envelope_diameter <= 100 mm" in done.stderr
+    assert "placement_radius" in done.stderr
+
+
+def test_requirements_that_quarrel_end_in_exit_code_3_and_keep_the_results(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "impossible.yaml"
+    file.write_text(
+        "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm]}\n"
+        'require: {spring_stiffness: ">= 20 N.m/rad", envelope_diameter: "<= 120 mm"}\nminimize: module_mass\n'
+    )
+    done = tvimdesign("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")
+    assert done.returncode == 3
+    assert "envelope_diameter <= 120 mm" in done.stderr
+    assert "beyond" in done.stderr
+    told = json.loads((tmp_path / "out/results.json").read_text())
+    assert told["status"].startswith("not converged")
+    assert not told["feasible"]
+
+
+def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "weak.yaml"
+    file.write_text("mode: shear\nmodule: {current: 0.2 A}\n")
+    done = tvimdesign("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")
+    assert "never ends" in done.stdout
+    assert json.loads((tmp_path / "out/results.json").read_text())["values"]["response_time"]["value"] is None
+
+
+def test_results_are_not_replaced_without_being_asked(tvimdesign: Command, tmp_path: Path) -> None:
+    study, out = "studies/paper_as_published.yaml", tmp_path / "out"
+    first = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out)
+    assert first.returncode == 0, first.stderr
+    again = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out)
+    assert again.returncode == 2
+    assert "--overwrite" in again.stderr
+    assert tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out, "--overwrite").returncode == 0
+
+
+@pytest.mark.parametrize("after", [0.5, 1.0])
+def test_an_interrupt_ends_the_run_with_130_and_a_folder_that_can_be_used_again(
+    tvimdesign: Command, tmp_path: Path, after: float
+) -> None:
+    out = tmp_path / "out"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "tvimdesign", "run", "studies/wrist_joint.yaml", "--out", str(out)],
+        cwd=ROOT,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    for _ in range(200):
+        if (out / "manifest.json").exists():
+            break
+        time.sleep(0.05)
+    time.sleep(after)
+    os.killpg(process.pid, signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130, said
+    assert "Traceback" not in said
+    assert json.loads((out / "manifest.json").read_text())["status"] == "interrupted"
+    again = tvimdesign("run", "studies/paper_as_published.yaml", "--no-cad", "--no-plots", "--out", out, "--overwrite")
+    assert again.returncode == 0, again.stderr
+
+
+def test_the_version_is_the_package_s(tvimdesign: Command) -> None:
+    import tvimdesign as package
+
+    assert tvimdesign("--version").stdout.strip() == package.__version__
+
+
+def test_rows_lists_what_a_study_may_say(tvimdesign: Command) -> None:
+    rows = json.loads(tvimdesign("rows", "--json").stdout)
+    names = {row["name"] for row in rows}
+    assert {"wire_diameter", "spring_material", "joint_stiffness@point", "response_time"} <= names
+    assert all(row["description"] for row in rows)
