@@ -1,19 +1,14 @@
-"""What all tests share: the command line as a user calls it, the studies, and a study's model."""
+"""What all tests share: the command line as a user calls it."""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[1]
-STUDIES = sorted((ROOT / "studies").glob("*.yaml"))
-
-Command = Callable[..., "subprocess.CompletedProcess[str]"]
+from support import ROOT, Command
 
 
 @pytest.fixture(scope="session")
@@ -32,8 +27,3 @@ def tvimdesign() -> Command:
         )
 
     return call
-
-
-@pytest.fixture(scope="session")
-def root() -> Path:
-    return ROOT

@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, Command
+from support import ROOT, Command
 
 HEAVY = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy", "numpy", "pint")
 
@@ -100,7 +100,8 @@ def test_every_mistake_in_a_study_is_told_with_its_place(tvimdesign: Command, tm
 def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "small.yaml"
     file.write_text(
-        'mode: shear\nvary: {current: [0.5 A, 2 A]}\nrequire: {envelope_diameter: "<= 100 mm"}\nminimize: response_time\n'
+        "mode: shear\nvary: {current: [0.5 A, 2 A]}\n"
+        'require: {envelope_diameter: "<= 100 mm"}\nminimize: response_time\n'
     )
     done = tvimdesign("run", file, "--no-cad", "--out", tmp_path / "out")
     assert done.returncode == 3

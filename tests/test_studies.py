@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import STUDIES, Command
+from support import STUDIES, Command
 
 FILES = {
     "design.json", "impedance.csv", "manifest.json", "results.csv", "results.json", "study.resolved.json",

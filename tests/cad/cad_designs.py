@@ -16,13 +16,14 @@ TABLE = table_for("shear")
 WRIST = {
     "wire_diameter": 1.4 * MM, "coil_diameter": 9.0 * MM, "coil_count": 4.25, "placement_radius": 26.5 * MM,
     "pcl_inner_radius": 11.5 * MM, "pcl_outer_radius": 18.5 * MM, "arc_span": radians(60.0), "pcl_thickness": 0.6 * MM,
-    "core_radius": 5.0 * MM, "hub_wall": 2.0 * MM, "radial_clearance": 0.6 * MM, "rotor_rim": 1.0 * MM,
+    "core_radius": 5.9 * MM, "hub_wall": 2.0 * MM, "radial_clearance": 0.6 * MM, "rotor_rim": 1.0 * MM,
     "rotor_thickness": 2.5 * MM, "pin_diameter": 2.5 * MM, "leg_overhang": 3.0 * MM,
     # Half the size takes smaller screws: M2 in the core.
-    "link_screw_pilot": 1.6 * MM, "link_screw_clearance": 2.4 * MM, "link_screw_depth": 6.0 * MM,
-    "retainer_screw_pilot": 2.5 * MM, "retainer_screw_clearance": 3.4 * MM, "retainer_screw_depth": 6.0 * MM,
+    "link_screw_pilot": 1.6 * MM, "link_screw_clearance": 2.4 * MM, "link_screw_head": 3.8 * MM,
+    "link_screw_depth": 5.0 * MM, "retainer_screw_pilot": 2.5 * MM, "retainer_screw_clearance": 3.4 * MM,
+    "retainer_screw_depth": 6.0 * MM, "notch_width": 8.0 * MM,
 }  # fmt: skip
-ODD = WRIST | {"coil_count": 4.6, "spring_count": 6, "arc_count": 3, "preload_angle": 0.21}
+ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_angle": 0.21}
 CASES: dict[str, dict[str, float]] = {"paper": {}, "wrist": WRIST, "odd": ODD}
 
 
@@ -44,7 +45,7 @@ def given(overrides: dict[str, float]) -> dict[str, Any]:
 def design_of(name: str, overrides: dict[str, float]) -> Design:
     """A design with every row of the geometry."""
     known = given(overrides)
-    geometry = ("Layout", "Size and weight", "Springs")
+    geometry = ("Layout", "Gaps", "Size and weight", "Springs")
     simple = [row for row in TABLE.outputs if not (row.hidden or row.per_point or row.instant)]
     wanted = [row.name for row in simple if row.group in geometry and not isinstance(row, Event | SwitchPath)]
     values = {key: float(value) for key, value in known.items() if isinstance(value, int | float)}
@@ -59,7 +60,7 @@ def broken_rules(design: Design) -> list[str]:
     """Rules of the layout that a design breaks."""
     return [
         row.name for row in TABLE.outputs
-        if row.group == "Layout" and row.name in design.values
+        if row.group == "Gaps" and row.name in design.values
         for rule in row.rules
         if (design.values[row.name] - rule.value) * (1 if rule.sense == ">=" else -1) < -1e-12
     ]  # fmt: skip

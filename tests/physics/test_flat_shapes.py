@@ -57,3 +57,9 @@ def test_slot_is_its_strips(half_width: float, length: float) -> None:
 def test_sections_repeat_and_subtract() -> None:
     one, other = shapes.Section(5.0, 7.0), shapes.Section(1.0, 3.0)
     assert one.times(4) - other == shapes.Section(19.0, 25.0)
+
+
+def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
+    half_width, inner, outer = 6e-3, 71e-3, 74e-3
+    expected = integrate(lambda y: np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), -half_width, half_width)
+    assert shapes.ring_notch(half_width, inner, outer) == pytest.approx(expected, rel=1e-9)

@@ -39,7 +39,7 @@ def flux_slab_series(fourier: float, depth: float) -> float:
 
 def test_constant_flux_heats_front_and_back_of_a_slab_as_tabulated(bare_stack: Make, integrate: Run) -> None:
     fourier = [0.05, 0.1, 0.5, 1.0]
-    front, back = flux_slab(bare_stack, integrate, 80, fourier)
+    front, back = flux_slab(bare_stack, integrate, 160, fourier)
     assert front == pytest.approx([0.25231, 0.35683, 0.83188, 1.33332], rel=HALF_PERCENT)
     assert back == pytest.approx([0.00027, 0.00789, 0.33479, 0.83333], rel=HALF_PERCENT, abs=5e-6)
     assert back == pytest.approx([flux_slab_series(fo, 0.0) for fo in fourier], rel=HALF_PERCENT)
@@ -74,18 +74,18 @@ def test_melting_front_advances_as_stefan_and_neumann_found(
     root = brentq(lambda x: np.sqrt(np.pi) * x * np.exp(x**2) * erf(x) - stefan, 1e-3, 3.0)
     assert root == pytest.approx(expected, rel=1e-5)
     melting_point, specific_heat, latent = 330.0, 2000.0, 80e3
-    window = 0.01
+    window = 0.02  # K: as good as isothermal
     melting = polymer.Melting(specific_heat, specific_heat, latent, melting_point, melting_point + window, 5.0)
     stack = bare_stack(hot_capacity=1e12, melting=melting)
-    begin = heat.initial_state(stack, 100, melting_point)
+    begin = heat.initial_state(stack, 40, melting_point)
     begin[1] += stefan * latent / specific_heat / heat.TEMPERATURE_SCALE
     diffusivity = 0.2 / (1145.0 * specific_heat)
     depth = np.array([0.4, 0.6, 0.8])  # mm
     times = (1e-3 * depth / (2.0 * expected)) ** 2 / diffusivity
-    history = integrate(stack, begin, list(times), tolerance=1e-7)
+    history = integrate(stack, begin, list(times), tolerance=1e-6)
     molten = [1e-3 * (1.0 - np.mean(p.fractions)) for p in history.profiles()]
     found = np.array(molten) / (2.0 * np.sqrt(diffusivity * times))
-    assert found == pytest.approx(expected, rel=HALF_PERCENT)
+    assert found == pytest.approx([expected] * 3, rel=HALF_PERCENT)
 
 
 def test_two_bodies_that_touch_meet_at_the_temperature_of_their_effusivities(bare_stack: Make, integrate: Run) -> None:
@@ -102,7 +102,7 @@ def test_two_bodies_that_touch_meet_at_the_temperature_of_their_effusivities(bar
     metal, plastic = np.sqrt(167.0 * 2700.0 * 896.0), np.sqrt(0.225 * 1145.0 * 1850.0)
     exact = (100.0 * metal + 22.0 * plastic) / (metal + plastic)
     assert exact == pytest.approx(97.5, rel=2e-3)
-    assert [p.far - 273.15 for p in history.profiles()] == pytest.approx(exact, rel=1e-3)
+    assert [p.far - 273.15 for p in history.profiles()] == pytest.approx([exact] * 3, rel=1e-3)
 
 
 def test_steady_heat_passes_all_resistances_in_series(bare_stack: Make, integrate: Run) -> None:

@@ -74,7 +74,10 @@ def test_a_bending_leg_counts_a_third_of_its_length() -> None:
 
 
 @given(
-    rate=st.floats(0.05, 20.0), wire=st.floats(0.5e-3, 8e-3), index=st.floats(4.0, 20.0), modulus=st.floats(180e9, 215e9)
+    rate=st.floats(0.05, 20.0),
+    wire=st.floats(0.5e-3, 8e-3),
+    index=st.floats(4.0, 20.0),
+    modulus=st.floats(180e9, 215e9),
 )
 def test_mass_follows_from_rate_and_wire_whatever_the_coil_diameter(
     rate: float, wire: float, index: float, modulus: float
@@ -143,9 +146,7 @@ def test_endurance_limit_lies_on_the_gerber_line_through_the_repeated_bending_st
 @given(
     amplitude=st.floats(1e6, 1e9), mean=st.floats(0.0, 1e9), endurance=st.floats(2e8, 8e8), tensile=st.floats(1e9, 3e9)
 )
-def test_gerber_safety_solves_gerbers_equation(
-    amplitude: float, mean: float, endurance: float, tensile: float
-) -> None:
+def test_gerber_safety_solves_gerbers_equation(amplitude: float, mean: float, endurance: float, tensile: float) -> None:
     def beyond(factor: float) -> float:
         return factor * amplitude / endurance + (factor * mean / tensile) ** 2 - 1.0
 

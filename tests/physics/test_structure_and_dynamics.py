@@ -27,7 +27,9 @@ def test_free_swing_rings_and_decays_as_frequency_and_damping_ratio_say(ratio: f
         lambda _, y: [y[1], -(damping * y[1] + STIFFNESS * y[0]) / INERTIA],
         (0.0, 1.0), [0.1, 0.0], rtol=1e-10, atol=1e-12, events=[lambda _, y: y[1]],
     )  # fmt: skip
-    peaks = np.array([state[0] for time, state in zip(swing.t_events[0], swing.y_events[0], strict=True) if time > 1e-9])
+    peaks = np.array(
+        [state[0] for time, state in zip(swing.t_events[0], swing.y_events[0], strict=True) if time > 1e-9]
+    )
     times = swing.t_events[0][swing.t_events[0] > 1e-9]
     # Half a period apart; the logarithmic decrement of half a period is pi zeta/sqrt(1 - zeta^2).
     zeta = dynamics.damping_ratio(damping, STIFFNESS, INERTIA)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot, pi
+from math import atan2, hypot, pi, sqrt
 
 import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
-from tvimdesign.cad.shapes import cylinder, join, polar, ring, sector, slot, turned
+from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, sector, slot, turned
 from tvimdesign.cad.springs import installed_coil
 
 LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
@@ -35,7 +35,7 @@ def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
 
 
 def housing(dims: Dimensions) -> cq.Shape:
-    """Floor with hub, wall, skirt and spring posts; less bore, pad pockets, windows and tang holes."""
+    """Floor, hub, wall, skirt, spring posts and feet; less bore, pockets, windows, tang and screw holes, notches."""
     floor_bottom = -dims.floor_thickness
     floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
     ground, rim = floor_bottom - dims.foot_height, dims.pin_top_level
@@ -58,7 +58,24 @@ def housing(dims: Dimensions) -> cq.Shape:
     openings = [turned(shape, azimuth) for azimuth in arc_azimuths(dims) for shape in (pocket, window)]
     hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
     tang_holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
-    return join(floor, [wall, hub, *posts]).cut(bore, *openings, *tang_holes)
+    feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
+    mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
+    body = join(floor, [wall, hub, *posts, *feet])
+    return body.cut(bore, *openings, *tang_holes, *mount_holes, *notches(dims))
+
+
+def mounts(dims: Dimensions) -> list[tuple[float, float]]:
+    """Axes of the screws that fix the housing: midway between the springs."""
+    half_pitch = pi / dims.count("spring_count")
+    return [polar(dims.placement_radius, azimuth + half_pitch) for azimuth in dims.azimuths("spring_count")]
+
+
+def notches(dims: Dimensions) -> list[cq.Shape]:
+    """What is cut from the skirt outside each spring: air for the pads' cold sides, and a way for their wires."""
+    width, floor_bottom = dims.notch_width, -dims.floor_thickness
+    inside = sqrt(dims.housing_inner_radius**2 - (0.5 * width) ** 2)
+    opening = block((inside, dims.housing_outer_radius + 1.0), width, floor_bottom - dims.foot_height, floor_bottom)
+    return [turned(opening, azimuth) for azimuth in dims.azimuths("spring_count")]
 
 
 def rotor(dims: Dimensions) -> cq.Shape:

@@ -31,6 +31,13 @@ def cylinder(radius: float, bottom: float, top: float, at: Point = (0.0, 0.0)) -
     return cq.Solid.makeCylinder(radius, top - bottom, cq.Vector(*at, bottom), _UP)
 
 
+def block(along_x: Point, width: float, bottom: float, top: float) -> cq.Solid:
+    """Upright block across the x axis, between two places on it and two levels."""
+    start, end = along_x
+    _require(length=end - start, width=width, height=top - bottom)
+    return cq.Solid.makeBox(end - start, width, top - bottom, cq.Vector(start, -0.5 * width, bottom))
+
+
 def ring(inner: float, outer: float, bottom: float, top: float) -> cq.Solid:
     """Upright ring about the axis between two levels."""
     _require(inner_radius=inner, width_of_a_ring=outer - inner, height=top - bottom)

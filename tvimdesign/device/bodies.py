@@ -7,7 +7,7 @@ import numpy as np
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
 from tvimdesign.physics import layer
-from tvimdesign.physics.shapes import Section, disc_at, ring, sector, slot
+from tvimdesign.physics.shapes import Section, disc_at, ring, ring_notch, sector, slot
 
 book = Book("Size and weight")
 LINK_SCREWS = 4
@@ -64,34 +64,63 @@ def window_section(
 
 
 @book.output("mm^3")
+def skirt_volume(
+    housing_inner_radius: Scalar,
+    housing_outer_radius: Scalar,
+    foot_height: Scalar,
+    notch_width: Scalar,
+    spring_count: Scalar,
+    mount_boss_radius: Scalar,
+    mount_hole: Scalar,
+) -> Scalar:
+    """Volume of the housing below its floor: the skirt with its notches, and the mounting feet."""
+    skirt = ring(housing_inner_radius, housing_outer_radius).area
+    notches = spring_count * ring_notch(0.5 * notch_width, housing_inner_radius, housing_outer_radius)
+    feet = spring_count * ring(0.5 * mount_hole, mount_boss_radius).area
+    return (skirt - notches + feet) * foot_height
+
+
+@book.output("mm^3")
+def floor_volume(
+    core_radius: Scalar,
+    running_clearance: Scalar,
+    housing_outer_radius: Scalar,
+    floor_thickness: Scalar,
+    floor_web: Scalar,
+    peltier_volume: Scalar,
+    window_section: Section,
+    spring_count: Scalar,
+    wire_diameter: Scalar,
+    tang_clearance: Scalar,
+    mount_hole: Scalar,
+) -> Scalar:
+    """Volume of the housing's floor, less bore, pad pockets, windows, tang holes and mounting holes."""
+    disc = ring(core_radius + running_clearance, housing_outer_radius).area
+    holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
+    return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_section.area * floor_web
+
+
+@book.output("mm^3")
 def housing_volume(
+    skirt_volume: Scalar,
+    floor_volume: Scalar,
     housing_inner_radius: Scalar,
     housing_outer_radius: Scalar,
     core_radius: Scalar,
     running_clearance: Scalar,
     hub_radius: Scalar,
-    floor_thickness: Scalar,
-    floor_web: Scalar,
-    foot_height: Scalar,
     pin_top_level: Scalar,
     pcl_thickness: Scalar,
-    peltier_volume: Scalar,
-    window_section: Section,
     spring_count: Scalar,
     post_radius: Scalar,
     coil_end_level: Scalar,
     wire_diameter: Scalar,
-    tang_clearance: Scalar,
 ) -> Scalar:
-    """Volume of the housing: floor, wall and skirt, hub, spring posts; less pad pockets, windows and tang holes."""
-    bore = core_radius + running_clearance
-    floor = ring(bore, housing_outer_radius).area * floor_thickness
-    wall = ring(housing_inner_radius, housing_outer_radius).area * (pin_top_level + foot_height)
-    hub = ring(bore, hub_radius).area * pcl_thickness
+    """Volume of the housing: skirt and floor, wall, hub and spring posts."""
+    wall = ring(housing_inner_radius, housing_outer_radius).area * pin_top_level
+    hub = ring(core_radius + running_clearance, hub_radius).area * pcl_thickness
     posts = spring_count * np.pi * post_radius**2 * (coil_end_level + 0.5 * wire_diameter)
-    windows = window_section.area * floor_web
-    tang_holes = spring_count * np.pi * (0.5 * wire_diameter + tang_clearance) ** 2 * floor_thickness
-    return floor + wall + hub + posts - peltier_volume - windows - tang_holes
+    return skirt_volume + floor_volume + wall + hub + posts
 
 
 @book.helper()

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
-from tvimdesign.device.rows import Rule, Scalar
+from tvimdesign.device.rows import Scalar
 
 MM = 1e-3
 DEGREE = np.pi / 180.0
@@ -32,7 +32,7 @@ book.variable("rotor_thickness", "mm", 4.0 * MM, 1.0 * MM, 30.0 * MM, "Thickness
 book.variable("link_thickness", "mm", 4.0 * MM, 1.0 * MM, 30.0 * MM, "Thickness of the output link")
 book.variable("core_radius", "mm", 10.0 * MM, 4.0 * MM, 100.0 * MM, "Radius of the rotor's cylindrical core")
 
-book.condition("spring_count", "1", 4, 2, 12, "Torsion springs, half of them of either hand", integer=True)
+book.condition("spring_pairs", "1", 2, 1, 6, "Pairs of a right- and a left-hand torsion spring", integer=True)
 book.condition("arc_count", "1", 4, 2, 12, "PCL arcs", integer=True)
 book.condition("stroke", "rad", 0.104, 0.001, 0.5, "Largest deflection of the joint to either side")
 book.condition("coil_gap", "mm", 0.1 * MM, 0.02 * MM, 5 * MM, "Gap between neighbouring coils")
@@ -51,11 +51,22 @@ book.condition("window_ledge", "mm", 2.0 * MM, 0.5 * MM, 20 * MM, "Ledge of the 
 book.condition("tang_clearance", "mm", 0.25 * MM, 0.05 * MM, 2 * MM, "Radial play of a spring's tang in its hole")
 book.condition("link_screw_pilot", "mm", 2.5 * MM, 1 * MM, 20 * MM, "Pilot hole of the four link screws, M3")
 book.condition("link_screw_clearance", "mm", 3.4 * MM, 1 * MM, 20 * MM, "Clearance hole of the link screws, M3")
-book.condition("link_screw_depth", "mm", 8.0 * MM, 2 * MM, 100 * MM, "Depth of the link screws' pilot holes")
+book.condition("link_screw_head", "mm", 5.5 * MM, 1 * MM, 30 * MM, "Head diameter of the link screws, M3")
+book.condition("link_screw_depth", "mm", 6.0 * MM, 2 * MM, 100 * MM, "Depth of the link screws' pilot holes")
 book.condition("retainer_screw_pilot", "mm", 3.3 * MM, 1 * MM, 20 * MM, "Pilot hole of the retainer's screw, M4")
 book.condition("retainer_screw_clearance", "mm", 4.5 * MM, 1 * MM, 20 * MM, "Clearance hole of the retainer's screw")
-book.condition("retainer_screw_depth", "mm", 8.0 * MM, 2 * MM, 100 * MM, "Depth of the retainer screw's pilot hole")
+book.condition("retainer_screw_depth", "mm", 7.0 * MM, 2 * MM, 100 * MM, "Depth of the retainer screw's pilot hole")
+book.condition("mount_hole", "mm", 3.4 * MM, 1 * MM, 20 * MM, "Holes that fix the housing, M3, between the springs")
+book.condition("mount_boss_radius", "mm", 3.5 * MM, 1 * MM, 30 * MM, "Radius of the feet around those holes")
+book.condition("notch_width", "mm", 12.0 * MM, 1 * MM, 100 * MM, "Openings of the skirt: air and wires of the pads")
 book.condition("link_tool_hole", "mm", 4.5 * MM, 1 * MM, 50 * MM, "Hole at the end of the output link")
+
+
+@book.output("1")
+def spring_count(spring_pairs: Scalar) -> Scalar:
+    """Torsion springs, half of them of either hand."""
+    return 2.0 * spring_pairs
+
 
 # --- radii -----------------------------------------------------------------------------------------------------------
 
@@ -195,93 +206,6 @@ def post_radius(spring_wound_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
 def tang_length(floor_thickness: Scalar) -> Scalar:
     """Straight length of the tang in the floor, half a millimetre short of its lower face."""
     return floor_thickness - 0.5 * MM
-
-
-# --- gaps: what must hold for the parts to go together ---------------------------------------------------------------
-
-
-def _at_least(value: float, reason: str) -> Rule:
-    return Rule(sense=">=", value=value, reason=reason)
-
-
-@book.output("mm", _at_least(0.0, "the springs must clear the rotor plate"))
-def rotor_spring_gap(
-    placement_radius: Scalar, spring_reach: Scalar, rotor_radius: Scalar, radial_clearance: Scalar
-) -> Scalar:
-    """Room between the rotor plate and the springs beyond the radial clearance."""
-    return placement_radius - spring_reach - rotor_radius - radial_clearance
-
-
-@book.output("mm", _at_least(0.0, "the rotor-side legs must pass above the rotor plate"))
-def leg_rotor_gap(
-    coil_end_level: Scalar, wire_diameter: Scalar, rotor_top_level: Scalar, axial_clearance: Scalar
-) -> Scalar:
-    """Room between the rotor-side legs and the rotor plate below them beyond the axial clearance."""
-    return coil_end_level - 0.5 * wire_diameter - rotor_top_level - axial_clearance
-
-
-@book.output("mm", _at_least(0.0, "the pins must stand on the rotor plate"))
-def pin_rim_gap(rotor_radius: Scalar, pin_radius: Scalar, pin_diameter: Scalar, radial_clearance: Scalar) -> Scalar:
-    """Room between the pins and the rim of the rotor plate beyond the radial clearance."""
-    return rotor_radius - pin_radius - 0.5 * pin_diameter - radial_clearance
-
-
-@book.output("mm", _at_least(0.0, "the legs must end before the core"))
-def leg_core_gap(
-    pin_radius: Scalar, leg_overhang: Scalar, wire_diameter: Scalar, core_radius: Scalar, radial_clearance: Scalar
-) -> Scalar:
-    """Room between the ends of the rotor-side legs and the core beyond the radial clearance."""
-    return pin_radius - leg_overhang - wire_diameter - core_radius - radial_clearance
-
-
-@book.output("mm", _at_least(1.0 * MM, "the leg must reach its pin"))
-def leg_reach_gap(placement_radius: Scalar, pin_radius: Scalar, leg_offset: Scalar) -> Scalar:
-    """Distance of pin and spring axis beyond the offset of the leg."""
-    return placement_radius - pin_radius - leg_offset
-
-
-@book.output("mm", _at_least(0.0, "the PCL arcs must clear the hub"))
-def hub_arc_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: Scalar) -> Scalar:
-    """Room between hub and PCL arcs beyond the radial clearance."""
-    return pcl_inner_radius - hub_radius - radial_clearance
-
-
-@book.output("mm", _at_least(3.0 * MM, "the floor needs a web between two Peltier pads"))
-def arc_gap(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar) -> Scalar:
-    """Web between neighbouring PCL arcs at their inner radius."""
-    return (2.0 * np.pi / arc_count - arc_span) * pcl_inner_radius
-
-
-@book.output("mm", _at_least(5.0 * MM, "the Peltier pad needs its ledges and a window for its cold side"))
-def arc_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
-    """Radial width of the PCL arcs."""
-    return pcl_outer_radius - pcl_inner_radius
-
-
-@book.output("mm", _at_least(1.2 * MM, "the floor below a Peltier pad must carry it"))
-def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
-    """Thickness of the floor below the Peltier pads."""
-    return floor_thickness - peltier_thickness
-
-
-@book.output("mm", _at_least(1.0 * MM, "a thinner spring post would break"))
-def post_thickness(post_radius: Scalar) -> Scalar:
-    """Radius of the spring posts, held against the least that can be made."""
-    return post_radius
-
-
-@book.output("mm", _at_least(0.0, "neighbouring springs must clear each other"))
-def spring_spring_gap(
-    placement_radius: Scalar, spring_count: Scalar, spring_reach: Scalar, radial_clearance: Scalar
-) -> Scalar:
-    """Room between neighbouring springs beyond the radial clearance."""
-    return 2.0 * placement_radius * np.sin(np.pi / spring_count) - 2.0 * spring_reach - radial_clearance
-
-
-@book.output("mm", _at_least(0.0, "the retainer must stand above the ground"))
-def retainer_gap(foot_height: Scalar, retainer_thickness: Scalar, running_clearance: Scalar) -> Scalar:
-    """Room between the retainer with a flat screw head of 2.5 mm and the ground."""
-    return foot_height - retainer_thickness - running_clearance - 2.5 * MM
 
 
 # --- envelope --------------------------------------------------------------------------------------------------------

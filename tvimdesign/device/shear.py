@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tvimdesign.device import bodies, impedance, layout, materials, springs, switching
+from tvimdesign.device import bodies, gaps, impedance, layout, materials, springs, switching
 from tvimdesign.device.rows import Table
 
-ROOMS = (materials, layout, springs, impedance, switching, bodies)
+ROOMS = (materials, layout, springs, impedance, switching, bodies, gaps)
 TABLE = Table(tuple(row for room in ROOMS for row in room.book.rows))

@@ -138,6 +138,14 @@ def spring_static_safety(
     return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * spring_winding)
 
 
+@book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield while the module is put together"))
+def spring_assembly_safety(
+    spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, preload_angle: Scalar
+) -> Scalar:
+    """Static safety while the module is put together: fitting one hand winds the other by twice the preload."""
+    return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * 2.0 * np.fmax(preload_angle, 1e-6))
+
+
 @book.output(
     "1", advice=(Rule(sense=">=", value=1.0, reason="the spring would break before 1e6 cycles"),), headline=True
 )

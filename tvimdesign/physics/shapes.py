@@ -38,6 +38,15 @@ def disc_at(radius: Any, distance: Any) -> Section:
     return Section(area, area * (0.5 * radius**2 + distance**2))
 
 
+def ring_notch(half_width: Any, inner_radius: Any, outer_radius: Any) -> Any:
+    """Area [m^2] that a straight opening of the given half width takes from one side of a ring about the axis."""
+
+    def half_segment(radius: Any) -> Any:
+        return half_width * np.sqrt(radius**2 - half_width**2) + radius**2 * np.arcsin(half_width / radius)
+
+    return half_segment(outer_radius) - half_segment(inner_radius)
+
+
 def slot(half_width: Any, length: Any) -> Section:
     """Obround: a strip of the given half width from the axis to `length` with a half disc at each end."""
     b, reach = half_width, length

@@ -1,0 +1,63 @@
+"""The shear module as the tests evaluate it: two operating points, its default inputs and records."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Event, Path, Table, table_for
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.study import given, read_study_text
+
+POINTS = ("cold", "hot")
+
+
+def inputs_of(**module: float | str) -> dict[str, Any]:
+    """Inputs and choices of a module that is the default one but for what is said (SI)."""
+    found = given(read_study_text("mode: shear\n", "a test"), Catalog(), table_for("shear"))
+    return {**found, **module}
+
+
+@pytest.fixture(scope="session")
+def table() -> Table:
+    return table_for("shear")
+
+
+@pytest.fixture(scope="session")
+def inputs() -> dict[str, Any]:
+    return inputs_of()
+
+
+@pytest.fixture(scope="session", params=["unity", "geometry"])
+def model(request: pytest.FixtureRequest, table: Table) -> Model:
+    return Model(table, inputs_of(transmission=request.param), POINTS, 12)
+
+
+@pytest.fixture(scope="session")
+def unity(table: Table) -> Model:
+    return Model(table, inputs_of(), POINTS, 12)
+
+
+@pytest.fixture(scope="session")
+def simulator(unity: Model) -> Simulator:
+    return Simulator(unity)
+
+
+@pytest.fixture(scope="session")
+def switch(simulator: Simulator, unity: Model) -> Switch:
+    return simulator.run(unity.start)
+
+
+@pytest.fixture(scope="session")
+def algebraic(table: Table) -> list[str]:
+    """Full names of the outputs a study can ask for that no simulation supplies."""
+    return [name for name in table.names(POINTS) if not isinstance(table.row(name), Event | Path)]
+
+
+@pytest.fixture(scope="session")
+def numbers(switch: Switch) -> dict[str, float]:
+    """Values of the events and paths."""
+    assert all(np.isfinite(value) for value in switch.values.values())
+    return dict(switch.values)

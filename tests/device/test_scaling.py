@@ -1,0 +1,62 @@
+"""A module built twice as large from the same materials: every output scales as its unit says."""
+
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tvimdesign.device import Event, Input, Path, Table, table_for
+
+# Power of the length with which a number in this unit scales; materials, angles, temperatures and frequencies stay.
+POWERS = {
+    "mm": 1, "mm^2": 2, "mm^3": 3, "cm^3": 3, "m^4": 4, "g": 3, "kg*mm^2": 5, "N*m": 3, "N*m/rad": 3, "N*m*s/rad": 3,
+    "Hz": -1,
+}  # fmt: skip
+# The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
+SWINGS = {"damping_ratio": -1, "critical_damping": 4}
+# Lengths that are fixed in millimetres and what is made of them; the strength of a wire falls with its diameter.
+FIXED = {"tang_length", "retainer_gap", "spring_tensile_strength"}
+TABLE = table_for("shear")
+
+
+def _power(table: Table, name: str) -> int:
+    row = table.row(name)
+    if isinstance(row, Input) and row.unit == "Hz":
+        return 0  # the frequency a modulus is stated at
+    return SWINGS.get(row.name, POWERS.get(table.unit(name), 0))
+
+
+def _scaled(inputs: dict[str, Any], factor: float) -> dict[str, Any]:
+    return {
+        name: value * factor ** _power(TABLE, name) if isinstance(value, float) else value
+        for name, value in inputs.items()
+    }
+
+
+def _free_of_fixed_lengths(name: str) -> bool:
+    return not FIXED & {name.partition("@")[0], *TABLE.ancestors(name)}
+
+
+@settings(max_examples=25, deadline=None)
+@given(factor=st.floats(0.2, 5.0), transmission=st.sampled_from(["unity", "geometry"]))
+def test_outputs_scale_with_the_length_as_their_units_say(
+    factor: float, transmission: str, scaled_inputs: dict[str, Any]
+) -> None:
+    wanted = [
+        name
+        for name in TABLE.names(("cold", "hot"))
+        if _free_of_fixed_lengths(name)
+        and not any(isinstance(TABLE.row(base), Event | Path) for base in (name, *TABLE.ancestors(name)))
+    ]
+    assert len(wanted) > 70
+    inputs = {**scaled_inputs, "transmission": transmission}
+    one, other = TABLE.evaluate(inputs, wanted), TABLE.evaluate(_scaled(inputs, factor), wanted)
+    for name in wanted:
+        expected = one[name] * factor ** _power(TABLE, name)
+        assert other[name] == pytest.approx(expected, rel=1e-9, abs=1e-12 * factor ** _power(TABLE, name)), name
+
+
+@pytest.fixture(scope="module")
+def scaled_inputs(inputs: dict[str, Any]) -> dict[str, Any]:
+    return inputs

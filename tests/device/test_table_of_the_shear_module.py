@@ -1,0 +1,115 @@
+"""Every row of the table is said in words and units, and every input is used."""
+
+from typing import Any
+
+import numpy as np
+import pint
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Choice, Event, Input, Output, Path, Table, table_for
+from tvimdesign.units import to_si
+
+TABLE = table_for("shear")
+NUMBERS = [row for row in TABLE.rows if not isinstance(row, Choice)]
+
+
+@pytest.mark.parametrize("row", NUMBERS, ids=lambda row: row.name)
+def test_row_is_described_and_has_a_unit_that_can_be_read(row: Input | Output) -> None:
+    assert len(row.description) >= 8
+    assert row.group
+    assert np.isfinite(to_si(1.0, row.unit))
+
+
+@pytest.mark.parametrize("row", TABLE.choices, ids=lambda row: row.name)
+def test_choice_is_described_and_its_default_exists(row: Choice) -> None:
+    assert len(row.description) >= 8
+    if row.shelf:
+        assert Catalog().record(row.shelf, row.default)
+    else:
+        assert row.default in row.options
+
+
+@pytest.mark.parametrize("row", TABLE.inputs, ids=lambda row: row.name)
+def test_default_of_an_input_lies_within_its_limits(row: Input, inputs: dict[str, Any]) -> None:
+    assert row.lower < row.upper
+    found = [value for name, value in inputs.items() if name.partition("@")[0] == row.name]
+    assert found
+    assert all(row.lower <= value <= row.upper for value in found)
+
+
+def test_every_input_and_choice_is_used() -> None:
+    used = {name for row in TABLE.outputs for name in TABLE.ancestors(row.name)}
+    used.add("horizon")  # the simulator's own: how long a switch is waited for
+    used |= {row.record[0] for row in TABLE.inputs if row.record}  # a record is used through its values
+    assert {row.name for row in TABLE.rows if not isinstance(row, Output)} <= used
+
+
+def test_every_intermediate_result_is_used() -> None:
+    used = {name for row in TABLE.outputs for name in TABLE.ancestors(row.name)}
+    used.add("state_rates")  # the simulator asks for it
+    assert {row.name for row in TABLE.outputs if row.hidden} <= used
+
+
+@pytest.mark.parametrize("row", [row for row in TABLE.inputs if row.record], ids=lambda row: row.name)
+def test_property_is_in_the_default_record_in_the_dimension_of_its_row(row: Input) -> None:
+    assert row.record is not None
+    choice = TABLE.by_name[row.record[0]]
+    assert isinstance(choice, Choice)
+    assert choice.shelf
+    record = Catalog().record(choice.shelf, choice.default)
+    written = record.entry(row.record[1]).unit
+    assert _dimension(written) == _dimension(row.unit)
+
+
+REGISTRY = pint.UnitRegistry()
+
+
+def _dimension(unit: str) -> str:
+    kelvin = unit.replace("degC", "kelvin").replace("%", "dimensionless").replace("1/K", "1/kelvin")
+    return str(REGISTRY.Quantity(1.0, REGISTRY.parse_units("" if kelvin == "1" else kelvin)).dimensionality)
+
+
+def test_floats_and_symbols_give_the_same_outputs(
+    model: Any, table: Table, algebraic: list[str], numbers: dict[str, float]
+) -> None:
+    given_numbers = {name: float(model.start[i]) for name, i in model.index.items()}
+    floats = table.evaluate({**model.words, **given_numbers, **numbers}, algebraic)
+    symbols = model.values(model.start, numbers)
+    assert set(floats) <= set(symbols)
+    for name, value in floats.items():
+        assert float(value) == pytest.approx(symbols[name], rel=1e-12, abs=1e-300), name
+
+
+@settings(max_examples=5, deadline=None)
+@given(seed=st.integers(0, 2**31))
+def test_arrays_and_symbols_give_the_same_outputs(seed: int) -> None:
+    _hold_arrays_to_symbols(np.random.default_rng(seed))
+
+
+_BUILT: dict[str, Any] = {}
+
+
+def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
+    from tvimdesign.solve.model import Model
+    from tvimdesign.study import given as resolve
+    from tvimdesign.study import read_study_text
+
+    if not _BUILT:
+        start = resolve(read_study_text("mode: shear\n", "a test"), Catalog(), TABLE)
+        _BUILT["model"] = Model(TABLE, {**start, "transmission": "geometry"}, ("cold", "hot"), 4)
+    model = _BUILT["model"]
+    factors = random.uniform(0.97, 1.03, (len(model.names), 3))
+    factors[model.index["rotor_cells"]] = 1.0
+    columns = model.start[:, None] * factors
+    known = {**model.words, **{name: columns[i] for name, i in model.index.items()}}
+    supplied = {name: random.uniform(50.0, 300.0, 3) for name in model.switch_names}
+    wanted = [name for name in TABLE.names(model.points) if not isinstance(TABLE.row(name), Event | Path)]
+    arrays = TABLE.evaluate({**known, **supplied}, wanted)
+    for j in range(3):
+        symbols = model.values(columns[:, j], {name: float(value[j]) for name, value in supplied.items()})
+        for name in wanted:
+            value = np.broadcast_to(np.asarray(arrays[name], dtype=float), (3,))[j]
+            assert value == pytest.approx(symbols[name], rel=1e-11, abs=1e-300), name

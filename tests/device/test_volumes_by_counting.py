@@ -1,0 +1,180 @@
+"""Volumes and inertias against a count of points inside the parts, described level by level as they stand in space."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tvimdesign.device import table_for
+
+Array = NDArray[np.float64]
+Inside = Callable[[Array, Array], NDArray[np.bool_]]
+SHAPES = {
+    "as it is": {},
+    "three arcs, other sizes": {
+        "arc_count": 3, "arc_span": 1.3, "spring_pairs": 3, "wire_diameter": 1.8e-3, "coil_diameter": 17e-3,
+        "pcl_inner_radius": 24e-3, "pcl_outer_radius": 41e-3, "floor_thickness": 5e-3, "core_radius": 8e-3,
+        "link_thickness": 6e-3, "preload_angle": 0.4, "pcl_thickness": 1.6e-3,
+    },
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=SHAPES)
+def part(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, Any]:
+    """Every input, and every output that has a number without a simulation."""
+    table = table_for("shear")
+    given = {**inputs, **SHAPES[request.param]}
+    wanted = ["spring_count", "housing_volume", "rotor_volume", "rotor_inertia", "link_volume", "link_inertia", "retainer_volume",
+              "parts_inertia", "pcl_area", "pcl_volume", "peltier_volume", "housing_outer_radius", "housing_inner_radius",
+              "hub_radius", "pin_top_level", "post_radius", "coil_end_level", "rotor_radius", "rotor_top_level",
+              "link_bottom_level", "pin_radius", "link_bolt_circle_radius", "link_half_width", "link_length"]  # fmt: skip
+    return {**given, **table.evaluate(given, wanted)}
+
+
+def count(inside: Inside, outer: float, rims: list[float], rays: int = 1440) -> tuple[float, float]:
+    """Area and polar second moment of area of what lies inside, from the middles of a polar grid.
+
+    `rims` are radii on which cells end, so that circles about the axis are counted exactly.
+    """
+    ends = sorted({0.0, outer, *(rim for rim in rims if rim < outer)})
+    edges = np.concatenate([np.linspace(a, b, 200, endpoint=False) for a, b in pairwise(ends)] + [[outer]])
+    angle = (np.arange(rays) + 0.37) * 2.0 * np.pi / rays
+    r, f = np.meshgrid(0.5 * (edges[1:] + edges[:-1]), angle, indexing="ij")
+    cell = np.diff(edges)[:, None] * 2.0 * np.pi / rays * r
+    hit = inside(r * np.cos(f), r * np.sin(f))
+    return float(np.sum(cell[hit])), float(np.sum((cell * r**2)[hit]))
+
+
+def near(x: Array, y: Array, radius: float, distance: float, number: int, turn: float = 0.0) -> NDArray[np.bool_]:
+    """Inside one of `number` discs whose centres stand around the axis."""
+    hit = np.zeros(x.shape, dtype=bool)
+    for i in range(number):
+        angle = turn + 2.0 * np.pi * i / number
+        hit |= (x - distance * np.cos(angle)) ** 2 + (y - distance * np.sin(angle)) ** 2 < radius**2
+    return hit
+
+
+def in_arcs(x: Array, y: Array, p: dict[str, Any], margin: float) -> NDArray[np.bool_]:
+    """Inside the outline of the pads, drawn in by a margin, its angle at the inner radius."""
+    r, f = np.hypot(x, y), np.arctan2(y, x) % (2.0 * np.pi)
+    half = 0.5 * p["arc_span"] - margin / p["pcl_inner_radius"]
+    pitch = 2.0 * np.pi / p["arc_count"]
+    off = np.abs((f + 0.5 * pitch) % pitch - 0.5 * pitch)
+    return (off < half) & (r > p["pcl_inner_radius"] + margin) & (r < p["pcl_outer_radius"] - margin)
+
+
+def stack_up(slabs: list[tuple[float, Inside]], outer: float, rims: list[float]) -> tuple[float, float]:
+    """Volume and its polar moment of slabs, each a height and what lies inside it."""
+    counted = [(height, *count(inside, outer, rims)) for height, inside in slabs]
+    return sum(h * area for h, area, _ in counted), sum(h * polar for h, _, polar in counted)
+
+
+def test_pads_cover_their_arcs(part: dict[str, Any]) -> None:
+    area, _ = count(lambda x, y: in_arcs(x, y, part, 0.0), part["pcl_outer_radius"], [part["pcl_inner_radius"]])
+    assert part["pcl_area"] == pytest.approx(area, rel=3e-3)
+    assert part["pcl_volume"] == pytest.approx(area * part["pcl_thickness"], rel=3e-3)
+    assert part["peltier_volume"] == pytest.approx(area * part["peltier_thickness"], rel=3e-3)
+
+
+def test_housing_has_the_volume_of_its_levels(part: dict[str, Any]) -> None:
+    p = part
+    bore, outer = p["core_radius"] + p["running_clearance"], p["housing_outer_radius"]
+    tang = 0.5 * p["wire_diameter"] + p["tang_clearance"]
+
+    def ring(x: Array, y: Array, inner: float, rim: float) -> NDArray[np.bool_]:
+        return (np.hypot(x, y) > inner) & (np.hypot(x, y) < rim)
+
+    def wall(x: Array, y: Array) -> NDArray[np.bool_]:
+        return ring(x, y, p["housing_inner_radius"], outer)
+
+    def posts(x: Array, y: Array) -> NDArray[np.bool_]:
+        return around(x, y, p["post_radius"])
+
+    springs, half_pitch = int(p["spring_count"]), np.pi / p["spring_count"]
+
+    def around(x: Array, y: Array, radius: float, turn: float = 0.0) -> NDArray[np.bool_]:
+        return near(x, y, radius, p["placement_radius"], springs, turn)
+
+    def skirt(x: Array, y: Array) -> NDArray[np.bool_]:
+        open_to_air = np.zeros(x.shape, dtype=bool)
+        for i in range(springs):
+            c, s = np.cos(2.0 * np.pi * i / springs), np.sin(2.0 * np.pi * i / springs)
+            open_to_air |= (np.abs(c * y - s * x) < 0.5 * p["notch_width"]) & (c * x + s * y > 0.0)
+        feet = around(x, y, p["mount_boss_radius"], half_pitch)
+        return (wall(x, y) & ~open_to_air | feet) & ~around(x, y, 0.5 * p["mount_hole"], half_pitch)
+
+    def floor(x: Array, y: Array) -> NDArray[np.bool_]:
+        # A tang's hole is beside its post: on the coil's circle, anywhere in the floor does for the volume.
+        holes = around(x, y, tang, 0.2) | around(x, y, 0.5 * p["mount_hole"], half_pitch)
+        return ring(x, y, bore, outer) & ~holes
+
+    pocket, web = p["peltier_thickness"], p["floor_thickness"] - p["peltier_thickness"]
+    post_top = p["coil_end_level"] + 0.5 * p["wire_diameter"]
+    volume, _ = stack_up(
+        [
+            (p["foot_height"], skirt),
+            (web, lambda x, y: floor(x, y) & ~in_arcs(x, y, p, p["window_ledge"])),
+            (pocket, lambda x, y: floor(x, y) & ~in_arcs(x, y, p, 0.0)),
+            (p["pcl_thickness"], lambda x, y: wall(x, y) | posts(x, y) | ring(x, y, bore, p["hub_radius"])),
+            (post_top - p["pcl_thickness"], lambda x, y: wall(x, y) | posts(x, y)),
+            (p["pin_top_level"] - post_top, wall),
+        ],
+        outer,
+        [bore, p["hub_radius"], p["housing_inner_radius"]],
+    )
+    assert part["housing_volume"] == pytest.approx(volume, rel=3e-3)
+
+
+def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) -> None:
+    p = part
+
+    def core(x: Array, y: Array) -> NDArray[np.bool_]:
+        return np.hypot(x, y) < p["core_radius"]
+
+    def pins(x: Array, y: Array) -> NDArray[np.bool_]:
+        return near(x, y, 0.5 * p["pin_diameter"], p["pin_radius"], int(p["spring_count"]))
+
+    def screws(x: Array, y: Array) -> NDArray[np.bool_]:
+        return near(x, y, 0.5 * p["link_screw_pilot"], p["link_bolt_circle_radius"], 4)
+
+    def retainer_screw(x: Array, y: Array) -> NDArray[np.bool_]:
+        return np.hypot(x, y) < 0.5 * p["retainer_screw_pilot"]
+
+    low = p["floor_thickness"] + p["running_clearance"]  # the core's end below the floor's upper face
+    slabs = [
+        (low + p["pcl_thickness"], core),
+        (p["rotor_thickness"], lambda x, y: np.hypot(x, y) < p["rotor_radius"]),
+        (p["pin_top_level"] - p["rotor_top_level"], lambda x, y: core(x, y) | pins(x, y)),
+        (p["link_bottom_level"] - p["pin_top_level"], core),
+        (-p["link_screw_depth"], screws),
+        (-p["retainer_screw_depth"], retainer_screw),
+    ]
+    volume, polar = stack_up(slabs, p["rotor_radius"], [0.5 * p["retainer_screw_pilot"], p["core_radius"]])
+    assert part["rotor_volume"] == pytest.approx(volume, rel=3e-3)
+    assert part["rotor_inertia"] == pytest.approx(polar * p["structure_density"], rel=3e-3)
+
+
+def test_link_and_retainer_have_the_volume_and_inertia_of_their_outlines(part: dict[str, Any]) -> None:
+    p = part
+
+    def link(x: Array, y: Array) -> NDArray[np.bool_]:
+        along = np.clip(x, 0.0, p["link_length"])
+        bar = np.hypot(x - along, y) < p["link_half_width"]
+        screws = near(x, y, 0.5 * p["link_screw_clearance"], p["link_bolt_circle_radius"], 4)
+        tool = np.hypot(x - p["link_length"], y) < 0.5 * p["link_tool_hole"]
+        return bar & ~screws & ~tool
+
+    def retainer(x: Array, y: Array) -> NDArray[np.bool_]:
+        r = np.hypot(x, y)
+        return (r < p["core_radius"] + p["retainer_lip"]) & (r > 0.5 * p["retainer_screw_clearance"])
+
+    area, polar = count(link, p["housing_outer_radius"], [p["core_radius"]])
+    assert part["link_volume"] == pytest.approx(area * p["link_thickness"], rel=3e-3)
+    assert part["link_inertia"] == pytest.approx(polar * p["link_thickness"] * p["structure_density"], rel=3e-3)
+    area, disc = count(retainer, 0.03, [0.5 * p["retainer_screw_clearance"], p["core_radius"] + p["retainer_lip"]])
+    assert part["retainer_volume"] == pytest.approx(area * p["retainer_thickness"], rel=3e-3)
+    rest = (polar * p["link_thickness"] + disc * p["retainer_thickness"]) * p["structure_density"]
+    assert part["parts_inertia"] - part["rotor_inertia"] == pytest.approx(rest, rel=3e-3)

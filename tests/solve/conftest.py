@@ -1,0 +1,48 @@
+"""The shear module compiled as the solver compiles it, at its default and at the cell count a test asks for."""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.study import given, read_study_text
+
+Build = Callable[..., Model]
+# Designs of other proportions: thin and fast, thick and slow, under an aluminium rotor with a fan on the cold side.
+DESIGNS: dict[str, dict[str, float | str]] = {
+    "as it is": {},
+    "thin": {"pcl_thickness": 0.6e-3, "current": 2.2},
+    "thick": {"pcl_thickness": 2e-3, "current": 1.8, "rotor_thickness": 3e-3},
+    "aluminium": {"structure_material": "aluminum_6061_t6", "current": 2.0, "cold_side_coefficient": 60.0},
+}
+
+
+@pytest.fixture(scope="session")
+def build() -> Build:
+    """A model of one of the designs, built once."""
+
+    @cache
+    def make(design: str = "as it is", cells: int = 12, rotor_cells: int = 4) -> Model:
+        catalog, table = Catalog(), table_for("shear")
+        study = read_study_text("mode: shear\n", "a test").model_copy(update={"module": DESIGNS[design]})
+        inputs: dict[str, Any] = {**given(study, catalog, table), "rotor_cells": rotor_cells}
+        return Model(table, inputs, ("cold", "hot"), cells)
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def switch_of(build: Build) -> Callable[[str], Switch]:
+    """The switch of one of the designs as the product simulates it."""
+
+    @cache
+    def run(design: str) -> Switch:
+        model = build(design)
+        return Simulator(model).run(model.start)
+
+    return run

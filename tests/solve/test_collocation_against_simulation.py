@@ -1,0 +1,78 @@
+"""The switch as equations gives the times, states and energies of the simulated switch."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Switch, Trajectory
+from tvimdesign.solve.transcription import guess, radau, switch_block
+
+DESIGNS = ("as it is", "thin", "thick", "aluminium")
+EVENTS = ("near_face_time", "mean_time", "far_face_time", "response_time")
+ELEMENTS = 8
+
+
+def solve(model: Model, switch: Switch, event: str, elements: int) -> tuple[float, np.ndarray]:
+    """Final time of the collocated switch and its states at every point, the start first."""
+    inputs = ca.MX.sym("inputs", len(model.names))
+    block = switch_block(model, event, elements, inputs)
+    unknowns = ca.vertcat(ca.vec(block.states), block.log_time)
+    newton = ca.rootfinder(
+        "newton", "newton", ca.Function("system", [unknowns, inputs], [block.equations]), {"abstol": 1e-10}
+    )
+    time = switch.values[event]
+    ends = np.linspace(0.0, time, 500)
+    simulated = switch.trajectory
+    states = np.array([np.interp(ends, simulated.times, row) for row in simulated.states])
+    begin = np.append(guess(Trajectory(times=ends, states=states), elements).ravel(order="F"), np.log(time))
+    solution = newton(begin, model.start)
+    every = ca.Function("every", [unknowns, inputs], [block.every])(solution, model.start)
+    return float(np.exp(float(solution[-1]))), np.asarray(ca.DM(every).full())
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+@pytest.mark.parametrize("event", EVENTS)
+def test_eight_elements_find_the_times_of_the_simulation(
+    design: str, event: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+) -> None:
+    switch = switch_of(design)
+    time, _ = solve(build(design), switch, event, ELEMENTS)
+    assert time == pytest.approx(switch.values[event], rel=5e-4)
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+def test_softening_lies_inside_melting_and_wants_more_elements(
+    design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+) -> None:
+    switch = switch_of(design)
+    coarse, _ = solve(build(design), switch, "softening_time", ELEMENTS)
+    fine, _ = solve(build(design), switch, "softening_time", 32)
+    assert coarse == pytest.approx(switch.values["softening_time"], rel=2e-3)
+    assert fine == pytest.approx(switch.values["softening_time"], rel=5e-4)
+
+
+def test_states_at_the_points_are_those_of_the_simulation(
+    build: Callable[..., Model], switch_of: Callable[[str], Switch]
+) -> None:
+    model, switch = build(), switch_of("as it is")
+    time, every = solve(model, switch, "response_time", ELEMENTS)
+    fractions = np.concatenate([[0.0], *((i + radau()[0]) / ELEMENTS for i in range(ELEMENTS))])
+    simulated = switch.trajectory.at(fractions)
+    assert time == pytest.approx(switch.values["response_time"], rel=5e-4)
+    # Temperatures over 100 K and enthalpies over 1e5 J/kg: within half a kelvin after the first element.
+    assert np.max(np.abs(every - simulated)[:, 4:]) < 5e-3
+
+
+def test_quadrature_of_the_points_gives_the_energy_of_the_simulation(
+    build: Callable[..., Model], switch_of: Callable[[str], Switch]
+) -> None:
+    model, switch = build(), switch_of("as it is")
+    time, every = solve(model, switch, "response_time", ELEMENTS)
+    weights = np.tile(radau()[2], ELEMENTS) / ELEMENTS
+    place = len(model.events) + [row.name for row in model.paths].index("switch_energy")
+    power = [float(np.asarray(model.instant(column, model.start)).ravel()[place]) for column in every.T[1:]]
+    assert time * weights @ power == pytest.approx(switch.values["switch_energy"], rel=1e-3)
+    assert np.sum(weights) == pytest.approx(1.0, rel=1e-12)
