@@ -42,8 +42,8 @@ schema: $(STAMP)  ## write the study's JSON Schema from the table
 	$(BIN)/python -m tvimdesign.study.schema
 
 cad: $(STAMP)  ## write the reference parts in cad/ from studies/paper_shear.yaml
-	$(BIN)/tvimdesign run studies/paper_shear.yaml --out results/reference --overwrite --no-plots
-	$(BIN)/python cad/release.py results/reference
+	$(BIN)/tvimdesign run studies/paper_shear.yaml --out results/reference --overwrite --no-plots --no-cad
+	$(BIN)/tvimdesign cad results/reference/design.json --out cad/paper_shear --overwrite
 
 clean:  ## remove the environment and all results
 	rm -rf $(VENV) results build *.egg-info

@@ -1,4 +1,4 @@
-"""The shear module compiled as the solver compiles it, at its default and at the cell count a test asks for."""
+"""The shear module compiled as the solver compiles it, in designs of different proportions."""
 
 from collections.abc import Callable
 from functools import cache
@@ -27,10 +27,12 @@ def build() -> Build:
     """A model of one of the designs, built once."""
 
     @cache
-    def make(design: str = "as it is", cells: int = 12, rotor_cells: int = 4) -> Model:
+    def make(design: str = "as it is", cells: int = 12, rotor_cells: int | None = None) -> Model:
         catalog, table = Catalog(), table_for("shear")
         study = read_study_text("mode: shear\n", "a test").model_copy(update={"module": DESIGNS[design]})
-        inputs: dict[str, Any] = {**given(study, catalog, table), "rotor_cells": rotor_cells}
+        inputs: dict[str, Any] = given(study, catalog, table)
+        if rotor_cells is not None:
+            inputs["rotor_cells"] = rotor_cells
         return Model(table, inputs, ("cold", "hot"), cells)
 
     return make

@@ -26,7 +26,7 @@ book.condition("sink_capacity", "J/K", 0.0, 0.0, 1e6, "Heat capacity of a sink o
 book.condition("hot_contact", "W/m^2/K", 1e4, 100.0, 1e6, "Contact conductance of Peltier pad and layer")
 book.condition("rotor_contact", "W/m^2/K", 1e4, 100.0, 1e6, "Contact conductance of layer and rotor plate")
 book.condition("rotor_coefficient", "W/m^2/K", 10.0, 1.0, 1e4, "Convection and radiation from the rotor plate")
-book.condition("rotor_cells", "1", 4, 1, 1000, "Cells of the heat model through the rotor plate", integer=True)
+book.condition("rotor_cells", "1", 6, 1, 1000, "Cells of the heat model through the rotor plate", integer=True)
 book.condition("horizon", "s", 3600.0, 1.0, 1e6, "Longest switch that is simulated")
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 from typing import Any
 
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 
 mpl.rcParams.update(
     {
@@ -26,6 +28,16 @@ def _figure(width: float = 8.0, height: float = 4.5) -> Figure:
     figure = Figure(figsize=(width, height))
     FigureCanvasAgg(figure)
     return figure
+
+
+def warm_up() -> None:
+    """Draw something on every kind of axes, so that fonts and caches are loaded before there is work."""
+    figure = _figure()
+    linear, logarithmic = figure.subplots(1, 2)
+    linear.plot([0.0, 1.0], label="°")
+    linear.legend(title="text")
+    logarithmic.semilogy([1.0, 1e3])
+    figure.savefig(io.BytesIO(), format="png", dpi=120)
 
 
 def switch_temperatures(data: dict[str, Any]) -> Figure:
@@ -63,6 +75,7 @@ def impedance(data: dict[str, Any]) -> Figure:
     for axes, kind, unit in ((stiffness, "stiffness", "N·m/rad"), (damping, "damping", "N·m·s/rad")):
         axes.semilogy(sweep["temperature"], sweep[f"pcl_{kind}"], label="PCL layer alone", linestyle="--")
         axes.semilogy(sweep["temperature"], sweep[f"joint_{kind}"], label="joint: springs, layer, structure")
+        axes.yaxis.set_minor_locator(NullLocator())  # minor ticks of a log axis take longer to draw than all else
         axes.axvspan(
             data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange", label="melting: depends\non history"
         )

@@ -58,6 +58,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     from tvimdesign.report import figures
 
+    figures.warm_up()
     request = json.load(sys.stdin)
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)

@@ -100,8 +100,9 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     design = read_design(source)
     troubles: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder:
+        kept = folder.write("design.json", design.model_dump_json(indent=2) + "\n")
         with talk() as progress, _noting(troubles):
-            report = _parts(source, folder.path, progress)
+            report = _parts(kept, folder.path, progress)
             if as_json:
                 print(json.dumps(report, indent=2))
             else:

@@ -1,0 +1,107 @@
+"""Springs, layer and structure together, put together once more with complex numbers."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tvimdesign.device import table_for
+from tvimdesign.physics import polymer
+
+TABLE = table_for("shear")
+HERTZ = 3.0
+
+
+@pytest.fixture(scope="module", params=["cold", "hot"])
+def point(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+@pytest.fixture(scope="module")
+def joint(inputs: dict[str, Any]) -> dict[str, Any]:
+    given = {**inputs, "frequency@cold": HERTZ, "frequency@hot": HERTZ}
+    algebraic = [
+        f"{name}@{point}"
+        for name in ("storage_modulus", "loss_modulus", "pcl_stiffness", "pcl_damping", "joint_stiffness",
+                     "joint_damping", "natural_frequency", "damping_ratio", "loss_factor")
+        for point in ("cold", "hot")
+    ]  # fmt: skip
+    plain = ["structure_stiffness", "spring_stiffness", "impedance_range", "damping_range", "holding_torque",
+             "layer_strain", "layer_strain_safety", "link_bottom_level", "rotor_top_level",
+             "housing_inner_radius"]  # fmt: skip
+    return {**given, **TABLE.evaluate(given, [*algebraic, *plain])}
+
+
+def star(joint: dict[str, Any], point: str) -> complex:
+    """Complex stiffness of the whole joint."""
+    modulus = complex(joint[f"storage_modulus@{point}"], joint[f"loss_modulus@{point}"])
+    span = joint["arc_count"] * joint["arc_span"]
+    polar, _ = quad(lambda r: span * r**3, joint["pcl_inner_radius"], joint["pcl_outer_radius"], epsabs=0.0)
+    layer = modulus * polar / joint["pcl_thickness"]
+    branch = 1.0 / (1.0 / layer + 1.0 / joint["structure_stiffness"])
+    return branch + complex(joint["spring_stiffness"])
+
+
+def test_joint_is_the_springs_parallel_to_layer_and_structure_in_series(joint: dict[str, Any], point: str) -> None:
+    whole = star(joint, point)
+    assert joint[f"joint_stiffness@{point}"] == pytest.approx(whole.real, rel=1e-9)
+    assert joint[f"joint_damping@{point}"] == pytest.approx(whole.imag / (2.0 * np.pi * HERTZ), rel=1e-9)
+
+
+def test_swing_follows_from_the_joints_stiffness_and_damping(joint: dict[str, Any], point: str) -> None:
+    stiffness, inertia = star(joint, point).real, 415.6e-6
+    damping = star(joint, point).imag / (2.0 * np.pi * HERTZ)
+    # Roots of I s^2 + b s + K: |s|^2 = K/I, -Re s/|s| = zeta.
+    roots = np.roots([inertia, damping, stiffness])
+    assert joint[f"natural_frequency@{point}"] == pytest.approx(np.sqrt(abs(roots[0] * roots[1])) / (2 * np.pi), rel=1e-6)
+    mean = -0.5 * (roots[0] + roots[1]).real / np.sqrt(abs(roots[0] * roots[1]))
+    assert joint[f"damping_ratio@{point}"] == pytest.approx(mean, rel=1e-6)
+
+
+def test_frozen_layer_is_the_solid_and_molten_layer_the_melt(joint: dict[str, Any], inputs: dict[str, Any]) -> None:
+    # Solid at 30 degC: about 130 MPa with a loss factor of 0.05. Melt at 100 degC: its spectrum, nothing else.
+    assert joint["storage_modulus@cold"] == pytest.approx(130e6, rel=0.1)
+    assert joint["loss_factor@cold"] == pytest.approx(0.05, rel=1e-2)
+    modes = [(row["relaxation_time"], row["modulus"]) for row in inputs["pcl_grade"].table("melt_spectrum")]
+    omega = 2.0 * np.pi * HERTZ
+    melt = sum(g * 1j * omega * tau / (1.0 + 1j * omega * tau) for tau, g in modes)
+    assert joint["storage_modulus@hot"] == pytest.approx(melt.real, rel=1e-3)
+    assert joint["loss_modulus@hot"] == pytest.approx(melt.imag, rel=1e-3)
+    assert polymer.maxwell_moduli(omega, modes) == pytest.approx((melt.real, melt.imag), rel=1e-9)
+
+
+def test_structure_is_softer_than_the_frozen_layer_and_stiffer_than_the_springs(joint: dict[str, Any]) -> None:
+    # Solid polycaprolactone alone would be 1e5 to 1e6 N*m/rad; what one can measure is the structure behind it.
+    assert 1e5 < joint["pcl_stiffness@cold"] < 1e6
+    assert joint["spring_stiffness"] < joint["structure_stiffness"] < joint["pcl_stiffness@cold"]
+
+
+def test_structure_is_core_rotor_and_floor_in_series(joint: dict[str, Any]) -> None:
+    shear = joint["structure_youngs_modulus"] / (2.0 * (1.0 + joint["structure_poissons_ratio"]))
+    middle = 0.5 * (joint["pcl_inner_radius"] + joint["pcl_outer_radius"])
+
+    def plate(thickness: float, inner: float, outer: float) -> float:
+        return float(quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * thickness * shear), inner, outer, epsabs=0.0)[0])
+
+    core = (joint["link_bottom_level"] - joint["rotor_top_level"]) / (shear * 0.5 * np.pi * joint["core_radius"] ** 4)
+    rotor = plate(joint["rotor_thickness"], joint["core_radius"], middle)
+    floor = plate(joint["floor_thickness"] - joint["peltier_thickness"], middle, joint["housing_inner_radius"])
+    assert joint["structure_stiffness"] == pytest.approx(1.0 / (core + rotor + floor), rel=1e-9)
+
+
+def test_ranges_are_cold_over_hot(joint: dict[str, Any]) -> None:
+    assert joint["impedance_range"] == pytest.approx(star(joint, "cold").real / star(joint, "hot").real, rel=1e-9)
+    assert joint["damping_range"] == pytest.approx(star(joint, "cold").imag / star(joint, "hot").imag, rel=1e-9)
+
+
+def test_frozen_layer_holds_until_its_outer_rim_slips(joint: dict[str, Any]) -> None:
+    # Traction grows with the radius up to the bond's 2 MPa at the rim, below the shear yield 16/sqrt(3) MPa.
+    span, outer = joint["arc_count"] * joint["arc_span"], joint["pcl_outer_radius"]
+    torque, _ = quad(lambda r: 2e6 * r / outer * span * r**2, joint["pcl_inner_radius"], outer, epsabs=0.0)
+    assert joint["holding_torque"] == pytest.approx(torque, rel=1e-9)
+
+
+def test_strain_of_the_layer_is_its_rims_way_over_its_thickness(joint: dict[str, Any]) -> None:
+    assert joint["layer_strain"] == pytest.approx(40.0 * 0.104 / 1.0, rel=1e-9)
+    assert joint["layer_strain_safety"] == pytest.approx(6.0 / 4.16, rel=1e-9)

@@ -1,0 +1,118 @@
+"""What the springs are to the joint: stiffness, windings and margins against the leg's line drawn with vectors."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import brentq
+
+from tvimdesign.device import table_for
+
+TABLE = table_for("shear")
+WANTED = ("spring_stiffness", "spring_winding", "spring_unwinding", "preload_reserve", "spring_rate", "spring_stress",
+          "spring_fatigue_safety", "spring_static_safety", "pin_radius", "leg_offset", "leg_arm", "spring_count",
+          "spring_tensile_strength")  # fmt: skip
+PAPER = {"spring_youngs_modulus": 210e9, "leg_model": "ignored"}
+
+
+def evaluate(inputs: dict[str, Any], **changes: float | str) -> dict[str, float]:
+    known = {**inputs, **changes}
+    return {name: float(value) for name, value in TABLE.evaluate(known, WANTED).items()}
+
+
+def winding_of(angle: float, placement: float, found: dict[str, float]) -> float:
+    """Winding of a right-hand spring from rest, positive where its leg turns counterclockwise, at a rotor angle.
+
+    The coil runs counterclockwise into its leg, which stands off its axis to the right; the pin beyond it is pushed by a
+    spring that unwinds.
+    """
+
+    def direction(at: float) -> float:
+        to_pin = found["pin_radius"] * np.array([np.cos(at), np.sin(at)]) - [placement, 0.0]
+        towards = np.arctan2(to_pin[1], to_pin[0]) % (2.0 * np.pi)
+
+        def beside(leg: float) -> float:
+            return float(np.array([np.sin(leg), -np.cos(leg)]) @ to_pin - found["leg_offset"])
+
+        return float(brentq(beside, towards - 1.5, towards + 1.5, xtol=1e-15, rtol=1e-14))
+
+    return direction(angle) - direction(0.0)
+
+
+@pytest.fixture(scope="module")
+def base(inputs: dict[str, Any]) -> dict[str, Any]:
+    return inputs
+
+
+def test_the_papers_springs_make_5_61_newton_metres_a_radian(base: dict[str, Any]) -> None:
+    # Exley et al.: four springs of 1.4023 N*m/rad at a ratio of one.
+    found = evaluate(base, **PAPER)
+    assert found["spring_rate"] == pytest.approx(1.4023, rel=5e-3)
+    assert found["spring_stiffness"] == pytest.approx(5.61, rel=5e-3)
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    ratio=st.floats(0.3, 0.6), preload=st.floats(0.0, 0.5), wire=st.floats(1.2e-3, 2.6e-3), coil=st.floats(12e-3, 22e-3)
+)
+def test_stiffness_of_the_geometry_is_the_curvature_of_the_springs_energy(
+    ratio: float, preload: float, wire: float, coil: float, base: dict[str, Any]
+) -> None:
+    found = evaluate(
+        base, transmission="geometry", pin_radius_ratio=ratio, preload_angle=preload, wire_diameter=wire,
+        coil_diameter=coil,
+    )  # fmt: skip
+    placement = base["placement_radius"]
+
+    def energy(angle: float) -> float:
+        # Right-hand springs, and left-hand ones that are their mirror images.
+        windings = (winding_of(angle, placement, found), winding_of(-angle, placement, found))
+        return sum(0.25 * found["spring_count"] * found["spring_rate"] * (preload + w) ** 2 for w in windings)
+
+    step = 0.02
+    weights = zip((-3, -2, -1, 0, 1, 2, 3), (2, -27, 270, -490, 270, -27, 2), strict=True)
+    expected = sum(weight * energy(i * step) for i, weight in weights) / (180.0 * step**2)
+    assert found["spring_stiffness"] == pytest.approx(expected, rel=1e-3)
+
+
+@settings(max_examples=25, deadline=None)
+@given(ratio=st.floats(0.3, 0.6), preload=st.floats(0.05, 0.5), stroke=st.floats(0.02, 0.2))
+def test_windings_are_the_extremes_over_the_stroke(
+    ratio: float, preload: float, stroke: float, base: dict[str, Any]
+) -> None:
+    found = evaluate(base, transmission="geometry", pin_radius_ratio=ratio, preload_angle=preload, stroke=stroke)
+    windings = [winding_of(a, base["placement_radius"], found) for a in np.linspace(-stroke, stroke, 21)]
+    assert found["spring_winding"] == pytest.approx(preload + max(windings), rel=1e-9)
+    assert found["spring_unwinding"] == pytest.approx(-min(windings), rel=1e-9)
+    assert found["preload_reserve"] == pytest.approx(preload + min(windings), abs=1e-9)
+
+
+@pytest.mark.parametrize("transmission", ["unity", "geometry"])
+def test_margins_are_those_of_the_stress_between_the_extremes(transmission: str, base: dict[str, Any]) -> None:
+    # Shigley, 10th ed., section 10-12: yield in bending .78 S_ut, Gerber with S_r = .50 S_ut at 1e6 cycles (A228).
+    found = evaluate(base, transmission=transmission, preload_angle=0.3)
+    wire, coil = base["wire_diameter"], base["coil_diameter"]
+    index = coil / wire
+    factor = (4 * index**2 - index - 1) / (4 * index * (index - 1))
+    per_angle = factor * 32.0 * found["spring_rate"] / (np.pi * wire**3)
+    turns = [0.104, -0.104] if transmission == "unity" else [
+        winding_of(a, base["placement_radius"], found) for a in (-0.104, 0.104)
+    ]  # fmt: skip
+    high, low = (per_angle * (0.3 + turn) for turn in turns)
+    tensile = 2211e6 / (wire * 1e3) ** 0.145
+    half = 0.25 * tensile
+    endurance = half / (1.0 - (half / tensile) ** 2)
+    amplitude, mean = 0.5 * (high - low), 0.5 * (high + low)
+    gerber = brentq(lambda n: n * amplitude / endurance + (n * mean / tensile) ** 2 - 1.0, 0.01, 100.0)
+    assert found["spring_stress"] == pytest.approx(high, rel=1e-9)
+    assert found["spring_static_safety"] == pytest.approx(0.78 * tensile / high, rel=1e-9)
+    assert found["spring_fatigue_safety"] == pytest.approx(gerber, rel=1e-9)
+
+
+def test_the_leg_bends_as_a_third_of_a_coil_of_its_length(base: dict[str, Any]) -> None:
+    stiff, soft = (evaluate(base, leg_model=model) for model in ("ignored", "bending"))
+    coils = base["coil_count"]
+    share = soft["leg_arm"] / (3.0 * np.pi * base["coil_diameter"])
+    assert stiff["spring_rate"] / soft["spring_rate"] == pytest.approx(1.0 + share / coils, rel=1e-9)
