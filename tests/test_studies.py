@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support import STUDIES, Command
+from support import ROOT, STUDIES, Command
 
 FILES = {
     "design.json", "impedance.csv", "manifest.json", "results.csv", "results.json", "study.resolved.json",
@@ -106,6 +106,26 @@ def test_a_run_is_the_same_run_twice(tvimdesign: Command, runs: dict[str, Path],
     tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "out")
     first, second = _results(runs["paper_shear"])["values"], _results(tmp_path / "out")["values"]
     assert first == second
+
+
+def test_the_released_parts_are_of_the_design_the_study_gives(runs: dict[str, Path]) -> None:
+    released = json.loads((ROOT / "cad/paper_shear/design.json").read_text())["values"]
+    now = json.loads((runs["paper_shear"] / "design.json").read_text())["values"]
+    assert released.keys() == now.keys(), "run `make cad`"
+    for name, value in now.items():
+        # Gaps that bind are zero to the solver's tolerance; a micrometre is nothing on a part.
+        assert released[name] == pytest.approx(value, rel=1e-4, abs=1e-6), f"{name}: run `make cad`"
+
+
+@pytest.mark.slow
+def test_the_released_parts_can_be_made_again(tvimdesign: Command, tmp_path: Path) -> None:
+    released = ROOT / "cad/paper_shear"
+    done = tvimdesign("cad", released / "design.json", "--out", tmp_path / "parts")
+    assert done.returncode == 0, done.stderr
+    made = {path.name: path.read_bytes() for path in (tmp_path / "parts/parts").iterdir()}
+    assert made.keys() == {path.name for path in (released / "parts").iterdir()}
+    for name, data in made.items():
+        assert data == (released / "parts" / name).read_bytes(), f"{name} differs: run `make cad`"
 
 
 @pytest.mark.slow

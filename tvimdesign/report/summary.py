@@ -14,6 +14,7 @@ from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.units import from_si, pretty
 
 _PRICE_SHOWN = 1e-3
+_NOTHING = 1e-5  # of any unit a limit is written in
 
 
 def print_summary(answer: Answer, table: Table, console: Console) -> None:
@@ -102,7 +103,9 @@ def _print_checks(answer: Answer, table: Table, console: Console) -> None:
         mark = "[red]broken[/red]" if not check.kept else "[yellow]binds[/yellow]" if _binds(check) else "ok"
         unit = table.unit(check.output)
         because = "the study" if check.origin == "require" else check.origin
-        grid.add_row(mark, check.text, number(from_si(check.value, unit)), pretty(unit), _share(check.margin), because)
+        value = from_si(check.value, unit)
+        shown = number(0.0 if abs(value) < _NOTHING else value)
+        grid.add_row(mark, check.text, shown, pretty(unit), _share(check.margin), because)
     if grid.row_count:
         console.print(grid)
     if hidden:
@@ -114,7 +117,7 @@ def _binds(check: Check) -> bool:
 
 
 def _share(margin: float) -> str:
-    return f"{margin:+.1%}" if abs(margin) < 100 else "ample"
+    return f"{margin + 0.0 if abs(margin) > 5e-4 else 0.0:+.1%}" if abs(margin) < 100 else "ample"
 
 
 def _print_prices(answer: Answer, console: Console) -> None:

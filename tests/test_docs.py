@@ -1,0 +1,63 @@
+"""The documents say what is so."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+import yaml
+from support import ROOT, Command
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.answer import answer
+from tvimdesign.study import read_study_text
+
+README = (ROOT / "README.md").read_text()
+
+
+def _blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", README, re.M | re.S)
+
+
+def test_the_first_two_commands_are_the_study_and_the_tests() -> None:
+    start = README.index("## Quick start")
+    assert re.findall(r"^```sh\n(.*?)^```", README[start:], re.M | re.S)[:2] == ["make study\n", "make test\n"]
+
+
+def test_the_study_in_the_readme_has_an_optimum() -> None:
+    study = read_study_text(_blocks("yaml")[0], "README.md")
+    assert answer(study, Catalog(), table_for(study.mode)).design.status == "optimal"
+
+
+def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path) -> None:
+    lines = [line.split("#")[0] for line in _blocks("sh")[2].splitlines()]
+    commands = [shlex.split(line)[1:] for line in lines if line.strip()]
+    assert [words[0] for words in commands] == ["new", "check", "run", "cad", "rows", "ledger"]
+    for words in commands:
+        if words[0] == "cad":  # the parts have their own tests; here its input is looked at
+            assert (tmp_path / words[1]).exists()
+            continue
+        more = ["--no-cad", "--no-plots"] if words[0] == "run" else []
+        done = tvimdesign(*words, *more, cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+
+
+def test_links_lead_somewhere() -> None:
+    for page in (ROOT / "README.md", ROOT / "cad/README.md", *sorted((ROOT / "docs").glob("*.md"))):
+        for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def test_the_citation_has_the_package_s_version() -> None:
+    import tvimdesign as package
+
+    assert yaml.safe_load((ROOT / "CITATION.cff").read_text())["version"] == package.__version__
+
+
+@pytest.mark.parametrize("floor", ["catalog", "physics", "device", "study", "solve", "cad", "report"])
+def test_the_architecture_names_every_floor(floor: str) -> None:
+    assert f"`{floor}/`" in (ROOT / "docs/architecture.md").read_text()
+    assert (ROOT / "tvimdesign" / floor).is_dir()
