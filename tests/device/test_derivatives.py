@@ -72,14 +72,14 @@ def event_gradient(model: Model, switch: Switch, event: str) -> tuple[float, Arr
     system = ca.Function("system", [unknowns, inputs], [block.equations])
     solve = ca.rootfinder("solve", "newton", system, {"abstol": 1e-11, "max_iter": 50})
     time = switch.values[event]
-    scaled = guess(switch.trajectory, ELEMENTS) if event == "response_time" else _until(model, switch, time)
+    scaled = guess(switch.trajectory, ELEMENTS) if event == "response_time" else _until(switch, time)
     begin = np.append(scaled.ravel(order="F"), np.log(time))
     gradient = ca.Function("gradient", [inputs], [ca.jacobian(solve(begin, inputs)[-1], inputs)])
     found = float(np.asarray(solve(begin, model.start))[-1, 0])
     return float(np.exp(found)), np.exp(found) * np.asarray(ca.DM(gradient(model.start)).full()).ravel()
 
 
-def _until(model: Model, switch: Switch, time: float) -> Array:
+def _until(switch: Switch, time: float) -> Array:
     """Guess of the states at the collocation points of a switch that ends at another time than the simulated one."""
     trajectory = switch.trajectory
     states = np.array([np.interp(np.linspace(0.0, time, 400), trajectory.times, row) for row in trajectory.states])

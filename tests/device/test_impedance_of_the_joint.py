@@ -54,7 +54,9 @@ def test_swing_follows_from_the_joints_stiffness_and_damping(joint: dict[str, An
     damping = star(joint, point).imag / (2.0 * np.pi * HERTZ)
     # Roots of I s^2 + b s + K: |s|^2 = K/I, -Re s/|s| = zeta.
     roots = np.roots([inertia, damping, stiffness])
-    assert joint[f"natural_frequency@{point}"] == pytest.approx(np.sqrt(abs(roots[0] * roots[1])) / (2 * np.pi), rel=1e-6)
+    assert joint[f"natural_frequency@{point}"] == pytest.approx(
+        np.sqrt(abs(roots[0] * roots[1])) / (2 * np.pi), rel=1e-6
+    )
     mean = -0.5 * (roots[0] + roots[1]).real / np.sqrt(abs(roots[0] * roots[1]))
     assert joint[f"damping_ratio@{point}"] == pytest.approx(mean, rel=1e-6)
 

@@ -25,8 +25,8 @@ def evaluate(inputs: dict[str, Any], **changes: float | str) -> dict[str, float]
 def winding_of(angle: float, placement: float, found: dict[str, float]) -> float:
     """Winding of a right-hand spring from rest, positive where its leg turns counterclockwise, at a rotor angle.
 
-    The coil runs counterclockwise into its leg, which stands off its axis to the right; the pin beyond it is pushed by a
-    spring that unwinds.
+    The coil runs counterclockwise into its leg, which stands off its axis to the right; the pin is beyond it, where
+    a spring that unwinds pushes it.
     """
 
     def direction(at: float) -> float:
@@ -116,3 +116,10 @@ def test_the_leg_bends_as_a_third_of_a_coil_of_its_length(base: dict[str, Any]) 
     coils = base["coil_count"]
     share = soft["leg_arm"] / (3.0 * np.pi * base["coil_diameter"])
     assert stiff["spring_rate"] / soft["spring_rate"] == pytest.approx(1.0 + share / coils, rel=1e-9)
+
+
+def test_the_pins_centre_stands_off_the_legs_line_by_coil_wire_and_pin(base: dict[str, Any]) -> None:
+    # Leg along the tangent of the mean coil circle, half a wire to its surface, half a pin beyond: in millimetres.
+    found = evaluate(base, coil_diameter=20e-3, wire_diameter=2e-3, pin_diameter=4e-3)
+    assert found["leg_offset"] == pytest.approx(10e-3 + 1e-3 + 2e-3, rel=1e-12)
+    assert found["leg_arm"] == pytest.approx(np.sqrt(28.5e-3**2 - 13e-3**2), rel=1e-9)

@@ -27,10 +27,15 @@ def part(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, An
     """Every input, and every output that has a number without a simulation."""
     table = table_for("shear")
     given = {**inputs, **SHAPES[request.param]}
-    wanted = ["spring_count", "housing_volume", "rotor_volume", "rotor_inertia", "link_volume", "link_inertia", "retainer_volume",
-              "parts_inertia", "pcl_area", "pcl_volume", "peltier_volume", "housing_outer_radius", "housing_inner_radius",
-              "hub_radius", "pin_top_level", "post_radius", "coil_end_level", "rotor_radius", "rotor_top_level",
-              "link_bottom_level", "pin_radius", "link_bolt_circle_radius", "link_half_width", "link_length"]  # fmt: skip
+    wanted = [
+        *(f"{name}_mass" for name in ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "module")),
+        *(f"{name}_volume" for name in ("housing", "rotor", "link", "retainer", "spring", "pcl", "peltier")),
+        *(f"{name}_inertia" for name in ("rotor", "link", "parts")),
+        *(f"{name}_length" for name in ("leg", "tang", "link")),
+        *(f"{name}_level" for name in ("coil_end", "pin_top", "rotor_top", "link_bottom")),
+        *(f"{name}_radius" for name in ("housing_outer", "housing_inner", "hub", "post", "rotor", "pin")),
+        "pcl_area", "spring_count", "link_bolt_circle_radius", "link_half_width",
+    ]  # fmt: skip
     return {**given, **table.evaluate(given, wanted)}
 
 
@@ -178,3 +183,31 @@ def test_link_and_retainer_have_the_volume_and_inertia_of_their_outlines(part: d
     assert part["retainer_volume"] == pytest.approx(area * p["retainer_thickness"], rel=3e-3)
     rest = (polar * p["link_thickness"] + disc * p["retainer_thickness"]) * p["structure_density"]
     assert part["parts_inertia"] - part["rotor_inertia"] == pytest.approx(rest, rel=3e-3)
+
+
+def test_spring_has_the_volume_of_its_wire_laid_out_in_space(part: dict[str, Any]) -> None:
+    p = part
+    wire, radius = p["wire_diameter"], 0.5 * p["coil_diameter"]
+    pitch = wire + p["coil_gap"]
+    turns = np.linspace(0.0, p["coil_count"], 20001)
+    helix = np.column_stack([radius * np.cos(2 * np.pi * turns), radius * np.sin(2 * np.pi * turns), pitch * turns])
+    slope = np.arctan2(pitch, 2.0 * np.pi * radius)
+    # The leg goes on as the helix ends; at the other end the wire bends from the helix's slope to straight down.
+    leg = np.array([[0.0, 0.0, 0.0], [p["leg_length"], 0.0, p["leg_length"] * np.tan(slope)]])
+    turn = np.linspace(slope, 0.5 * np.pi, 2001)
+    bend = wire * np.column_stack([np.sin(turn), 0.0 * turn, np.cos(turn)])
+    length = sum(float(np.sum(np.linalg.norm(np.diff(line, axis=0), axis=1))) for line in (helix, leg, bend))
+    volume = 0.25 * np.pi * wire**2 * (length + p["tang_length"])
+    assert p["spring_volume"] == pytest.approx(volume, rel=1e-6)
+    assert p["springs_mass"] == pytest.approx(p["spring_count"] * 7850.0 * volume, rel=1e-6)
+
+
+def test_masses_are_volumes_times_densities_and_add_up(part: dict[str, Any]) -> None:
+    p = part
+    for name in ("housing", "rotor", "link", "retainer"):
+        assert p[f"{name}_mass"] == pytest.approx(1270.0 * p[f"{name}_volume"], rel=1e-9), name  # PETG
+    assert p["pcl_mass"] == pytest.approx(1145.0 * p["pcl_volume"], rel=1e-9)
+    # The pads are cut from modules of 1600 mm^2 and 6 g.
+    assert p["peltier_mass"] == pytest.approx(6e-3 * p["pcl_area"] / 1600e-6, rel=1e-9)
+    parts = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier")
+    assert p["module_mass"] == pytest.approx(sum(p[f"{name}_mass"] for name in parts), rel=1e-12)

@@ -6,10 +6,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import settings
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tvimdesign.physics import heat, peltier, polymer
+
+# A slow machine is no mistake in the equations.
+settings.register_profile("no deadline", deadline=None)
+settings.load_profile("no deadline")
 
 Array = NDArray[np.float64]
 NO_MELTING = polymer.Melting(1900.0, 1900.0, 1.0, 5000.0, 5001.0, 1e-3)

@@ -70,7 +70,8 @@ def test_slab_with_its_face_at_a_new_temperature_follows_as_tabulated(bare_stack
 def test_melting_front_advances_as_stefan_and_neumann_found(
     bare_stack: Make, integrate: Run, stefan: float, expected: float
 ) -> None:
-    # One phase: solid at its melting point, face at T_w. s = 2 l sqrt(a t), sqrt(pi) l exp(l^2) erf l = c (T_w - T_m)/L.
+    # One phase: solid at its melting point, face at T_w. The front is at 2 l sqrt(a t) with
+    # sqrt(pi) l exp(l^2) erf l = c (T_w - T_m)/L.
     root = brentq(lambda x: np.sqrt(np.pi) * x * np.exp(x**2) * erf(x) - stefan, 1e-3, 3.0)
     assert root == pytest.approx(expected, rel=1e-5)
     melting_point, specific_heat, latent = 330.0, 2000.0, 80e3

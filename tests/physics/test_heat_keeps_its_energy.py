@@ -1,7 +1,5 @@
 """First law over a whole switch, losses integrated alongside; and the response times others found for such a stack."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

@@ -10,7 +10,7 @@ from tvimdesign.catalog import Catalog, Record
 from tvimdesign.physics import polymer
 
 CELSIUS = 273.15
-# Capa 6500 and 6800: 76.7 kJ/kg; specific heats in the middle of 1.7-2.0 and 2.0-2.2 kJ/kg K; melting from 50 to 65 degC.
+# Capa 6500 and 6800: 76.7 kJ/kg. Specific heats: the middles of 1.7-2.0 and 2.0-2.2 kJ/kg K.
 MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
 MODES = ((1.0, 2.0e5), (0.1, 3.0e5), (0.01, 5.0e5))
 GRADES = ("pcl_50k", "pcl_80k")

@@ -15,8 +15,8 @@ EVENTS = ("near_face_time", "mean_time", "far_face_time", "response_time")
 ELEMENTS = 8
 
 
-def solve(model: Model, switch: Switch, event: str, elements: int) -> tuple[float, np.ndarray]:
-    """Final time of the collocated switch and its states at every point, the start first."""
+def solve(model: Model, switch: Switch, event: str, elements: int) -> tuple[float, np.ndarray, np.ndarray]:
+    """Final time of the collocated switch, its states at every point, the start first, and the points' weights."""
     inputs = ca.MX.sym("inputs", len(model.names))
     block = switch_block(model, event, elements, inputs)
     unknowns = ca.vertcat(ca.vec(block.states), block.log_time)
@@ -30,7 +30,7 @@ def solve(model: Model, switch: Switch, event: str, elements: int) -> tuple[floa
     begin = np.append(guess(Trajectory(times=ends, states=states), elements).ravel(order="F"), np.log(time))
     solution = newton(begin, model.start)
     every = ca.Function("every", [unknowns, inputs], [block.every])(solution, model.start)
-    return float(np.exp(float(solution[-1]))), np.asarray(ca.DM(every).full())
+    return float(np.exp(float(solution[-1]))), np.asarray(ca.DM(every).full()), block.weights
 
 
 @pytest.mark.parametrize("design", DESIGNS)
@@ -39,7 +39,7 @@ def test_eight_elements_find_the_times_of_the_simulation(
     design: str, event: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
 ) -> None:
     switch = switch_of(design)
-    time, _ = solve(build(design), switch, event, ELEMENTS)
+    time, _, _ = solve(build(design), switch, event, ELEMENTS)
     assert time == pytest.approx(switch.values[event], rel=5e-4)
 
 
@@ -48,8 +48,8 @@ def test_softening_lies_inside_melting_and_wants_more_elements(
     design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
 ) -> None:
     switch = switch_of(design)
-    coarse, _ = solve(build(design), switch, "softening_time", ELEMENTS)
-    fine, _ = solve(build(design), switch, "softening_time", 32)
+    coarse, _, _ = solve(build(design), switch, "softening_time", ELEMENTS)
+    fine, _, _ = solve(build(design), switch, "softening_time", 32)
     assert coarse == pytest.approx(switch.values["softening_time"], rel=2e-3)
     assert fine == pytest.approx(switch.values["softening_time"], rel=5e-4)
 
@@ -58,7 +58,7 @@ def test_states_at_the_points_are_those_of_the_simulation(
     build: Callable[..., Model], switch_of: Callable[[str], Switch]
 ) -> None:
     model, switch = build(), switch_of("as it is")
-    time, every = solve(model, switch, "response_time", ELEMENTS)
+    time, every, _ = solve(model, switch, "response_time", ELEMENTS)
     fractions = np.concatenate([[0.0], *((i + radau()[0]) / ELEMENTS for i in range(ELEMENTS))])
     simulated = switch.trajectory.at(fractions)
     assert time == pytest.approx(switch.values["response_time"], rel=5e-4)
@@ -70,8 +70,7 @@ def test_quadrature_of_the_points_gives_the_energy_of_the_simulation(
     build: Callable[..., Model], switch_of: Callable[[str], Switch]
 ) -> None:
     model, switch = build(), switch_of("as it is")
-    time, every = solve(model, switch, "response_time", ELEMENTS)
-    weights = np.tile(radau()[2], ELEMENTS) / ELEMENTS
+    time, every, weights = solve(model, switch, "response_time", ELEMENTS)
     place = len(model.events) + [row.name for row in model.paths].index("switch_energy")
     power = [float(np.asarray(model.instant(column, model.start)).ravel()[place]) for column in every.T[1:]]
     assert time * weights @ power == pytest.approx(switch.values["switch_energy"], rel=1e-3)

@@ -143,13 +143,9 @@ def pair(
     return switch_of(request.param), values, model
 
 
-def test_switch_agrees_with_the_independent_integration(
-    pair: tuple[Switch, dict[str, float], Model], request: pytest.FixtureRequest
-) -> None:
-    # 1 % is what the product promises. Reached: 0.6 %, and 1.5 % with a thin layer, all of it from four rotor cells.
-    switch, reference, model = pair
-    if "thin" in request.node.callspec.id and model.start[model.index["rotor_cells"]] < 8:
-        request.applymarker(pytest.mark.xfail(reason="four rotor cells are too few for a switch of 45 s", strict=True))
+def test_switch_agrees_with_the_independent_integration(pair: tuple[Switch, dict[str, float], Model]) -> None:
+    # 1 % is what the product promises. Six rotor cells and twelve in the layer reach 0.7 %; the rotor's are the limit.
+    switch, reference, _ = pair
     for name in ("near_face_time", "mean_time", "far_face_time", "switch_energy", "peak_power", "peak_pcl_temperature"):
         assert switch.values[name] == pytest.approx(reference[name], rel=1e-2), name
 
@@ -169,7 +165,7 @@ def test_peak_of_the_rotor_is_that_of_its_face_to_the_layer(
 ) -> None:
     switch, reference, _ = pair
     if "aluminium" not in request.node.callspec.id:
-        reason = "the peak is that of the middle of the first rotor cell, up to 10 K below the face"
+        reason = "the peak is that of the middle of the first rotor cell, several kelvin below the face"
         request.applymarker(pytest.mark.xfail(reason=reason, strict=True))
     assert switch.values["peak_rotor_temperature"] == pytest.approx(reference["rotor_face"], abs=1.0)
 
