@@ -27,7 +27,8 @@ def joint(inputs: dict[str, Any]) -> dict[str, Any]:
                      "joint_damping", "natural_frequency", "damping_ratio", "loss_factor")
         for point in ("cold", "hot")
     ]  # fmt: skip
-    plain = ["structure_stiffness", "spring_stiffness", "impedance_range", "damping_range", "holding_torque",
+    plain = ["structure_stiffness", "spring_stiffness", "impedance_range", "damping_range", "holding_torque", "layer_holding_torque",
+             "core_holding_torque",
              "layer_strain", "layer_strain_safety", "link_bottom_level", "rotor_top_level",
              "housing_inner_radius"]  # fmt: skip
     return {**given, **TABLE.evaluate(given, [*algebraic, *plain])}
@@ -88,7 +89,7 @@ def test_structure_is_core_rotor_and_floor_in_series(joint: dict[str, Any]) -> N
 
     core = (joint["link_bottom_level"] - joint["rotor_top_level"]) / (shear * 0.5 * np.pi * joint["core_radius"] ** 4)
     rotor = plate(joint["rotor_thickness"], joint["core_radius"], middle)
-    floor = plate(joint["floor_thickness"] - joint["peltier_thickness"], middle, joint["housing_inner_radius"])
+    floor = plate(joint["floor_thickness"] - joint["peltier_thickness"], middle, joint["placement_radius"])
     assert joint["structure_stiffness"] == pytest.approx(1.0 / (core + rotor + floor), rel=1e-9)
 
 
@@ -101,7 +102,15 @@ def test_frozen_layer_holds_until_its_outer_rim_slips(joint: dict[str, Any]) -> 
     # Traction grows with the radius up to the bond's 2 MPa at the rim, below the shear yield 16/sqrt(3) MPa.
     span, outer = joint["arc_count"] * joint["arc_span"], joint["pcl_outer_radius"]
     torque, _ = quad(lambda r: 2e6 * r / outer * span * r**2, joint["pcl_inner_radius"], outer, epsabs=0.0)
-    assert joint["holding_torque"] == pytest.approx(torque, rel=1e-9)
+    assert joint["layer_holding_torque"] == pytest.approx(torque, rel=1e-9)
+
+
+def test_core_holds_until_its_surface_yields_in_shear(joint: dict[str, Any]) -> None:
+    # Shear stress grows with the radius up to the yield of the print across its layers, 31 MPa/sqrt(3), at the surface.
+    radius = joint["core_radius"]
+    torque, _ = quad(lambda r: 31e6 / np.sqrt(3.0) * r / radius * 2.0 * np.pi * r**2, 0.0, radius, epsabs=0.0)
+    assert joint["core_holding_torque"] == pytest.approx(torque, rel=1e-9)
+    assert joint["holding_torque"] == min(joint["core_holding_torque"], joint["layer_holding_torque"])
 
 
 def test_strain_of_the_layer_is_its_rims_way_over_its_thickness(joint: dict[str, Any]) -> None:

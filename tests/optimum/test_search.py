@@ -29,7 +29,7 @@ vary:
 require:
   spring_stiffness: ">= 5 N.m/rad"
   peak_power: "<= 9 W"
-  holding_torque: ">= 40 N.m"
+  layer_holding_torque: ">= 40 N.m"
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 solver: {starts: 1}
 """

@@ -25,6 +25,9 @@ class Reference:
     def __post_init__(self) -> None:
         v = self.value
         self.area = 0.5 * v("arc_count") * v("arc_span") * (v("pcl_outer_radius") ** 2 - v("pcl_inner_radius") ** 2)
+        ledge, inner = v("window_ledge"), v("pcl_inner_radius")
+        opening = v("arc_count") * (v("arc_span") - 2.0 * ledge / inner)
+        self.window = 0.5 * opening * ((v("pcl_outer_radius") - ledge) ** 2 - (inner + ledge) ** 2)
         share = self.area / v("peltier_area")
         self.seebeck, self.ohms, self.leak = (
             share * v(f"peltier_{name}") for name in ("seebeck", "resistance", "conductance")
@@ -96,7 +99,7 @@ class Reference:
         amps = self.value("current")
         drawn = self.seebeck * amps * (y[0] + 273.15) - 0.5 * amps**2 * self.ohms - self.leak * (y[1] - y[0])
         ambient = self.value("ambient_temperature") - 273.15
-        return self.value("cold_side_coefficient") * self.area * (ambient - y[0]) - drawn
+        return self.value("cold_side_coefficient") * self.window * (ambient - y[0]) - drawn
 
     def _outflow(self, y: Array) -> float:
         v = self.value
@@ -107,7 +110,7 @@ class Reference:
 @pytest.fixture(scope="module", params=DESIGNS)
 def pair(
     request: pytest.FixtureRequest, build: Callable[..., Model], switch_of: Callable[[str], Switch]
-) -> tuple[Switch, dict[str, float], Model]:
+) -> tuple[Switch, dict[str, float]]:
     """The product's switch and what the independent integration finds for the same design."""
     model = build(request.param)
     reference = Reference(lambda name: float(model.start[model.index[name]]))
@@ -140,33 +143,18 @@ def pair(
         "rotor_face": max(reference.rotor_face(column) for column in states.T[::20]) + 273.15,
         "peak_pcl_temperature": max(reference.faces(column)[0] for column in states.T[::20]) + 273.15,
     }
-    return switch_of(request.param), values, model
+    return switch_of(request.param), values
 
 
-def test_switch_agrees_with_the_independent_integration(pair: tuple[Switch, dict[str, float], Model]) -> None:
-    # 1 % is what the product promises. Six rotor cells and twelve in the layer reach 0.7 %; the rotor's are the limit.
-    switch, reference, _ = pair
+def test_switch_agrees_with_the_independent_integration(pair: tuple[Switch, dict[str, float]]) -> None:
+    # 1 % is what the product promises; twelve cells in the layer and eight in the rotor reach half of it.
+    switch, reference = pair
     for name in ("near_face_time", "mean_time", "far_face_time", "switch_energy", "peak_power", "peak_pcl_temperature"):
-        assert switch.values[name] == pytest.approx(reference[name], rel=1e-2), name
+        assert switch.values[name] == pytest.approx(reference[name], rel=5e-3), name
 
 
-def test_eight_rotor_cells_agree_with_the_independent_integration_to_half_a_percent(
-    pair: tuple[Switch, dict[str, float], Model], build: Callable[..., Model], request: pytest.FixtureRequest
-) -> None:
-    _, reference, _ = pair
-    model = build(request.node.callspec.params["pair"], 12, 8)
-    values = Simulator(model).run(model.start).values
-    for name in ("near_face_time", "mean_time", "far_face_time", "switch_energy"):
-        assert values[name] == pytest.approx(reference[name], rel=5e-3), name
-
-
-def test_peak_of_the_rotor_is_that_of_its_face_to_the_layer(
-    pair: tuple[Switch, dict[str, float], Model], request: pytest.FixtureRequest
-) -> None:
-    switch, reference, _ = pair
-    if "aluminium" not in request.node.callspec.id:
-        reason = "the peak is that of the middle of the first rotor cell, several kelvin below the face"
-        request.applymarker(pytest.mark.xfail(reason=reason, strict=True))
+def test_peak_of_the_rotor_is_that_of_its_face_to_the_layer(pair: tuple[Switch, dict[str, float]]) -> None:
+    switch, reference = pair
     assert switch.values["peak_rotor_temperature"] == pytest.approx(reference["rotor_face"], abs=1.0)
 
 

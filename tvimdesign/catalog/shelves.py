@@ -47,6 +47,7 @@ SHELVES: Mapping[str, Shelf] = {
             "thermal_conductivity": "W/m/K",
             "specific_heat": "J/kg/K",
             "yield_strength": "MPa",
+            "yield_strength_across_layers": "MPa",
             "service_temperature": "degC",
         }
     ),

@@ -76,13 +76,25 @@ class Book:
         instant: bool = False,
         hidden: bool = False,
         headline: bool = False,
+        least_of: tuple[str, ...] = (),
     ) -> Callable[[F], F]:
         """Add a function as a row."""
 
         def add(function: F) -> F:
-            row = Output(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                         function=function, per_point=per_point, instant=instant, hidden=hidden,
-                         headline=headline, rules=rules, advice=advice)  # fmt: skip
+            row = Output(
+                name=function.__name__,
+                unit=unit,
+                description=_summary(function),
+                group=self.group,
+                function=function,
+                per_point=per_point,
+                instant=instant,
+                hidden=hidden,
+                headline=headline,
+                least_of=least_of,
+                rules=rules,
+                advice=advice,
+            )
             self.rows.append(row)
             return function
 

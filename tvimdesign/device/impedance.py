@@ -14,7 +14,7 @@ book = Book("Impedance")
 book.condition("temperature", "degC", 303.15, 253.15, 473.15, "Temperature of the PCL layer", per_point=True)
 book.condition("frequency", "Hz", 1.0, 0.001, 1000.0, "Frequency at which the impedance is stated", per_point=True)
 book.condition("moving_inertia", "kg*mm^2", 415.6e-6, 1e-9, 100.0, "Moment of inertia of all that turns, load included")
-book.condition("enthalpy_smoothing", "kJ/kg", 1e3, 10.0, 1e4, "Rounding of the corners of the melting curve")
+book.condition("enthalpy_smoothing", "kJ/kg", 1e3, 10.0, 2e3, "Rounding of the corners of the melting curve")
 
 
 @book.helper()
@@ -121,17 +121,17 @@ def structure_stiffness(
     link_bottom_level: Scalar,
     pcl_inner_radius: Scalar,
     pcl_outer_radius: Scalar,
-    housing_inner_radius: Scalar,
+    placement_radius: Scalar,
     floor_web: Scalar,
 ) -> Scalar:
-    """Stiffness of what stands in series with the layer: core, rotor plate and floor."""
+    """Stiffness of what stands in series with the layer: core, rotor plate, and floor up to its mounting feet."""
     modulus = structure.shear_modulus(structure_youngs_modulus, structure_poissons_ratio)
     middle = 0.5 * (pcl_inner_radius + pcl_outer_radius)
     return structure.series(
         structure.shaft_stiffness(modulus, core_radius, link_bottom_level - rotor_top_level),
         structure.ring_stiffness(modulus, rotor_thickness, core_radius, middle),
         # The floor is weakest where pockets and windows thin it; its web counts.
-        structure.ring_stiffness(modulus, floor_web, middle, housing_inner_radius),
+        structure.ring_stiffness(modulus, floor_web, middle, placement_radius),
     )
 
 
@@ -141,6 +141,12 @@ def branch_stiffness(
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
     return layer.series_stiffness(pcl_stiffness, 2.0 * np.pi * frequency * pcl_damping, structure_stiffness)
+
+
+@book.output("N*m/rad", per_point=True)
+def joint_impedance(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
+    """Magnitude of the joint's dynamic stiffness, springs and damping together."""
+    return np.sqrt((spring_stiffness + branch_stiffness[0]) ** 2 + branch_stiffness[1] ** 2)
 
 
 @book.output("N*m/rad", per_point=True, headline=True)
@@ -203,10 +209,30 @@ def layer_strain_safety(pcl_melt_strain_limit: Scalar, layer_strain: Scalar) -> 
     return pcl_melt_strain_limit / layer_strain
 
 
-@book.output("N*m", headline=True)
-def holding_torque(
+@book.output("N*m")
+def layer_holding_torque(
     pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
 ) -> Scalar:
-    """Torque the frozen layer holds before its bond or its shear yield gives way."""
+    """Torque at which the frozen layer's bond, or its shear yield, gives way at its outer rim."""
     traction = np.fmin(pcl_bond_strength, pcl_tensile_yield / np.sqrt(3.0))
     return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
+
+
+@book.output("N*m")
+def core_holding_torque(structure_layer_strength: Scalar, core_radius: Scalar) -> Scalar:
+    """Torque at which the core yields in torsion, its screw holes not counted."""
+    return structure.shaft_torque(structure_layer_strength / np.sqrt(3.0), core_radius)
+
+
+@book.output("N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque"))
+def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar) -> Scalar:
+    """Torque the frozen joint holds: the lesser of what the layer and the core bear."""
+    return np.fmin(layer_holding_torque, core_holding_torque)
+
+
+@book.output(
+    "kg*mm^2", advice=(Rule(sense=">=", value=0.0, reason="the module's own parts have more inertia than that"),)
+)
+def load_inertia(moving_inertia: Scalar, parts_inertia: Scalar) -> Scalar:
+    """Inertia that is left for the load: the moving inertia less that of the module's own parts."""
+    return moving_inertia - parts_inertia

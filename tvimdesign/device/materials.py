@@ -25,6 +25,7 @@ for name, unit, field, description in (
     ("structure_density", "kg/m^3", "density", "Density of the structure"),
     ("structure_conductivity", "W/m/K", "thermal_conductivity", "Thermal conductivity of the structure"),
     ("structure_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the structure"),
+    ("structure_layer_strength", "MPa", "yield_strength_across_layers", "Yield strength across the layers of a print"),
     ("structure_service_temperature", "degC", "service_temperature", "Highest continuous temperature of the structure"),
 ):
     book.property(name, unit, ("structure_material", field), description)

@@ -79,6 +79,8 @@ class Output:
     """An intermediate result, of any type, that other rows use and nobody asks for."""
     headline: bool = False
     """Whether the row stands in a summary."""
+    least_of: tuple[str, ...] = ()
+    """The rows this one is the least of; a lower limit on it is put on each of them, which have no kinks."""
     rules: tuple[Rule, ...] = ()
     """Limits that hold in every study, unless the study sets its own for this row in the same sense."""
     advice: tuple[Rule, ...] = ()

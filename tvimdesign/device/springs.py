@@ -130,6 +130,15 @@ def spring_tensile_strength(wire_diameter: Scalar, spring_material: Record) -> S
     return spring.tensile_strength(wire_diameter, [(row["coefficient"], row["exponent"]) for row in rows])
 
 
+@book.output("1", advice=(Rule(sense=">=", value=1.0, reason="the strength of this wire is extrapolated to its size"),))
+def wire_range_reserve(wire_diameter: Scalar, spring_material: Record) -> Scalar:
+    """Wire diameter against the nearer end of the range the material's strength is known for, above one inside."""
+    rows = spring_material.table("strength")
+    thinnest = min(row["wire_diameter_from"] for row in rows)
+    thickest = max(row["wire_diameter_to"] for row in rows)
+    return np.fmin(wire_diameter / thinnest, thickest / wire_diameter)
+
+
 @book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield"), headline=True)
 def spring_static_safety(
     spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, spring_winding: Scalar
@@ -157,8 +166,9 @@ def spring_fatigue_safety(
     spring_fatigue_ratio: Scalar,
 ) -> Scalar:
     """Fatigue safety of the springs for 1e6 full strokes to both sides, Gerber."""
-    amplitude = 0.5 * stress_per_angle * (spring_winding - preload_reserve)
-    mean = 0.5 * stress_per_angle * (spring_winding + preload_reserve)
+    least = np.fmax(preload_reserve, 0.0)  # a spring without preload lifts off; it does not unwind further
+    amplitude = 0.5 * stress_per_angle * (spring_winding - least)
+    mean = 0.5 * stress_per_angle * (spring_winding + least)
     endurance = spring.endurance_strength(spring_tensile_strength, spring_fatigue_ratio)
     return spring.gerber_safety(amplitude, mean, endurance, spring_tensile_strength)
 

@@ -9,24 +9,25 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Rule, Scalar
 from tvimdesign.errors import InputError
 from tvimdesign.physics import heat, layer, peltier, polymer
+from tvimdesign.physics.shapes import Section
 
 book = Book("Switch")
 
 book.variable("current", "A", 1.5, 0.05, 20.0, "Current through the Peltier modules, constant during the switch")
 book.condition("ambient_temperature", "degC", 295.15, 233.15, 323.15, "Temperature of the air, and of all at the start")
 book.condition("target_temperature", "degC", 373.15, 303.15, 453.15, "Temperature the thermometer times wait for")
-book.condition("softening_band", "1", 2.0, 1.01, 100.0, "The layer is soft within this factor of its hot modulus")
+book.condition("softening_band", "1", 2.0, 1.01, 100.0, "The joint is soft within this factor of its hot impedance")
 book.option(
     "response_criterion",
     ("far_face", "mean", "near_face", "softening"),
-    "What ends the switch: a face or the mean of the layer at the target temperature, or its impedance",
+    "What ends the switch: a face or the mean of the layer at the target temperature, or the joint's impedance",
 )
 book.condition("cold_side_coefficient", "W/m^2/K", 15.0, 1.0, 1e5, "Convection and radiation from the cold side")
 book.condition("sink_capacity", "J/K", 0.0, 0.0, 1e6, "Heat capacity of a sink on the cold side")
 book.condition("hot_contact", "W/m^2/K", 1e4, 100.0, 1e6, "Contact conductance of Peltier pad and layer")
 book.condition("rotor_contact", "W/m^2/K", 1e4, 100.0, 1e6, "Contact conductance of layer and rotor plate")
 book.condition("rotor_coefficient", "W/m^2/K", 10.0, 1.0, 1e4, "Convection and radiation from the rotor plate")
-book.condition("rotor_cells", "1", 6, 1, 1000, "Cells of the heat model through the rotor plate", integer=True)
+book.condition("rotor_cells", "1", 8, 1, 1000, "Cells of the heat model through the rotor plate", integer=True)
 book.condition("horizon", "s", 3600.0, 1.0, 1e6, "Longest switch that is simulated")
 
 
@@ -71,6 +72,7 @@ def stack(
     peltier_specific_heat: Scalar,
     sink_capacity: Scalar,
     cold_side_coefficient: Scalar,
+    window_section: Section,
     hot_contact: Scalar,
     rotor_contact: Scalar,
     rotor_thickness: Scalar,
@@ -94,7 +96,8 @@ def stack(
         current=current,
         cold_capacity=half + sink_capacity,
         hot_capacity=half,
-        cold_conductance=cold_side_coefficient * pcl_area,
+        # The pads' cold sides meet the air in the windows; the ledges are plastic.
+        cold_conductance=cold_side_coefficient * window_section.area,
         hot_contact=hot_contact,
         plate_contact=rotor_contact,
         plate_thickness=rotor_thickness,
@@ -139,15 +142,30 @@ def mean_temperature(stack_profile: heat.Profile) -> Scalar:
     return sum(stack_profile.cells) / len(stack_profile.cells)
 
 
-@book.output("Pa", instant=True)
-def layer_modulus(stack_profile: heat.Profile, pcl_rheology: polymer.Rheology, frequency_at_hot: Scalar) -> Scalar:
-    """Magnitude of the layer's complex modulus, its slices in series."""
+@book.helper(instant=True)
+def layer_moduli(
+    stack_profile: heat.Profile, pcl_rheology: polymer.Rheology, frequency_at_hot: Scalar
+) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of the layer, its slices in series [Pa]."""
     slices = [
         polymer.moduli(t, x, 2.0 * np.pi * frequency_at_hot, pcl_rheology)
         for t, x in zip(stack_profile.cells, stack_profile.fractions, strict=True)
     ]
-    storage, loss = layer.series_modulus(slices)
-    return np.sqrt(storage**2 + loss**2)
+    return layer.series_modulus(slices)
+
+
+@book.output("N*m/rad", instant=True)
+def impedance_now(
+    layer_moduli: tuple[Scalar, Scalar],
+    layer_polar_moment: Scalar,
+    pcl_thickness: Scalar,
+    structure_stiffness: Scalar,
+    spring_stiffness: Scalar,
+) -> Scalar:
+    """Magnitude of the joint's dynamic stiffness at the hot point's frequency."""
+    storage, loss = (modulus * layer_polar_moment / pcl_thickness for modulus in layer_moduli)
+    real, imaginary = layer.series_stiffness(storage, loss, structure_stiffness)
+    return np.sqrt((spring_stiffness + real) ** 2 + imaginary**2)
 
 
 # --- response times --------------------------------------------------------------------------------------------------
@@ -172,12 +190,9 @@ def far_face_time(stack_profile: heat.Profile, target_temperature: Scalar) -> Sc
 
 
 @book.event
-def softening_time(
-    layer_modulus: Scalar, storage_modulus_at_hot: Scalar, loss_modulus_at_hot: Scalar, softening_band: Scalar
-) -> Scalar:
-    """Time until the layer's modulus is within the softening band of its hot value."""
-    target = 0.5 * np.log(storage_modulus_at_hot**2 + loss_modulus_at_hot**2) + np.log(softening_band)
-    return target - np.log(layer_modulus)
+def softening_time(impedance_now: Scalar, joint_impedance_at_hot: Scalar, softening_band: Scalar) -> Scalar:
+    """Time until the joint's impedance is within the softening band of its hot value."""
+    return np.log(softening_band * joint_impedance_at_hot) - np.log(impedance_now)
 
 
 @book.event
@@ -186,14 +201,13 @@ def response_time(
     stack_profile: heat.Profile,
     mean_temperature: Scalar,
     target_temperature: Scalar,
-    layer_modulus: Scalar,
-    storage_modulus_at_hot: Scalar,
-    loss_modulus_at_hot: Scalar,
+    impedance_now: Scalar,
+    joint_impedance_at_hot: Scalar,
     softening_band: Scalar,
 ) -> Scalar:
     """Time of one switch, by the criterion the study chose."""
     if response_criterion == "softening":
-        return softening_time(layer_modulus, storage_modulus_at_hot, loss_modulus_at_hot, softening_band)
+        return softening_time(impedance_now, joint_impedance_at_hot, softening_band)
     if response_criterion == "mean":
         return mean_time(mean_temperature, target_temperature)
     face = near_face_time if response_criterion == "near_face" else far_face_time
@@ -235,8 +249,8 @@ def peak_peltier_temperature(stack_profile: heat.Profile) -> Scalar:
 
 @book.path("degC", "maximum")
 def peak_rotor_temperature(stack_profile: heat.Profile) -> Scalar:
-    """Highest temperature of the rotor plate during the switch, near its face to the layer."""
-    return stack_profile.plate[0]
+    """Highest temperature of the rotor plate during the switch, at its face to the layer."""
+    return stack_profile.plate_face
 
 
 @book.output(

@@ -63,6 +63,8 @@ class Profile(NamedTuple):
     cells: list[Any]
     far: Any
     """Polymer's face towards the plate."""
+    plate_face: Any
+    """Plate's face towards the polymer."""
     plate: list[Any]
     fractions: list[Any]
     flows: list[Any]
@@ -102,6 +104,7 @@ def profile(state: Sequence[Any], stack: Stack) -> Profile:
         near=cells[0] + inflow * layer_half[0],
         cells=cells,
         far=cells[-1] - across * layer_half[-1],
+        plate_face=plate[0] + across * plate_half,
         plate=plate,
         fractions=fractions,
         flows=[inflow, *inside, across, *within, outflow],

@@ -58,8 +58,8 @@ def bending_stress(torque: Any, wire_diameter: Any, factor: Any) -> Any:
 def tensile_strength(wire_diameter: Any, strength: Sequence[tuple[float, float]]) -> Any:
     """S_ut = A/d^m [Pa], d in mm [S eq. 10-14, table 10-4].
 
-    `strength` holds (A [Pa], m) for each diameter range; the ranges of one material meet where its curves cross, so the
-    least of them is the one that applies.
+    `strength` holds (A [Pa], m) for each diameter range. The least of the curves is taken: they cross close to where
+    the ranges meet (302 stainless at 2.37 and 4.94 mm for 2.5 and 5 mm), so it is at most 0.6 % low.
     """
     diameter_in_mm = wire_diameter / _MILLIMETRE
     curves = [coefficient * diameter_in_mm ** (-exponent) for coefficient, exponent in strength]

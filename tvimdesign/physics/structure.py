@@ -20,6 +20,11 @@ def shaft_stiffness(modulus: Any, radius: Any, length: Any) -> Any:
     return modulus * np.pi * radius**4 / (2.0 * length)
 
 
+def shaft_torque(shear_yield: Any, radius: Any) -> Any:
+    """Torque [N*m] at which a round bar starts to yield at its surface, tau pi r^3/2."""
+    return 0.5 * np.pi * shear_yield * radius**3
+
+
 def ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, outer_radius: Any) -> Any:
     """Flat ring turned in its plane, inner edge against outer edge, 4 pi G h/(1/a^2 - 1/b^2) [N*m/rad]."""
     return 4.0 * np.pi * modulus * thickness / (inner_radius**-2 - outer_radius**-2)

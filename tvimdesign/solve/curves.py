@@ -15,16 +15,16 @@ SAMPLES = 161
 
 
 def switch_history(model: Model, inputs: Array, switch: Switch) -> Curves:
-    """Temperatures [degC] through the stack over one switch, and the layer's modulus [Pa], by column name."""
+    """Temperatures [degC] through the stack over one switch, and the joint's impedance [N*m/rad], by column name."""
     states, times = switch.trajectory.states, switch.trajectory.times
     columns = np.repeat(inputs[:, None], len(times), axis=1)
     temperatures = np.asarray(model.temperatures.map(len(times))(states, columns)) - ZERO_CELSIUS
-    modulus = np.asarray(model.layer_modulus.map(len(times))(states, columns)).ravel()
+    impedance = np.asarray(model.impedance_now.map(len(times))(states, columns)).ravel()
     depth = [f"cell_{i + 1}" for i in range(model.cells)]
     plate = [f"rotor_{i + 1}" for i in range(temperatures.shape[0] - len(depth) - 4)]
     names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate]
     history = dict(zip(names, temperatures.tolist(), strict=True))
-    return {"time": times.tolist(), **history, "layer_modulus": modulus.tolist()}
+    return {"time": times.tolist(), **history, "joint_impedance": impedance.tolist()}
 
 
 def impedance_sweep(model: Model, inputs: Array, switch: Switch) -> Curves:

@@ -39,13 +39,23 @@ class Limit:
 
 def limits_of(study: Study, table: Table) -> list[Limit]:
     """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense."""
-    own = [make_limit(table, r.output, r.sense, r.limit, "require") for r in study.require]
+    own = [
+        make_limit(table, output, r.sense, r.limit, "require")
+        for r in study.require
+        for output in _behind(table, r.output, r.sense)
+    ]
     taken = {(limit.output, limit.sense) for limit in own}
     for row in table.outputs:
         for rule in row.rules:
             if (row.name, rule.sense) not in taken:
                 own.append(make_limit(table, row.name, rule.sense, rule.value, rule.reason))
     return own
+
+
+def _behind(table: Table, name: str, sense: str) -> tuple[str, ...]:
+    """The rows a limit is put on: the named one, or each of those it is the least of."""
+    row = table.output(name)
+    return row.least_of if row.least_of and sense == ">=" else (name,)
 
 
 def on_switch(table: Table, output: str) -> bool:

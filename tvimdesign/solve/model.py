@@ -67,7 +67,7 @@ class Model:
         inputs, _, known = self._symbols
         state = ca.SX.sym("state", heat.FIRST_CELL + self.cells + known["rotor_cells"])
         at_instant = {**known, STATE: [state[i] for i in range(state.numel())]}
-        wanted = ("stack_profile", "state_rates", "layer_modulus", *self.switch_names)
+        wanted = ("stack_profile", "state_rates", "impedance_now", *self.switch_names)
         return {"state": state, "inputs": inputs, **self.table.evaluate_instant(at_instant, wanted)}
 
     @cached_property
@@ -110,10 +110,10 @@ class Model:
         return ca.Function("temperatures", [now["state"], now["inputs"]], [ca.vertcat(*values)])
 
     @cached_property
-    def layer_modulus(self) -> Any:
-        """The function (state, inputs) -> magnitude of the layer's modulus [Pa]."""
+    def impedance_now(self) -> Any:
+        """The function (state, inputs) -> magnitude of the joint's dynamic stiffness [N*m/rad]."""
         now = self._instant
-        return ca.Function("layer_modulus", [now["state"], now["inputs"]], [now["layer_modulus"]])
+        return ca.Function("impedance_now", [now["state"], now["inputs"]], [now["impedance_now"]])
 
     @cached_property
     def initial(self) -> Any:

@@ -78,7 +78,7 @@ class Simulator:
             stretch = self._stretch(begin, inputs, length)
             gaps = self._watch(stretch, inputs)[: len(names)]
             for name, gap in zip(names, gaps, strict=True):
-                if not np.isfinite(found[name]) and gap[-1] >= 0.0:
+                if not np.isfinite(found[name]) and np.any(gap >= 0.0):
                     found[name] = time + self._crossing(stretch, inputs, length, names.index(name), gap)
             times.append(time + length * np.linspace(0.0, 1.0, STEPS + 1)[1:])
             states.append(stretch[:, 1:])
