@@ -13,7 +13,7 @@ from support import ROOT, Command
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.answer import answer
-from tvimdesign.study import read_study_text
+from tvimdesign.study import read_study, read_study_text
 
 README = (ROOT / "README.md").read_text()
 
@@ -25,6 +25,25 @@ def _blocks(language: str) -> list[str]:
 def test_the_first_two_commands_are_the_study_and_the_tests() -> None:
     start = README.index("## Quick start")
     assert re.findall(r"^```sh\n(.*?)^```", README[start:], re.M | re.S)[:2] == ["make study\n", "make test\n"]
+
+
+@pytest.mark.parametrize(("study", "column"), [("paper_as_published", 1), ("paper_shear", 2)])
+def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column: int) -> None:
+    read = read_study(ROOT / f"studies/{study}.yaml")
+    values = answer(read, Catalog(), table_for(read.mode)).design.values
+    cold, hot = values["joint_stiffness@cold"], values["joint_stiffness@hot"]
+    expected = {
+        "envelope": f"{1e3 * values['envelope_diameter']:.0f} mm x {1e3 * values['envelope_height']:.1f} mm",
+        "mass, without screws": f"{1e3 * values['module_mass']:.0f} g",
+        "spring stiffness": f"{values['spring_stiffness']:.2f} N·m/rad",
+        "stiffness cold / hot at 1 Hz": f"{cold:.0f} / {hot:.1f} N·m/rad",
+        "torque held when frozen": f"{values['holding_torque']:.0f} N·m",
+        "far face at 100 °C": f"{values['far_face_time']:.0f} s",
+        "joint soft": f"{values['softening_time']:.0f} s",
+    }
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in README.splitlines() if line.startswith("|")]
+    told = {row[0]: row[column] for row in rows if row[0] in expected}
+    assert told == expected
 
 
 def test_the_study_in_the_readme_has_an_optimum() -> None:

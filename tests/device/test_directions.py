@@ -18,7 +18,7 @@ Change = Callable[[dict[str, Any]], dict[str, Any]]
 GROWS = [
     ("wire_diameter", "spring_stiffness"), ("wire_diameter", "springs_mass"), ("coil_count", "springs_mass"),
     ("preload_angle", "spring_stress"), ("preload_angle", "preload_reserve"), ("stroke", "spring_stress"),
-    ("stroke", "layer_strain"), ("pcl_outer_radius", "pcl_stiffness@cold"), ("arc_span", "layer_holding_torque"), 
+    ("stroke", "layer_strain"), ("pcl_outer_radius", "pcl_stiffness@cold"), ("arc_span", "layer_holding_torque"),
     ("core_radius", "core_holding_torque"),
     ("arc_span", "pcl_damping@hot"), ("core_radius", "structure_stiffness"), ("rotor_thickness", "structure_stiffness"),
     ("frequency@hot", "storage_modulus@hot"), ("placement_radius", "envelope_diameter"),

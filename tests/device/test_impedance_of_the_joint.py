@@ -27,8 +27,9 @@ def joint(inputs: dict[str, Any]) -> dict[str, Any]:
                      "joint_damping", "natural_frequency", "damping_ratio", "loss_factor")
         for point in ("cold", "hot")
     ]  # fmt: skip
-    plain = ["structure_stiffness", "spring_stiffness", "impedance_range", "damping_range", "holding_torque", "layer_holding_torque",
-             "core_holding_torque",
+    plain = ["structure_stiffness", "spring_stiffness", "impedance_range", "damping_range", "holding_torque",
+             "layer_holding_torque", "core_holding_torque",
+
              "layer_strain", "layer_strain_safety", "link_bottom_level", "rotor_top_level",
              "housing_inner_radius"]  # fmt: skip
     return {**given, **TABLE.evaluate(given, [*algebraic, *plain])}
