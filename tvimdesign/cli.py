@@ -11,6 +11,9 @@ import typer
 
 from tvimdesign.errors import InputError, TvimError
 
+INTERRUPTED = 130
+_STOPPED = "interrupted; what was finished is kept\n"
+
 app = typer.Typer(
     add_completion=False,
     no_args_is_help=True,
@@ -22,7 +25,7 @@ app = typer.Typer(
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (YAML).")]
 Out = Annotated[
-    Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study> unless given.")
+    Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study's file> unless given.")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the results of an earlier run in that folder.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print results as JSON.")]
@@ -94,7 +97,7 @@ def cad(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Make the parts of a design: STEP, STL, GLB, preview, and the checks on the solids."""
+    """Make the parts of a design: STEP, STL, GLB, preview, checks; in a folder beside the run's, ending in -cad."""
     from tvimdesign.report.run import make_parts
 
     make_parts(design, out or _default_folder(design), overwrite=overwrite, as_json=json)
@@ -121,8 +124,11 @@ def rows(
 
 
 def _default_folder(source: Path) -> Path:
-    """results/<study>, or cad beside a run's design.json."""
-    return source.parent / "cad" if source.suffix == ".json" else Path("results") / source.stem
+    """results/<study>; for a run's design.json the run's folder with -cad after its name."""
+    if source.suffix != ".json":
+        return Path("results") / source.stem
+    run = source.resolve().parent
+    return run.with_name(f"{run.name}-cad")
 
 
 def main() -> None:
@@ -134,13 +140,17 @@ def _guarded(command: Callable[[], Any]) -> int:
     usage_error = typer.BadParameter.__mro__[2]  # the base of every usage error, whose home moves between versions
     try:
         code = command()
+        if code == INTERRUPTED:
+            sys.stderr.write(_STOPPED)
         return code if isinstance(code, int) else 0
     except TvimError as error:
         sys.stderr.write(f"{error}\n")
+        if "--json" in sys.argv and error.exit_code == InputError.exit_code:
+            _print_error(error)
         return error.exit_code
     except (KeyboardInterrupt, typer.Abort):
-        sys.stderr.write("interrupted; what was finished is kept\n")
-        return 130
+        sys.stderr.write(_STOPPED)
+        return INTERRUPTED
     except BrokenPipeError:
         sys.stderr.close()
         return 0
@@ -149,3 +159,12 @@ def _guarded(command: Callable[[], Any]) -> int:
             raise
         error.show()  # type: ignore[attr-defined]  # every usage error has it
         return 2
+
+
+def _print_error(error: TvimError) -> None:
+    """The error as JSON on standard output: the message, and each problem of a study with its place."""
+    import json
+    from dataclasses import asdict
+
+    problems = [asdict(problem) for problem in getattr(error, "problems", ())]
+    typer.echo(json.dumps({"error": str(error), "problems": problems}, indent=2))

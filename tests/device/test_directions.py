@@ -68,7 +68,6 @@ def base(inputs: dict[str, Any]) -> dict[str, Any]:
             ("pcl_thickness", 0.7e-3, 1.0),  # more to melt, and a longer way
             ("rotor_thickness", 2.5e-3, 1.0),  # more to warm
             ("hot_contact", 2e3, -1.0),
-            ("cold_side_coefficient", 10.0, -1.0),  # a cold side that cools less hinders the pump
             ("ambient_temperature", 283.15, -1.0),
             ("pcl_latent_heat", 60e3, 1.0),
             ("target_temperature", 365.0, 1.0),

@@ -19,7 +19,7 @@ def test_its_commented_lines_are_good_too() -> None:
     for name in re.findall(r"^  # (\w+): ", text, re.MULTILINE):
         text = re.sub(rf"^  {name}: .*\n", "", text, flags=re.MULTILINE)
     study = read_study_text(re.sub(r"^  # (\w+: )", r"  \1", text, flags=re.MULTILINE), "template.yaml")
-    assert {"wire_diameter", "peltier_module"} <= set(study.vary)
+    assert {"wire_diameter", "pcl_grade"} <= set(study.vary)
 
 
 def test_it_shows_every_section_but_the_users_catalogue() -> None:

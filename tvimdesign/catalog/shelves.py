@@ -91,6 +91,7 @@ SHELVES: Mapping[str, Shelf] = {
             "mass": "g",
             "specific_heat": "J/kg/K",
             "max_current": "A",
+            "shear_modulus": "MPa",
             "max_temperature": "degC",
         },
         words={"form": ("flexible", "rigid")},

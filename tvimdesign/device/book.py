@@ -57,9 +57,12 @@ class Book:
         row = Input(name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record)
         self.rows.append(row)
 
-    def record(self, name: str, shelf: str, default: str, description: str) -> None:
-        """Add the choice of a catalogue record."""
-        self.rows.append(Choice(name=name, description=description, group=self.group, default=default, shelf=shelf))
+    def record(
+        self, name: str, shelf: str, default: str, description: str, only: tuple[str, str, str] | None = None
+    ) -> None:
+        """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit."""
+        row = Choice(name=name, description=description, group=self.group, default=default, shelf=shelf, only=only)
+        self.rows.append(row)
 
     def option(self, name: str, options: tuple[str, ...], description: str) -> None:
         """Add a choice among words; the first is the default."""

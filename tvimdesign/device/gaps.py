@@ -12,8 +12,8 @@ from tvimdesign.physics.transmission import leg_direction, pin_distance
 book = Book("Gaps")
 
 
-def _at_least(value: float, reason: str) -> Rule:
-    return Rule(sense=">=", value=value, reason=reason)
+def _at_least(value: float, reason: str, exists_above: float | None = None) -> Rule:
+    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above)
 
 
 @book.output("mm", _at_least(0.0, "the springs must clear the rotor plate"))
@@ -86,7 +86,7 @@ def tang_reserve(
     return tang_clearance - coil_diameter * turned / (4.0 * np.pi * coil_count)
 
 
-@book.output("mm", _at_least(1.0 * MM, "the leg must reach its pin"))
+@book.output("mm", _at_least(1.0 * MM, "the leg must reach its pin", 0.0))
 def leg_reach_gap(placement_radius: Scalar, pin_radius: Scalar, leg_offset: Scalar) -> Scalar:
     """Distance of pin and spring axis beyond the offset of the leg."""
     return placement_radius - pin_radius - leg_offset
@@ -98,25 +98,25 @@ def hub_arc_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: 
     return pcl_inner_radius - hub_radius - radial_clearance
 
 
-@book.output("mm", _at_least(3.0 * MM, "the floor needs a web between two Peltier pads"))
+@book.output("mm", _at_least(3.0 * MM, "the floor needs a web between two Peltier pads", 0.0))
 def arc_gap(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar) -> Scalar:
     """Web between neighbouring PCL arcs at their inner radius."""
     return (2.0 * np.pi / arc_count - arc_span) * pcl_inner_radius
 
 
-@book.output("mm", _at_least(5.0 * MM, "the Peltier pad needs its ledges and a window for its cold side"))
+@book.output("mm", _at_least(5.0 * MM, "the Peltier pad needs its ledges and a window for its cold side", 0.0))
 def arc_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
     """Radial width of the PCL arcs."""
     return pcl_outer_radius - pcl_inner_radius
 
 
-@book.output("mm", _at_least(1.2 * MM, "the floor below a Peltier pad must carry it"))
+@book.output("mm", _at_least(1.2 * MM, "the floor below a Peltier pad must carry it", 0.0))
 def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
     """Thickness of the floor below the Peltier pads."""
     return floor_thickness - peltier_thickness
 
 
-@book.output("mm", _at_least(1.0 * MM, "a thinner spring post would break"))
+@book.output("mm", _at_least(1.0 * MM, "a thinner spring post would break", 0.0))
 def post_thickness(post_radius: Scalar) -> Scalar:
     """Radius of the spring posts, held against the least that can be made."""
     return post_radius
@@ -136,7 +136,7 @@ def retainer_gap(foot_height: Scalar, retainer_thickness: Scalar, running_cleara
     return foot_height - retainer_thickness - running_clearance - 2.5 * MM
 
 
-@book.output("mm", _at_least(2.0 * MM, "the window below a Peltier pad must have a width"))
+@book.output("mm", _at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))
 def window_width(arc_span: Scalar, pcl_inner_radius: Scalar, window_ledge: Scalar) -> Scalar:
     """Width of the windows below the Peltier pads at their inner radius."""
     return arc_span * pcl_inner_radius - 2.0 * window_ledge

@@ -123,8 +123,11 @@ def structure_stiffness(
     pcl_outer_radius: Scalar,
     placement_radius: Scalar,
     floor_web: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    layer_polar_moment: Scalar,
 ) -> Scalar:
-    """Stiffness of what stands in series with the layer: core, rotor plate, and floor up to its mounting feet."""
+    """Stiffness in series with the layer: core, rotor plate, Peltier pads, and floor up to its mounting feet."""
     modulus = structure.shear_modulus(structure_youngs_modulus, structure_poissons_ratio)
     middle = 0.5 * (pcl_inner_radius + pcl_outer_radius)
     return structure.series(
@@ -132,6 +135,7 @@ def structure_stiffness(
         structure.ring_stiffness(modulus, rotor_thickness, core_radius, middle),
         # The floor is weakest where pockets and windows thin it; its web counts.
         structure.ring_stiffness(modulus, floor_web, middle, placement_radius),
+        peltier_shear_modulus * layer_polar_moment / peltier_thickness,
     )
 
 
@@ -224,10 +228,19 @@ def core_holding_torque(structure_layer_strength: Scalar, core_radius: Scalar) -
     return structure.shaft_torque(structure_layer_strength / np.sqrt(3.0), core_radius)
 
 
-@book.output("N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque"))
-def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar) -> Scalar:
-    """Torque the frozen joint holds: the lesser of what the layer and the core bear."""
-    return np.fmin(layer_holding_torque, core_holding_torque)
+@book.output("N*m")
+def link_holding_torque(
+    structure_strength: Scalar, link_screw_pilot: Scalar, link_thickness: Scalar, link_bolt_circle_radius: Scalar
+) -> Scalar:
+    """Torque at which the four screws of the output link start to press into it, friction not counted."""
+    bearing = structure_strength * link_screw_pilot * link_thickness
+    return 4.0 * bearing * link_bolt_circle_radius
+
+
+@book.output("N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque"))
+def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
+    """Torque the frozen joint holds: the least of what the layer, the core and the link's screws bear."""
+    return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
 
 
 @book.output(

@@ -9,7 +9,13 @@ book = Book("Materials")
 book.record("spring_material", "spring_materials", "music_wire", "Spring steel of the torsion springs")
 book.record("structure_material", "structure_materials", "petg", "Material of housing, rotor, link and retainer")
 book.record("pcl_grade", "polymers", "pcl_80k", "Grade of polycaprolactone in the layer")
-book.record("peltier_module", "peltiers", "flexible_1600", "Peltier module under the layer")
+book.record(
+    "peltier_module",
+    "peltiers",
+    "flexible_1600",
+    "Peltier module under the layer",
+    only=("form", "flexible", "the pads have the outline of the PCL arcs, which a rigid module cannot be cut to"),
+)
 
 for name, unit, field, description in (
     ("spring_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the spring wire"),
@@ -25,6 +31,7 @@ for name, unit, field, description in (
     ("structure_density", "kg/m^3", "density", "Density of the structure"),
     ("structure_conductivity", "W/m/K", "thermal_conductivity", "Thermal conductivity of the structure"),
     ("structure_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the structure"),
+    ("structure_strength", "MPa", "yield_strength", "Yield strength of the structure"),
     ("structure_layer_strength", "MPa", "yield_strength_across_layers", "Yield strength across the layers of a print"),
     ("structure_service_temperature", "degC", "service_temperature", "Highest continuous temperature of the structure"),
 ):
@@ -58,6 +65,7 @@ for name, unit, field, description in (
     ("peltier_seebeck", "V/K", "seebeck", "Seebeck coefficient of one Peltier module"),
     ("peltier_resistance", "ohm", "resistance", "Electrical resistance of one Peltier module"),
     ("peltier_conductance", "W/K", "conductance", "Thermal conductance of one Peltier module"),
+    ("peltier_shear_modulus", "MPa", "shear_modulus", "Shear modulus of the Peltier module as a sheet"),
     ("peltier_thickness", "mm", "thickness", "Thickness of the Peltier module"),
     ("peltier_area", "mm^2", "area", "Area of one Peltier module"),
     ("peltier_unit_mass", "g", "mass", "Mass of one Peltier module"),

@@ -32,6 +32,8 @@ class Rule:
     sense: Literal["<=", ">="]
     value: float
     reason: str
+    exists_above: float | None = None
+    """The value at and below which there is no such geometry, and the equations mean nothing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +64,8 @@ class Choice:
     default: str
     shelf: str | None = None
     options: tuple[str, ...] = ()
+    only: tuple[str, str, str] | None = None
+    """(word, value, reason): a record fits only if its word has that value."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,8 @@
-"""The torsion springs in the module: their rate, what they are to the output, and what they bear."""
+"""The torsion springs in the module: their rate, what they are to the output, and what they bear.
+
+Each function is a row of the table; its parameters are the rows it needs (see device/rows.py). Kinematics are those of
+a right-hand spring, which winds up when the rotor turns in its negative sense; the other hand is its mirror image.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +44,7 @@ def spring_rate(
     return spring.rate(spring_youngs_modulus, wire_diameter, coil_diameter, active_coils, rate_model)
 
 
-@book.output("1", Rule(sense=">=", value=4.0, reason="cold coiling, EN 13906-3"),
+@book.output("1", Rule(sense=">=", value=4.0, reason="cold coiling, EN 13906-3", exists_above=1.2),
              Rule(sense="<=", value=20.0, reason="cold coiling, EN 13906-3"))  # fmt: skip
 def spring_index(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
     """Coil diameter over wire diameter, C."""
@@ -76,6 +80,57 @@ def spring_stiffness(
 ) -> Scalar:
     """Stiffness of all springs about the axis at rest, K_s."""
     return output_stiffness(spring_count, spring_rate, preload_angle, transmission_ratio, transmission_curvature)
+
+
+@book.helper()
+def full_stroke(
+    stroke: Scalar,
+    preload_angle: Scalar,
+    pin_radius: Scalar,
+    placement_radius: Scalar,
+    leg_offset: Scalar,
+    transmission: str,
+) -> tuple[Scalar, Scalar]:
+    """Torque and tangent stiffness at full stroke of one spring of either hand, over the rate: [rad] and [1].
+
+    T = (a + w) w', dT/dtheta = w'^2 + (a + w) w'' for each spring, the other hand at the opposite angle.
+    """
+    if transmission == "unity":
+        return 2.0 * stroke, 2.0
+    at_rest = leg_direction(pin_radius, placement_radius, 0.0, leg_offset)
+    torque: Scalar = 0.0
+    stiffness: Scalar = 0.0
+    for sign in (-1.0, 1.0):
+        where = (pin_radius, placement_radius, sign * stroke, leg_offset)
+        wound = preload_angle + leg_direction(*where) - at_rest
+        torque = torque - sign * wound * -leg_ratio(*where)
+        stiffness = stiffness + leg_ratio(*where) ** 2 + wound * leg_curvature(*where)
+    return torque, stiffness
+
+
+@book.output("N*m")
+def spring_torque_full_stroke(spring_pairs: Scalar, spring_rate: Scalar, full_stroke: tuple[Scalar, Scalar]) -> Scalar:
+    """Torque of all springs about the axis at full stroke."""
+    return spring_pairs * spring_rate * full_stroke[0]
+
+
+@book.output("N*m/rad")
+def spring_stiffness_full_stroke(
+    spring_pairs: Scalar, spring_rate: Scalar, full_stroke: tuple[Scalar, Scalar]
+) -> Scalar:
+    """Stiffness of all springs about the axis at full stroke, the slope of torque over angle."""
+    return spring_pairs * spring_rate * full_stroke[1]
+
+
+_BENT = "the springs' stiffness changes by more than a tenth over the stroke"
+
+
+@book.output(
+    "1", advice=(Rule(sense=">=", value=0.9, reason=_BENT), Rule(sense="<=", value=1.1, reason=_BENT)), headline=True
+)
+def stiffness_over_stroke(spring_stiffness_full_stroke: Scalar, spring_stiffness: Scalar) -> Scalar:
+    """Stiffness of the springs at full stroke over that at rest."""
+    return spring_stiffness_full_stroke / spring_stiffness
 
 
 @book.output("rad")
@@ -191,7 +246,35 @@ def free_angle_tolerance(coil_count: Scalar, spring_index: Scalar) -> Scalar:
     return spring.free_angle_tolerance(coil_count, spring_index, 1.0)
 
 
+_SPREAD = "springs as bought spread more than the preload that is left: make it adjustable"
+
+
+@book.output("1", advice=(Rule(sense="<=", value=1.0, reason=_SPREAD),))
+def free_angle_over_preload(free_angle_tolerance: Scalar, preload_reserve: Scalar) -> Scalar:
+    """Free-angle tolerance of a spring over the preload that is left at full stroke."""
+    return free_angle_tolerance / np.fmax(preload_reserve, 1e-3)
+
+
 @book.output("1")
 def free_angle_over_stroke(free_angle_tolerance: Scalar, stroke: Scalar) -> Scalar:
     """Free-angle tolerance as a multiple of the stroke; above about one the preload must be adjustable."""
     return free_angle_tolerance / np.abs(stroke)
+
+
+@book.output(
+    "1", Rule(sense=">=", value=1.0, reason="the rotor's pins would break off between two layers of the print")
+)
+def pin_safety(
+    spring_rate: Scalar,
+    spring_winding: Scalar,
+    leg_arm: Scalar,
+    coil_end_level: Scalar,
+    helix_slope: Scalar,
+    rotor_top_level: Scalar,
+    pin_diameter: Scalar,
+    structure_layer_strength: Scalar,
+) -> Scalar:
+    """Bending strength of the rotor's pins over the stress under the leg at full winding."""
+    force = spring_rate * spring_winding / leg_arm
+    height = coil_end_level + helix_slope * leg_arm - rotor_top_level
+    return structure_layer_strength / spring.bending_stress(force * height, pin_diameter, 1.0)

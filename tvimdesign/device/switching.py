@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.catalog import Record
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Rule, Scalar
-from tvimdesign.errors import InputError
 from tvimdesign.physics import heat, layer, peltier, polymer
 from tvimdesign.physics.shapes import Section
 
@@ -32,13 +30,8 @@ book.condition("horizon", "s", 3600.0, 1.0, 1e6, "Longest switch that is simulat
 
 
 @book.output("1")
-def peltier_scale(pcl_area: Scalar, peltier_area: Scalar, peltier_module: Record) -> Scalar:
+def peltier_scale(pcl_area: Scalar, peltier_area: Scalar) -> Scalar:
     """Area of the pads over the area of the catalogue module they are cut from."""
-    if peltier_module.word("form") != "flexible":
-        raise InputError(
-            f"peltier_module: {peltier_module.name} is a rigid module; the pads of the shear module have the outline "
-            f"of the PCL arcs and need a flexible one, such as flexible_1600"
-        )
     return pcl_area / peltier_area
 
 
@@ -56,6 +49,56 @@ def pads(
 def current_reserve(peltier_max_current: Scalar, current: Scalar) -> Scalar:
     """Rated current of the Peltier module less the current of the switch."""
     return peltier_max_current - current
+
+
+@book.helper()
+def plate_beside_arcs(
+    rotor_radius: Scalar,
+    pcl_area: Scalar,
+    arc_count: Scalar,
+    arc_span: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+    structure_density: Scalar,
+    structure_specific_heat: Scalar,
+    rotor_coefficient: Scalar,
+) -> heat.Lump:
+    """Rotor plate beside the arcs.
+
+    A strip heated at its edge: its mean temperature is a third of its width away (Incropera, Fundamentals of Heat and
+    Mass Transfer, ch. 5, quasi-steady).
+    """
+    area = np.pi * rotor_radius**2 - pcl_area
+    edge = arc_count * (2.0 * (pcl_outer_radius - pcl_inner_radius) + arc_span * (pcl_inner_radius + pcl_outer_radius))
+    return heat.Lump(
+        conductance=3.0 * structure_conductivity * rotor_thickness * edge**2 / area,
+        capacity=area * rotor_thickness * structure_density * structure_specific_heat,
+        loss=rotor_coefficient * area,
+    )
+
+
+@book.helper()
+def core_and_link(
+    core_radius: Scalar,
+    pcl_inner_radius: Scalar,
+    rotor_thickness: Scalar,
+    rotor_radius: Scalar,
+    rotor_mass: Scalar,
+    link_mass: Scalar,
+    retainer_mass: Scalar,
+    structure_density: Scalar,
+    structure_specific_heat: Scalar,
+    structure_conductivity: Scalar,
+) -> heat.Lump:
+    """Core, link and retainer, which the plate heats through its inner ring: 2 pi k h/ln(r_i/r_c)."""
+    plate_mass = np.pi * rotor_radius**2 * rotor_thickness * structure_density
+    return heat.Lump(
+        conductance=2.0 * np.pi * structure_conductivity * rotor_thickness / np.log(pcl_inner_radius / core_radius),
+        capacity=(rotor_mass - plate_mass + link_mass + retainer_mass) * structure_specific_heat,
+        loss=0.0,
+    )
 
 
 @book.helper()
@@ -82,6 +125,8 @@ def stack(
     rotor_coefficient: Scalar,
     ambient_temperature: Scalar,
     rotor_cells: float,
+    plate_beside_arcs: heat.Lump,
+    core_and_link: heat.Lump,
 ) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
     half = 0.5 * peltier_mass * peltier_specific_heat
@@ -106,6 +151,7 @@ def stack(
         plate_coefficient=rotor_coefficient,
         ambient=ambient_temperature,
         plate_cells=int(rotor_cells),
+        beside=(plate_beside_arcs, core_and_link),
     )
 
 
@@ -212,6 +258,12 @@ def response_time(
         return mean_time(mean_temperature, target_temperature)
     face = near_face_time if response_criterion == "near_face" else far_face_time
     return face(stack_profile, target_temperature)
+
+
+@book.output("s", advice=(Rule(sense=">=", value=0.0, reason="the joint is not yet soft when the switch ends"),))
+def softening_reserve(response_time: Scalar, softening_time: Scalar) -> Scalar:
+    """Time from the joint being soft to the end of the switch."""
+    return response_time - softening_time
 
 
 # --- over the switch -------------------------------------------------------------------------------------------------

@@ -105,6 +105,12 @@ def mass(data: dict[str, Any]) -> Figure:
     return figure
 
 
+def _colour(margin: float, kept: bool) -> str:
+    if not kept:
+        return "tab:red"
+    return "tab:green" if margin > 5e-4 else "tab:orange"
+
+
 def bounds(data: dict[str, Any]) -> Figure:
     """The design between its bounds, and the margin of every limit."""
     free, limits = data["free"], data["limits"]
@@ -121,11 +127,11 @@ def bounds(data: dict[str, Any]) -> Figure:
         where.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2)
     where.set_xlim(-0.05, 1.35)
     shown = [max(min(row["margin"], 1.0), -1.0) for row in reversed(limits)]
-    colours = ["tab:red" if not row["kept"] else "tab:green" if row["margin"] > 1e-3 else "tab:orange"
-               for row in reversed(limits)]  # fmt: skip
-    margins.barh(range(len(limits)), [value if abs(value) > 0.01 else 0.01 for value in shown], color=colours)
-    margins.set(yticks=range(len(limits)), yticklabels=[row["name"] for row in reversed(limits)], xlim=(-1.05, 1.05))
-    margins.set(xlabel="margin as a share of the limit (cut at one)", title="What must hold (orange: at its limit)")
+    colours = [_colour(row["margin"], row["kept"]) for row in reversed(limits)]
+    bars = margins.barh(range(len(limits)), [v if abs(v) > 0.01 else 0.01 for v in shown], color=colours)
+    margins.bar_label(bars, [row["text"] for row in reversed(limits)], fontsize=7, padding=2)
+    margins.set(yticks=range(len(limits)), yticklabels=[row["name"] for row in reversed(limits)], xlim=(-1.3, 1.4))
+    margins.set(xticks=[0.0], xticklabels=["limit"], title="What must hold (orange: at its limit; bars cut at 100 %)")
     margins.tick_params(axis="y", labelsize=7)
     for axes in (where, margins):
         axes.grid(axis="y", visible=False)

@@ -95,7 +95,9 @@ class ResultsFolder:
         """Write one JSON file, whole; infinities are not JSON and raise ValueError."""
         return self.write(name, json.dumps(data, indent=2, allow_nan=False) + "\n")
 
-    def finish(self, status: str, inputs: dict[str, Path], study: dict[str, Any]) -> None:
+    def finish(
+        self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float] | None = None
+    ) -> None:
         """Write the manifest: versions, commit, seed, hashes of what went in and of what came out."""
         self._finished = True
         files = sorted(p for p in self.path.rglob("*") if p.is_file() and p.name != MANIFEST)
@@ -110,6 +112,7 @@ class ResultsFolder:
                 "libraries": {name: _version(name) for name in _LIBRARIES},
                 "started": self._started.isoformat(timespec="seconds"),
                 "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
+                "timing": timing or {},
                 "seed": study.get("solver", {}).get("seed"),
                 "inputs": {name: _hash(path) for name, path in inputs.items()},
                 "files": {p.relative_to(self.path).as_posix(): _hash(p) for p in files},

@@ -115,7 +115,7 @@ def _response() -> str:
     return (
         f"at 1.5 A with a flexible Peltier (assumed) and {thickness * 1e3:g} mm of PCL: far face "
         f"{now['far_face_time']:.0f} s, near face {now['near_face_time']:.0f} s, impedance soft after "
-        f"{now['softening_time']:.0f} s, since a plastic rotor takes as much heat as the layer; with a rotor that "
+        f"{now['softening_time']:.0f} s, since a plastic rotor takes more heat than the layer; with a rotor that "
         f"takes none, far face {insulated['far_face_time']:.0f} s, and {stated:g} s at {reached * 1e3:.2f} mm"
     )
 

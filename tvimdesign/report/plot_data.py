@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from tvimdesign.device import Output, Table
+from tvimdesign.report.tables import margin_text
 from tvimdesign.solve.answer import Answer
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si, pretty
@@ -33,7 +34,7 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
             "springs": shown("spring_stiffness"),
         },
         "mass": {"parts": _parts(design, table)},
-        "bounds": {"free": _free(answer, table), "limits": _limits(answer)},
+        "bounds": {"free": _free(answer, table), "limits": _limits(answer, table)},
     }
 
 
@@ -58,8 +59,14 @@ def _free(answer: Answer, table: Table) -> list[dict[str, Any]]:
     return rows
 
 
-def _limits(answer: Answer) -> list[dict[str, Any]]:
+def _limits(answer: Answer, table: Table) -> list[dict[str, Any]]:
+    """Every limit, and the advice the design does not follow."""
     return [
-        {"name": check.text, "margin": check.margin if math.isfinite(check.margin) else -1.0, "kept": check.kept}
-        for check in answer.checks
+        {
+            "name": check.text if check in answer.checks else f"advice: {check.text}",
+            "margin": check.margin if math.isfinite(check.margin) else -1.0,
+            "kept": check.kept,
+            "text": margin_text(check, table),
+        }
+        for check in (*answer.checks, *answer.warnings)
     ]

@@ -8,6 +8,7 @@ from typing import Any
 
 from rich.table import Table as Grid
 
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, table_for
 from tvimdesign.device.rows import Row
 from tvimdesign.errors import InputError
@@ -48,7 +49,7 @@ def _internal(row: Row) -> bool:
 
 def _plain(row: Row) -> dict[str, Any]:
     if isinstance(row, Choice):
-        allowed = ", ".join(row.options) if row.options else f"a record of {row.shelf}"
+        allowed = ", ".join(row.options or Catalog().names(str(row.shelf)))
         return _entry(row, "choice", "", row.default, allowed)
     name = f"{row.name}@point" if row.per_point else row.name
     if isinstance(row, Input):

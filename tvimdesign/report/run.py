@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Table, table_for
-from tvimdesign.errors import GeometryError, TvimError
+from tvimdesign.errors import GeometryError, InfeasibleError, TvimError
 from tvimdesign.report.folder import ResultsFolder
 from tvimdesign.report.talk import Progress, talk, wide_console
 from tvimdesign.study import Study, read_study
@@ -30,12 +30,11 @@ def describe(study: Study) -> str:
 
 
 def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool) -> None:
-    """Answer a study and write its folder. Raises InputError, InfeasibleError, and GeometryError for parts."""
+    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.plot_data import plot_data
     from tvimdesign.report.plots import PlotProcess
-    from tvimdesign.report.summary import print_summary
+    from tvimdesign.report.summary import complaint, print_summary
     from tvimdesign.report.tables import results
-    from tvimdesign.solve.answer import verdict
 
     study = read_study(path)
     table, catalog = table_for(study.mode), catalog_of(study, path)
@@ -46,24 +45,27 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         found = _answer(study, catalog, table, progress)
         told = results(found, table)
-        design = _write(folder, path, study, found, told)
+        design = _write(folder, path, study, found, told, table)
         progress("")
-        if as_json:
-            print(json.dumps(told, indent=2, allow_nan=False))
-        else:
+        if not as_json:
             print_summary(found, table, wide_console())
-        if drawing:
+        if drawing and found.found:
             progress("drawing the plots")
             with _noting(troubles):
                 drawing.draw(folder.path / "plots", plot_data(found, table))
-        if cad and study.write.cad and _to_be_made(found):
+        if cad and study.write.cad and found.found:
             with _noting(troubles):
-                _parts(design, folder.path / "cad", progress)
+                told["cad"] = _parts(design, folder.path / "cad", progress)
         inputs = {"study": path, **_records(found.design, catalog, table)}
-        folder.finish(found.design.status, inputs, found.design.study)
-    if not as_json:
+        timing = found.solution.seconds if found.solution else {}
+        folder.finish(found.design.status, inputs, found.design.study, timing)
+    if as_json:
+        told |= {"folder": str(folder.path), "not_done": [str(trouble) for trouble in troubles]}
+        print(json.dumps(told, indent=2, allow_nan=False))
+    else:
         wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
-    verdict(found)
+    if not found.found:
+        raise InfeasibleError(complaint(found, table))
     if troubles:
         raise _partly(troubles)
 
@@ -74,12 +76,7 @@ def _answer(study: Study, catalog: Catalog, table: Table, progress: Progress) ->
     return answer(study, catalog, table, progress)
 
 
-def _to_be_made(found: Answer) -> bool:
-    """Whether a design is worth its parts: evaluated, or optimal."""
-    return found.solution is None or found.design.status == "optimal"
-
-
-def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any]) -> Path:
+def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
     from tvimdesign.report.tables import curves_csv, results_csv
 
@@ -87,8 +84,10 @@ def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told:
     folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
     folder.write_json("results.json", told)
     folder.write("results.csv", results_csv(told["values"]))
-    folder.write("temperatures.csv", curves_csv(found.history))
-    folder.write("impedance.csv", curves_csv(found.sweep))
+    units = {"time": "s", "joint_impedance": "N*m/rad"}
+    folder.write("temperatures.csv", curves_csv(found.history, units, "degC"))
+    units = {name: table.unit(name) for name in found.sweep}
+    folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     return folder.write("design.json", found.design.model_dump_json(indent=2) + "\n")
 
 
@@ -122,8 +121,13 @@ def _parts(design: Path, out: Path, progress: Progress) -> dict[str, Any]:
     told = {"checks": [asdict(check) for check in report.checks], "files": report.files, "notes": report.notes}
     write_whole(out / "checks.json", (json.dumps(told, indent=2) + "\n").encode())
     if report.failed:
-        failed = "; ".join(f"{check.text}: {check.value:.4g}, limit {check.limit:.4g}" for check in report.failed)
-        raise GeometryError(f"the parts are written, but do not pass: {failed}; see {out / 'checks.json'}")
+        worst = sorted(report.failed, key=lambda check: -abs(check.value))[:3]
+        lines = [f"  {check.text}: {check.value:.4g}, limit {check.limit:.4g}" for check in worst]
+        raise GeometryError(
+            f"the parts are written, but {len(report.failed)} of {len(report.checks)} checks fail, the worst:\n"
+            + "\n".join(lines)
+            + f"\nSee {out / 'checks.json'}, and which rules the design breaks."
+        )
     return told
 
 

@@ -9,12 +9,13 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from tvimdesign.device import Table
-from tvimdesign.report.tables import headline_rows, number, point_rows, variable_rows
+from tvimdesign.report.tables import NOTHING, headline_rows, margin_text, number, point_rows, variable_rows
 from tvimdesign.solve.answer import Answer, Check
-from tvimdesign.units import from_si, pretty
+from tvimdesign.units import format_quantity, from_si, pretty
 
 _PRICE_SHOWN = 1e-3
-_NOTHING = 1e-5  # of any unit a limit is written in
+_SIZES_SHOWN = 12
+_ROUND = 1e-5  # of any unit a limit is written in
 
 
 def print_summary(answer: Answer, table: Table, console: Console) -> None:
@@ -22,12 +23,12 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     design = answer.design
     console.print(f"[bold]{escape(design.name)}[/bold]  ({design.mode} mode)")
     console.print(_verdict(answer))
-    variables = variable_rows(answer, table)
-    if variables:
-        grid = _grid("What was varied", ("variable", "start", "design", "unit", "allowed"), right=(1, 2))
-        for row in variables:
-            grid.add_row(*row)
-        console.print(grid)
+    if not answer.found:
+        _print_variables(answer, table, console, "Where the solver ended; this is not a design")
+        return
+    _print_warnings(answer, table, console)
+    _print_variables(answer, table, console, "What was varied")
+    _print_sizes(answer, table, console)
     _print_points(answer, table, console)
     grid = _grid("What the module is", ("", "value", "unit", "meaning"), right=(1,))
     group = ""
@@ -39,7 +40,37 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     console.print(grid)
     _print_checks(answer, table, console)
     _print_prices(answer, console)
-    _print_warnings(answer, table, console)
+
+
+def _print_variables(answer: Answer, table: Table, console: Console, title: str) -> None:
+    rows = variable_rows(answer, table)
+    if not rows:
+        return
+    grid = _grid(title, ("variable", "start", "end" if not answer.found else "design", "unit", "allowed"), right=(1, 2))
+    for row in rows:
+        grid.add_row(*row)
+    console.print(grid)
+
+
+def _print_sizes(answer: Answer, table: Table, console: Console) -> None:
+    """What each combination of listed sizes came to, the best first, and what a size in between would save."""
+    solution = answer.solution
+    if solution is None or not solution.size_runs:
+        return
+    runs = sorted(solution.size_runs, key=lambda s: (not s.converged, s.objective))
+    names = [name for name, value in runs[0].choices.items() if isinstance(value, float)]
+    grid = _grid("What the listed sizes come to", (*names, "objective", "against the best"), right=(0, len(names)))
+    for run in runs[:_SIZES_SHOWN]:
+        sizes = [format_quantity(float(run.choices[name]), table.unit(name)) for name in names]
+        more = f"{run.objective / runs[0].objective - 1.0:+.1%}"
+        grid.add_row(*sizes, *((f"{run.objective:.5g}", more) if run.converged else ("no design", "")))
+    console.print(grid)
+    failed = sum(not run.converged for run in runs)
+    between = min((s.objective for s in solution.starts if s.relaxed and s.converged), default=None)
+    said = [f"{len(runs)} tried, {failed} of them keep the limits with no design."]
+    if between is not None:
+        said.append(f"A size between the listed ones would do {1.0 - between / runs[0].objective:.1%} better.")
+    console.print(f"[dim]{' '.join(said)}[/dim]")
 
 
 def _print_points(answer: Answer, table: Table, console: Console) -> None:
@@ -67,29 +98,25 @@ def _grid(title: str, columns: tuple[str, ...], right: tuple[int, ...] = ()) -> 
 
 def _verdict(answer: Answer) -> str:
     broken = sum(not check.kept for check in answer.checks)
+    warned = f", with {len(answer.warnings)} warnings" if answer.warnings else ""
     solution = answer.solution
-    if math.isinf(answer.design.value("response_time")):
-        unreached = "The switch never ends: the current is too weak, or the cold side too warm, for this criterion."
-        return f"[red]{unreached}[/red]"
     if solution is None:
-        return (
-            "[green]Evaluated; every rule and requirement holds.[/green]"
-            if not broken
-            else f"[yellow]Evaluated; {broken} of {len(answer.checks)} rules and requirements do not hold.[/yellow]"
-        )
-    if answer.design.status != "optimal":
-        return f"[red]{answer.design.status}[/red]"
-    converged = [start for start in solution.starts if start.converged]
-    optima = solution.distinct_optima()
-    text = f"[green]Optimal[/green]: {len(converged)} of {len(solution.starts)} runs converged"
-    if len(converged) > 1:
-        text += ", all to the same optimum" if len(optima) == 1 else f", to {len(optima)} different results"
-    return f"{text}; objective {solution.objective:.5g} (the start is {sum_of_weights(answer):.5g})."
-
-
-def sum_of_weights(answer: Answer) -> float:
-    """Objective of the study's start: each minimised output over its own value there, times its weight."""
-    return float(sum(answer.design.study["minimize"].values()))
+        if math.isinf(answer.design.value("response_time")):
+            return "[red]The switch never ends: the current is too weak, or the cold side too warm.[/red]"
+        if broken:
+            return f"[yellow]Evaluated; {broken} of {len(answer.checks)} rules and requirements do not hold.[/yellow]"
+        return f"[green]Evaluated; every rule and requirement holds{warned}.[/green]"
+    if not answer.found:
+        return "[red]No design found that keeps every limit.[/red]"
+    starts = solution.free_starts
+    converged = sum(start.converged for start in starts)
+    optima = len(solution.distinct_optima())
+    agree = "" if converged < 2 else ", all at one optimum" if optima == 1 else f", at {optima} different optima"
+    of_start = sum(answer.design.study["minimize"].values())
+    return (
+        f"[green]Optimal{warned}[/green]: {converged} of {len(starts)} starts converged{agree}; objective "
+        f"{solution.objective:.5g}, against {of_start:.5g} at the study's own start."
+    )
 
 
 def _print_checks(answer: Answer, table: Table, console: Console) -> None:
@@ -97,15 +124,15 @@ def _print_checks(answer: Answer, table: Table, console: Console) -> None:
     grid = _grid("What must hold", ("", "limit", "value", "unit", "margin", "because"), right=(2, 4))
     hidden = 0
     for check in answer.checks:
-        if check.origin != "require" and check.kept and check.margin > _PRICE_SHOWN:
+        if check.origin != "require" and check.kept and check.margin > NOTHING:
             hidden += 1
             continue
         mark = "[red]broken[/red]" if not check.kept else "[yellow]binds[/yellow]" if _binds(check) else "ok"
         unit = table.unit(check.output)
         because = "the study" if check.origin == "require" else check.origin
         value = from_si(check.value, unit)
-        shown = number(0.0 if abs(value) < _NOTHING else value)
-        grid.add_row(mark, check.text, shown, pretty(unit), _share(check.margin), because)
+        shown = number(0.0 if abs(value) < _ROUND else value)
+        grid.add_row(mark, check.text, shown, pretty(unit), margin_text(check, table), because)
     if grid.row_count:
         console.print(grid)
     if hidden:
@@ -113,15 +140,11 @@ def _print_checks(answer: Answer, table: Table, console: Console) -> None:
 
 
 def _binds(check: Check) -> bool:
-    return abs(check.margin) <= _PRICE_SHOWN
-
-
-def _share(margin: float) -> str:
-    return f"{margin + 0.0 if abs(margin) > 5e-4 else 0.0:+.1%}" if abs(margin) < 100 else "ample"
+    return abs(check.margin) <= NOTHING
 
 
 def _print_prices(answer: Answer, console: Console) -> None:
-    if answer.solution is None or answer.design.status != "optimal":
+    if answer.solution is None:
         return
     held = sorted((h for h in answer.solution.held if h.price > _PRICE_SHOWN), key=lambda h: -h.price)
     if not held:
@@ -134,12 +157,25 @@ def _print_prices(answer: Answer, console: Console) -> None:
 
 def _print_warnings(answer: Answer, table: Table, console: Console) -> None:
     for check in answer.warnings:
-        unit = table.unit(check.output)
-        value = f"{number(from_si(check.value, unit))} {pretty(unit)}"
+        value = format_quantity(check.value, table.unit(check.output))
         console.print(f"[yellow]Mind[/yellow] {check.output} is {value}: {check.origin}.")
-    if answer.solution and answer.design.status == "optimal":
-        optima = answer.solution.distinct_optima()
-        for start in optima[1:]:
-            console.print(
-                f"[yellow]Mind[/yellow] run {start.number + 1} ended elsewhere, objective {start.objective:.5g}."
-            )
+    for start in answer.solution.distinct_optima()[1:] if answer.solution else []:
+        where = ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in start.end.items())
+        console.print(f"[yellow]Mind[/yellow] another optimum, objective {start.objective:.5g}: {where}.")
+
+
+def complaint(answer: Answer, table: Table) -> str:
+    """What to say where no design was found: what is broken at the point that came closest, and what stops it there."""
+    broken = sorted((check for check in answer.checks if not check.kept), key=lambda check: check.margin)
+    lines = [f"{answer.design.name}: no design found that keeps every limit ({answer.design.status})."]
+    if broken:
+        lines.append("Where the solver ended, these are broken:")
+        lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-+')}" for check in broken]
+    held = [h.text for h in answer.solution.held if abs(h.residual) <= NOTHING] if answer.solution else []
+    if held:
+        lines.append("These stand in the way there, at their limits:")
+        lines += [f"  {text}" for text in held]
+    if math.isinf(answer.design.value("response_time")):
+        lines.append("The switch does not end there within `horizon`.")
+    lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")
+    return "\n".join(lines)

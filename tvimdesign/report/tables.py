@@ -13,6 +13,9 @@ from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si, pretty
 
+NOTHING = 5e-4
+"""Margin, as a share, below which a limit is said to bind."""
+
 
 def number(value: float, digits: int = 4) -> str:
     """A number for people: `digits` significant figures, no needless zeros, `never` for an infinite time."""
@@ -66,6 +69,18 @@ def variable_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str
     return rows
 
 
+def margin_text(check: Check, table: Table) -> str:
+    """What is left of a limit: in percent, or in the row's unit where the limit has no size of its own."""
+    if math.isnan(check.margin) or math.isinf(check.margin):
+        return "never"
+    margin = check.margin if abs(check.margin) > NOTHING else 0.0
+    if not check.absolute:
+        return f"{margin:+.1%}" if abs(margin) < 100 else "ample"
+    unit = table.unit(check.output)
+    unit = "K" if unit == "degC" else unit
+    return f"{from_si(margin * check.scale, unit):+.3g} {pretty(unit)}".rstrip()
+
+
 def check_row(check: Check, table: Table) -> dict[str, Any]:
     """One check as plain data, in the row's unit."""
     unit = table.unit(check.output)
@@ -73,7 +88,7 @@ def check_row(check: Check, table: Table) -> dict[str, Any]:
         "limit": check.text,
         "value": _finite(from_si(check.value, unit)),
         "unit": pretty(unit),
-        "margin": _finite(check.margin),
+        "margin": margin_text(check, table),
         "kept": check.kept,
         "origin": check.origin,
     }
@@ -132,10 +147,10 @@ def results_csv(entries: Mapping[str, Mapping[str, Any]]) -> str:
     return stream.getvalue()
 
 
-def curves_csv(curves: Mapping[str, list[float]]) -> str:
-    """Columns of equal length as CSV."""
+def curves_csv(curves: Mapping[str, list[float]], units: Mapping[str, str], other: str) -> str:
+    """Columns of equal length as CSV, each headed by name and unit; `other` is the unit of what is not in `units`."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(curves)
+    writer.writerow(f"{name} [{units.get(name, other)}]" for name in curves)
     writer.writerows([f"{value:.8g}" for value in row] for row in zip(*curves.values(), strict=True))
     return stream.getvalue()

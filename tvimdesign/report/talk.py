@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
@@ -15,7 +16,8 @@ WIDTH = 132
 def wide_console() -> Console:
     """Standard output: as wide as the terminal, and wide enough for a table where there is none."""
     console = Console(highlight=False)
-    return console if console.is_terminal else Console(highlight=False, width=WIDTH)
+    wide = not console.is_terminal and "COLUMNS" not in os.environ
+    return Console(highlight=False, width=WIDTH) if wide else console
 
 
 @contextmanager

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
-from tvimdesign.errors import InfeasibleError
 from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.curves import Curves, impedance_sweep, switch_history
 from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch
@@ -30,7 +28,11 @@ class Check:
     output: str
     value: float
     margin: float
-    """Share of the limit that is left; negative where it is broken."""
+    """What is left, as a share of `scale`; negative where it is broken."""
+    scale: float
+    """The limit's size, SI; or what stands for it where the limit is zero or a temperature."""
+    absolute: bool
+    """Whether the margin is to be read in the row's unit, not as a share."""
     kept: bool
     origin: str
     """`require`, or the reason the machine has the limit."""
@@ -50,6 +52,11 @@ class Answer:
     solution: Solution | None
 
     @property
+    def found(self) -> bool:
+        """Whether there is a design: evaluated, or optimal."""
+        return self.solution is None or self.design.status == "optimal"
+
+    @property
     def feasible(self) -> bool:
         """Whether every requirement and rule is kept."""
         return all(check.kept for check in self.checks)
@@ -66,6 +73,7 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
         progress("simulating one switch")
         model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
+        model.refuse_impossible(inputs)
         switch = Simulator(model).run(inputs)
         values = model.values(inputs, switch.values)
         status = "evaluated"
@@ -93,36 +101,18 @@ def _check(limit: Limit, values: dict[str, float], table: Table) -> Check:
     tolerance = SWITCH_TOLERANCE if on_switch(table, limit.output) else ALGEBRAIC_TOLERANCE
     return Check(
         text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
-        kept=bool(residual <= tolerance), origin=limit.origin,
+        scale=limit.scale, absolute=limit.absolute, kept=bool(residual <= tolerance), origin=limit.origin,
     )  # fmt: skip
 
 
 def _plain(solution: Solution | None) -> dict[str, Any]:
+    """The account as plain data, SI, without what differs from run to run."""
     if solution is None:
         return {}
     return {
         "objective": solution.objective,
         "reference": solution.reference,
-        "seconds": solution.seconds,
         "distinct_optima": [start.number for start in solution.distinct_optima()],
-        "starts": [asdict(start) for start in solution.starts],
+        "starts": [{k: v for k, v in asdict(start).items() if k != "seconds"} for start in solution.starts],
         "held": [asdict(held) for held in solution.held],
     }
-
-
-def verdict(result: Answer) -> None:
-    """Raise InfeasibleError, naming what is broken, unless the answer is what the study asked for."""
-    if result.solution is None or result.design.status == "optimal":
-        return
-    broken = sorted((check for check in result.checks if not check.kept), key=lambda check: check.margin)
-    lines = [f"  {check.text}: {-check.margin:.1%} beyond" for check in broken]
-    if math.isinf(result.design.value("response_time")):
-        lines.append("  response_time: the switch does not end at this current within `horizon`")
-    raise InfeasibleError(
-        "\n".join(
-            [f"{result.design.name}: {result.design.status}.", "At the last point, broken were:", *lines]
-            if lines
-            else [f"{result.design.name}: {result.design.status}."]
-        )
-        + "\nWiden a range under `vary`, relax a requirement, or try more `solver.starts`."
-    )

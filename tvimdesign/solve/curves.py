@@ -21,8 +21,8 @@ def switch_history(model: Model, inputs: Array, switch: Switch) -> Curves:
     temperatures = np.asarray(model.temperatures.map(len(times))(states, columns)) - ZERO_CELSIUS
     impedance = np.asarray(model.impedance_now.map(len(times))(states, columns)).ravel()
     depth = [f"cell_{i + 1}" for i in range(model.cells)]
-    plate = [f"rotor_{i + 1}" for i in range(temperatures.shape[0] - len(depth) - 4)]
-    names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate]
+    plate = [f"rotor_{i + 1}" for i in range(int(inputs[model.index["rotor_cells"]]))]
+    names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate, "rotor_rest", "core_and_link"]
     history = dict(zip(names, temperatures.tolist(), strict=True))
     return {"time": times.tolist(), **history, "joint_impedance": impedance.tolist()}
 

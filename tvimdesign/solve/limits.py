@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
 from tvimdesign.device import Event, Path, Table
 from tvimdesign.study import Study
-from tvimdesign.units import from_si, pretty, to_si
+from tvimdesign.units import format_quantity, from_si, pretty, to_si
 
 
 @dataclass(frozen=True)
@@ -19,12 +19,13 @@ class Limit:
     sense: Literal["<=", ">="]
     limit: float
     scale: float
-    """What a residual of one means: the limit itself, or the row's unit where the limit is zero."""
+    """What a residual of one means: the limit itself, or a hundred steps where it has no size."""
     origin: str
     """`require` for the study's own, otherwise the reason the machine has it."""
-
     step: str = "1 %"
     """What a hundredth of the scale is, in words."""
+    absolute: bool = False
+    """Whether the limit has no size of its own, so that distances from it are said in its unit."""
 
     @property
     def name(self) -> str:
@@ -69,6 +70,17 @@ def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
     return not on_switch(table, limit.output) and not set(free) & table.ancestors(limit.output)
 
 
+def impossible(values: Mapping[str, float], table: Table) -> list[str]:
+    """Say where the numbers of a design are no geometry at all: `arc_width is -7 mm, it must be above 0`."""
+    found = []
+    for row in table.outputs:
+        for rule in row.rules:
+            if rule.exists_above is not None and not values[row.name] > rule.exists_above:
+                value, least = (format_quantity(number, row.unit) for number in (values[row.name], rule.exists_above))
+                found.append(f"{row.name} is {value}, it must be above {least}: {row.description}")
+    return found
+
+
 def advice_of(table: Table) -> list[Limit]:
     """Return the limits that are reported where they are broken."""
     return [
@@ -76,14 +88,19 @@ def advice_of(table: Table) -> list[Limit]:
     ]
 
 
+_STEPS = {"mm": 0.1, "K": 1.0, "degC": 1.0, "s": 1.0}
+"""What people relax a limit by that has no size of its own, in its unit; a hundredth of the unit elsewhere."""
+
+
 def make_limit(table: Table, name: str, sense: Literal["<=", ">="], limit: float, origin: str) -> Limit:
-    """Return a limit with its scale: its own size; for a zero its unit; for a temperature 100 K."""
+    """Return a limit with its scale: its own size, or a hundred steps where it is zero or a temperature."""
     unit = table.unit(name)
-    if unit == "degC":
-        return Limit(name, sense, limit, 100.0, origin, "1 K")
-    if limit != 0.0:
+    if limit != 0.0 and unit != "degC":
         return Limit(name, sense, limit, abs(limit), origin)
-    return Limit(name, sense, limit, abs(to_si(1.0, unit)), origin, f"0.01 {pretty(unit)}".rstrip())
+    step = _STEPS.get(unit, 0.01)
+    of_difference = "K" if unit == "degC" else unit
+    scale = 100.0 * to_si(step, of_difference)
+    return Limit(name, sense, limit, scale, origin, f"{step:g} {pretty(of_difference)}".rstrip(), absolute=True)
 
 
 def in_words(limit: Limit, table: Table) -> str:

@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Event, Path, Table
 from tvimdesign.device.rows import STATE
+from tvimdesign.errors import InputError
 from tvimdesign.physics import heat
 from tvimdesign.solve.backend import ca
+from tvimdesign.solve.limits import impossible
 
 
 class Model:
@@ -65,7 +67,7 @@ class Model:
     @cached_property
     def _instant(self) -> dict[str, Any]:
         inputs, _, known = self._symbols
-        state = ca.SX.sym("state", heat.FIRST_CELL + self.cells + known["rotor_cells"])
+        state = ca.SX.sym("state", self.initial.size1_out(0))
         at_instant = {**known, STATE: [state[i] for i in range(state.numel())]}
         wanted = ("stack_profile", "state_rates", "impedance_now", *self.switch_names)
         return {"state": state, "inputs": inputs, **self.table.evaluate_instant(at_instant, wanted)}
@@ -103,10 +105,10 @@ class Model:
 
     @cached_property
     def temperatures(self) -> Any:
-        """The function (state, inputs) -> temperatures [K]: cold, hot, near face, cells, far face, plate cells."""
+        """The function (state, inputs) -> temperatures [K]: cold, hot, near face, cells, far face, plate, beside."""
         now = self._instant
         seen = now["stack_profile"]
-        values = [seen.cold, seen.hot, seen.near, *seen.cells, seen.far, *seen.plate]
+        values = [seen.cold, seen.hot, seen.near, *seen.cells, seen.far, *seen.plate, *seen.beside]
         return ca.Function("temperatures", [now["state"], now["inputs"]], [ca.vertcat(*values)])
 
     @cached_property
@@ -122,6 +124,13 @@ class Model:
         values = self.table.evaluate(known, ["stack", "ambient_temperature"])
         state = heat.initial_state(values["stack"], self.cells, values["ambient_temperature"])
         return ca.Function("initial", [inputs], [ca.vertcat(*state)])
+
+    def refuse_impossible(self, inputs: NDArray[np.float64]) -> None:
+        """Raise InputError, naming what is wrong, where the numbers are no geometry and nothing can be said of them."""
+        nothing = dict.fromkeys(self.switch_names, 0.0)
+        found = impossible(self.values(inputs, nothing), self.table)
+        if found:
+            raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
 
     def values(self, inputs: NDArray[np.float64], switch: Mapping[str, float]) -> dict[str, float]:
         """Every output in SI by full name."""

@@ -14,7 +14,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
 from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.limits import Limit, in_words, is_constant, limits_of
+from tvimdesign.solve.limits import Limit, impossible, in_words, is_constant, limits_of, on_switch
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, Problem
 from tvimdesign.solve.simulate import Simulator, Switch
@@ -80,6 +80,7 @@ class Optimizer:
         self.study, self.table, self.progress = study, table, progress
         began = time.perf_counter()
         self.model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        self.model.refuse_impossible(self.model.start)
         self.simulator = Simulator(self.model)
         self.start_switch = self.simulator.run(self.model.start)
         self.start_values = self.model.values(self.model.start, self.start_switch.values)
@@ -147,29 +148,54 @@ class Optimizer:
     # --- starts ---
 
     def begin_points(self) -> Iterator[Array]:
-        """Inputs to start from: the study's own, then random ones between the bounds, seeded."""
-        yield self.model.start
+        """Inputs to start from: the study's own, then random ones between the bounds, seeded.
+
+        From a point whose switch never ends the solver mostly gets stuck there, so such points are drawn again; the
+        study's own is replaced by the first random one.
+        """
         random = np.random.default_rng(self.study.solver.seed)
+        if np.isfinite(self.start_switch.values["response_time"]):
+            yield self.model.start
+        else:
+            self.progress("the switch of the study's own start never ends: starting elsewhere")
+            yield self._ending_point(random)
         for _ in range(self.study.solver.starts - 1):
-            yield self.random_point(random)
+            yield self._ending_point(random)
+
+    def _ending_point(self, random: np.random.Generator) -> Array:
+        for _ in range(MAX_DRAWS):
+            point = self.random_point(random)
+            if self._trial(point) is not None:
+                return point
+        return self.model.start
 
     def random_point(self, random: np.random.Generator) -> Array:
         """Inputs with every free number drawn evenly between its bounds (of its logarithm, where it is positive).
 
-        Drawn again where the model has no value, as for a leg that cannot reach its pin.
+        Drawn again where there is no such module, as with a leg that cannot reach its pin.
         """
         for _ in range(MAX_DRAWS):
             point = self.model.start.copy()
             for free in self.free:
                 low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
                 point[self.model.index[free.name]] = free.to_value(random.uniform(low, high))
-            if all(np.isfinite(value) for value in self.model.values(point, self.start_switch.values).values()):
+            values = self.model.values(point, self.start_switch.values)
+            numbers = [value for name, value in values.items() if not on_switch(self.table, name)]
+            if all(np.isfinite(number) for number in numbers) and not impossible(values, self.table):
                 return point
         return self.model.start
 
+    def _trial(self, inputs: Array) -> Switch | None:
+        """The switch at a point, None where it does not end."""
+        try:
+            switch = self.start_switch if inputs is self.model.start else self.simulator.run(inputs)
+        except SimulationError:
+            return None
+        return switch if np.isfinite(switch.values["response_time"]) else None
+
     def _guess(self, inputs: Array) -> Array:
-        """Unknowns at a point: the free numbers, and the switch simulated there (the start's where it stalls)."""
-        switch = self.start_switch if inputs is self.model.start else self._trial(inputs)
+        """Unknowns at a point: the free numbers, and the switch simulated there (as far as it goes where it stalls)."""
+        switch = self._trial(inputs) or self.start_switch
         parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.free])]
         for block in self.problem.blocks:
             end = switch.values[block.event]
@@ -183,14 +209,6 @@ class Optimizer:
             assert isinstance(row, Path)
             parts.append(np.array([switch.values[name] / self.problem.peak_scale(row)]))
         return np.concatenate(parts)
-
-    def _trial(self, inputs: Array) -> Switch:
-        """The switch at a point, or the start's where it does not end."""
-        try:
-            switch = self.simulator.run(inputs)
-        except SimulationError:
-            return self.start_switch
-        return switch if np.isfinite(switch.values["response_time"]) else self.start_switch
 
     # --- solving ---
 

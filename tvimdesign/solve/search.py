@@ -13,6 +13,7 @@ from tvimdesign.solve.account import account
 from tvimdesign.solve.optimizer import Optimizer, Progress, Run
 from tvimdesign.solve.solution import Solution, Start
 from tvimdesign.study import Options, Study
+from tvimdesign.units import format_quantity
 
 MAX_COMBINATIONS = 500
 
@@ -35,8 +36,11 @@ def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = 
         optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress)
         reference = optimizer.reference
         for run, size in _runs(optimizer, sizes, progress):
-            run.start = replace(run.start, number=len(starts), choices={**choice, **size})
+            relaxed = bool(sizes) and not size
+            run.start = replace(run.start, number=len(starts), choices={**choice, **size}, relaxed=relaxed)
             starts.append(run.start)
+            if relaxed:
+                continue
             if best is None or _order(run.start) < _order(best[1].start):
                 best = (optimizer, run)
         seconds = {key: seconds[key] + optimizer.seconds[key] for key in seconds}
@@ -48,24 +52,23 @@ def _runs(
     optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progress
 ) -> Iterator[tuple[Run, dict[str, float]]]:
     """Every start, all free; where sizes are listed, then every combination of them, warm from the best start."""
-    relaxed = []
+    starts = optimizer.study.solver.starts
+    best: Run | None = None
     for number, begin in enumerate(optimizer.begin_points()):
+        progress(f"start {number + 1} of {starts}")
         run = optimizer.solve(begin=begin)
-        relaxed.append(run)
-        progress(
-            f"start {number + 1} of {optimizer.study.solver.starts}: {run.start.status.replace('_', ' ').lower()} "
-            f"after {run.start.iterations} iterations"
-        )
-    if not sizes:
-        yield from ((run, {}) for run in relaxed)
-        return
-    best = min(relaxed, key=lambda run: _order(run.start))
+        best = run if best is None or _order(run.start) < _order(best.start) else best
+        yield run, {}
     for number, fixed in enumerate(sizes):
-        run = optimizer.solve(fixed, warm=best if best.start.converged else None)
+        progress(f"{_in_words(optimizer.table, fixed)} ({number + 1} of {len(sizes)})")
+        run = optimizer.solve(fixed, warm=best if best and best.start.converged else None)
         if not run.start.converged:
             run = optimizer.solve(fixed)
-        progress(f"size {number + 1} of {len(sizes)}: {run.start.status.replace('_', ' ').lower()}")
         yield run, fixed
+
+
+def _in_words(table: Table, sizes: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in sizes.items())
 
 
 def _order(start: Start) -> tuple[bool, float]:

@@ -28,6 +28,8 @@ class Start:
     end: dict[str, float]
     choices: dict[str, str | float] = field(default_factory=dict)
     """The listed records and sizes this run was held to."""
+    relaxed: bool = False
+    """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
 
 
 @dataclass(frozen=True)
@@ -62,11 +64,25 @@ class Solution:
     """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
     seconds: dict[str, float]
 
+    @property
+    def free_starts(self) -> tuple[Start, ...]:
+        """The runs from the recorded starts with the best records, none held to a listed size."""
+        sizes_listed = any(start.relaxed for start in self.starts)
+        best = min((s for s in self.starts if not s.relaxed), key=lambda s: (not s.converged, s.objective))
+        records = {name: value for name, value in best.choices.items() if isinstance(value, str)}
+        return tuple(
+            start for start in self.starts if start.relaxed == sizes_listed and records.items() <= start.choices.items()
+        )
+
+    @property
+    def size_runs(self) -> tuple[Start, ...]:
+        """One run for each combination of listed sizes; empty where none is listed."""
+        return tuple(s for s in self.starts if any(isinstance(value, float) for value in s.choices.values()))
+
     def distinct_optima(self) -> list[Start]:
-        """Return one converged start for each different optimum of the best choices, the best first."""
+        """Return one converged free start for each different optimum, the best first."""
         found: list[Start] = []
-        converged = sorted((s for s in self.starts if s.converged), key=lambda s: s.objective)
-        for start in (s for s in converged if s.choices == converged[0].choices):
+        for start in sorted((s for s in self.free_starts if s.converged), key=lambda s: s.objective):
             if not any(abs(start.objective - o.objective) <= SAME_OPTIMUM * abs(o.objective) for o in found):
                 found.append(start)
         return found

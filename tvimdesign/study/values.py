@@ -135,11 +135,24 @@ def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
     if word is None:
         return None
     if row.shelf:
-        return word if record(reading, node, path, row.shelf, word) else None
+        found = record(reading, node, path, row.shelf, word)
+        return word if found and _fits(reading, node, path, row, found) else None
     if word not in row.options:
         reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
         return None
     return word
+
+
+def _fits(reading: Reading, node: Node, path: str, row: Choice, found: Record) -> bool:
+    """Whether a record is of the kind the row takes; a problem where it is not."""
+    if row.only is None:
+        return True
+    key, wanted, reason = row.only
+    value = found.words.get(key, "not said")
+    if value == wanted:
+        return True
+    reading.problems.add(node, path, f"{found.name} has the {key} {value}; {reason}", f"a record with {key}: {wanted}")
+    return False
 
 
 def record(reading: Reading, node: Node, path: str, shelf: str, name: str) -> Record | None:
