@@ -114,7 +114,7 @@ def _colour(margin: float, kept: bool) -> str:
 def bounds(data: dict[str, Any]) -> Figure:
     """The design between its bounds, and the margin of every limit."""
     free, limits = data["free"], data["limits"]
-    figure = _figure(10.0, 0.6 + 0.28 * max(len(free), len(limits), 6))
+    figure = _figure(11.5, 0.6 + 0.28 * max(len(free), len(limits), 6))
     where, margins = figure.subplots(1, 2)
     for i, row in enumerate(reversed(free)):
         where.plot([0.0, 1.0], [i, i], color="lightgrey", linewidth=6, solid_capstyle="round")
@@ -130,11 +130,11 @@ def bounds(data: dict[str, Any]) -> Figure:
     colours = [_colour(row["margin"], row["kept"]) for row in reversed(limits)]
     bars = margins.barh(range(len(limits)), [v if abs(v) > 0.01 else 0.01 for v in shown], color=colours)
     margins.bar_label(bars, [row["text"] for row in reversed(limits)], fontsize=7, padding=2)
-    margins.set(yticks=range(len(limits)), yticklabels=[row["name"] for row in reversed(limits)], xlim=(-1.3, 1.4))
-    margins.set(xticks=[0.0], xticklabels=["limit"], title="What must hold (orange: at its limit; bars cut at 100 %)")
+    margins.set(yticks=range(len(limits)), yticklabels=[row["name"] for row in reversed(limits)], xlim=(-1.7, 1.5))
+    margins.set(xticks=[0.0], xticklabels=["limit"], title="What must hold (bars end at 100 %)")
     margins.tick_params(axis="y", labelsize=7)
     for axes in (where, margins):
         axes.grid(axis="y", visible=False)
     inches = figure.get_figheight()
-    figure.subplots_adjust(left=0.14, right=0.98, bottom=0.75 / inches, top=1.0 - 0.35 / inches, wspace=0.55)
+    figure.subplots_adjust(left=0.13, right=0.99, bottom=0.75 / inches, top=1.0 - 0.35 / inches, wspace=0.75)
     return figure

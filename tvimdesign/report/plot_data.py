@@ -11,6 +11,9 @@ from tvimdesign.solve.answer import Answer
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si, pretty
 
+_NEAR = 0.25
+"""Margin below which a rule of the machine is worth a bar."""
+
 
 def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
     """Data of every figure by the figure's name."""
@@ -60,7 +63,8 @@ def _free(answer: Answer, table: Table) -> list[dict[str, Any]]:
 
 
 def _limits(answer: Answer, table: Table) -> list[dict[str, Any]]:
-    """Every limit, and the advice the design does not follow."""
+    """The study's limits, the machine's where they are near, and the advice the design does not follow."""
+    near = [check for check in answer.checks if check.origin == "require" or check.margin < _NEAR]
     return [
         {
             "name": check.text if check in answer.checks else f"advice: {check.text}",
@@ -68,5 +72,5 @@ def _limits(answer: Answer, table: Table) -> list[dict[str, Any]]:
             "kept": check.kept,
             "text": margin_text(check, table),
         }
-        for check in (*answer.checks, *answer.warnings)
+        for check in (*near, *answer.warnings)
     ]

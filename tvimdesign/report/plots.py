@@ -19,6 +19,7 @@ from tvimdesign.errors import TvimError
 from tvimdesign.study.design import write_whole
 
 TIME_LIMIT = 120.0  # s
+_FAST = {"compress_level": 3}  # half the time for a tenth more bytes
 
 
 class PlotProcess:
@@ -65,7 +66,7 @@ def main() -> None:
     for name, data in request["plots"].items():
         figure = getattr(figures, name)(data)
         stream = io.BytesIO()
-        figure.savefig(stream, format="png", dpi=120, metadata={"Software": None})
+        figure.savefig(stream, format="png", dpi=120, metadata={"Software": None}, pil_kwargs=_FAST)
         write_whole(folder / f"{name}.png", stream.getvalue())
 
 
