@@ -97,6 +97,34 @@ def test_every_mistake_in_a_study_is_told_with_its_place(tvimdesign: Command, tm
     assert "wrong.yaml:5:" in done.stderr
 
 
+def test_a_module_that_cannot_be_is_refused_by_check_and_run(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "inside_out.yaml"
+    file.write_text("mode: shear\nmodule: {pcl_inner_radius: 35 mm, pcl_outer_radius: 28 mm}\n")
+    for command in (["check", file], ["run", file, "--out", tmp_path / "out"]):
+        done = tvimdesign(*command)
+        assert done.returncode == 2
+        assert "arc_width is -7 mm" in done.stderr
+
+
+def test_records_of_the_users_own_are_found_beside_the_study(tvimdesign: Command, tmp_path: Path) -> None:
+    shipped = (ROOT / "tvimdesign/catalog/data/structure_materials/petg.yaml").read_text()
+    (tmp_path / "job/mine/structure_materials").mkdir(parents=True)
+    (tmp_path / "job/mine/structure_materials/dense.yaml").write_text(shipped.replace("value: 1270", "value: 1280"))
+    (tmp_path / "job/study.yaml").write_text("mode: shear\ncatalog: mine\nmodule: {structure_material: dense}\n")
+    done = tvimdesign("run", "job/study.yaml", "--no-cad", "--no-plots", "--json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["values"]["structure_density"]["value"] == 1280.0
+
+
+def test_errors_are_json_too_where_scripts_ask(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "wrong.yaml"
+    file.write_text("mode: shear\nmodule:\n  coil_count: 3,25\n")
+    done = tvimdesign("check", file, "--json")
+    assert done.returncode == 2
+    problem = json.loads(done.stdout)["problems"][0]
+    assert (problem["line"], problem["path"]) == (3, "module.coil_count")
+
+
 def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "small.yaml"
     file.write_text(
@@ -163,6 +191,7 @@ def test_an_interrupt_ends_the_run_with_130_and_a_folder_that_can_be_used_again(
     os.killpg(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=60)
     assert process.returncode == 130, said
+    assert "interrupted" in said
     assert "Traceback" not in said
     assert json.loads((out / "manifest.json").read_text())["status"] == "interrupted"
     again = tvimdesign("run", "studies/paper_as_published.yaml", "--no-cad", "--no-plots", "--out", out, "--overwrite")

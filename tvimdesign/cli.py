@@ -66,10 +66,9 @@ def run(
 @app.command()
 def check(study: StudyFile, json: AsJson = False) -> None:
     """Read a study and say everything that is wrong with it."""
-    from tvimdesign.report.run import describe
-    from tvimdesign.study import read_study
+    from tvimdesign.report.run import check_study, describe
 
-    found = read_study(study)
+    found = check_study(study)
     typer.echo(found.model_dump_json(indent=2) if json else describe(found))
 
 

@@ -23,10 +23,19 @@ if TYPE_CHECKING:
 CAD_TIME_LIMIT = 300.0  # s
 
 
+def check_study(path: Path) -> Study:
+    """Read a study and everything it names. Raises InputError with all that is wrong with it."""
+    from tvimdesign.solve.limits import refuse_impossible
+
+    study = read_study(path)
+    refuse_impossible(study, catalog_of(study), table_for(study.mode))
+    return study
+
+
 def describe(study: Study) -> str:
     """One line on what a valid study asks."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
-    return f"{study.name}: valid; {what} under {len(study.require)} requirements ({study.mode} mode)."
+    return f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
 
 
 def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool) -> None:
@@ -35,15 +44,16 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
     from tvimdesign.report.plots import PlotProcess
     from tvimdesign.report.summary import complaint, print_summary
     from tvimdesign.report.tables import results
+    from tvimdesign.solve.answer import answer
 
     study = read_study(path)
-    table, catalog = table_for(study.mode), catalog_of(study, path)
+    table, catalog = table_for(study.mode), catalog_of(study)
     troubles: list[TvimError] = []
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite))
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        found = _answer(study, catalog, table, progress)
+        found = answer(study, catalog, table, progress)
         told = results(found, table)
         design = _write(folder, path, study, found, told, table)
         progress("")
@@ -68,12 +78,6 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
         raise InfeasibleError(complaint(found, table))
     if troubles:
         raise _partly(troubles)
-
-
-def _answer(study: Study, catalog: Catalog, table: Table, progress: Progress) -> Answer:
-    from tvimdesign.solve.answer import answer
-
-    return answer(study, catalog, table, progress)
 
 
 def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:
@@ -131,9 +135,9 @@ def _parts(design: Path, out: Path, progress: Progress) -> dict[str, Any]:
     return told
 
 
-def catalog_of(study: Study, path: Path) -> Catalog:
+def catalog_of(study: Study) -> Catalog:
     """The catalogue a study uses: the shipped records and those of the folder it names."""
-    return Catalog(path.parent / study.catalog_folder if study.catalog_folder else None)
+    return Catalog(Path(study.catalog_folder) if study.catalog_folder else None)
 
 
 def _records(design: Design, catalog: Catalog, table: Table) -> dict[str, Path]:

@@ -10,7 +10,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.curves import Curves, impedance_sweep, switch_history
-from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch
+from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch, refuse_impossible
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Progress
 from tvimdesign.solve.search import optimize
@@ -65,6 +65,7 @@ class Answer:
 def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = lambda _: None) -> Answer:
     """Evaluate or optimise a study. Raises InputError, InfeasibleError."""
     solution = None
+    refuse_impossible(study, catalog, table)
     if study.task == "optimize":
         solution = optimize(study, catalog, table, progress)
         model, inputs, switch, values = solution.model, solution.inputs, solution.switch, solution.values
@@ -73,7 +74,6 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
         progress("simulating one switch")
         model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
-        model.refuse_impossible(inputs)
         switch = Simulator(model).run(inputs)
         values = model.values(inputs, switch.values)
         status = "evaluated"

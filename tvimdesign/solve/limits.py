@@ -6,8 +6,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import Event, Path, Table
-from tvimdesign.study import Study
+from tvimdesign.errors import InputError
+from tvimdesign.study import Study, given
 from tvimdesign.units import format_quantity, from_si, pretty, to_si
 
 
@@ -68,6 +70,14 @@ def on_switch(table: Table, output: str) -> bool:
 def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
     """Whether nothing free can change the output a limit stands on."""
     return not on_switch(table, limit.output) and not set(free) & table.ancestors(limit.output)
+
+
+def refuse_impossible(study: Study, catalog: Catalog, table: Table) -> None:
+    """Raise InputError, naming what is wrong, where a study's start is no geometry and nothing can be said of it."""
+    rows = [row.name for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]
+    found = impossible(table.evaluate(given(study, catalog, table), rows), table)
+    if found:
+        raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
 
 
 def impossible(values: Mapping[str, float], table: Table) -> list[str]:

@@ -15,10 +15,8 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Event, Path, Table
 from tvimdesign.device.rows import STATE
-from tvimdesign.errors import InputError
 from tvimdesign.physics import heat
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.limits import impossible
 
 
 class Model:
@@ -124,13 +122,6 @@ class Model:
         values = self.table.evaluate(known, ["stack", "ambient_temperature"])
         state = heat.initial_state(values["stack"], self.cells, values["ambient_temperature"])
         return ca.Function("initial", [inputs], [ca.vertcat(*state)])
-
-    def refuse_impossible(self, inputs: NDArray[np.float64]) -> None:
-        """Raise InputError, naming what is wrong, where the numbers are no geometry and nothing can be said of them."""
-        nothing = dict.fromkeys(self.switch_names, 0.0)
-        found = impossible(self.values(inputs, nothing), self.table)
-        if found:
-            raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
 
     def values(self, inputs: NDArray[np.float64], switch: Mapping[str, float]) -> dict[str, float]:
         """Every output in SI by full name."""

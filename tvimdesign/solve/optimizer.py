@@ -80,7 +80,6 @@ class Optimizer:
         self.study, self.table, self.progress = study, table, progress
         began = time.perf_counter()
         self.model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
-        self.model.refuse_impossible(self.model.start)
         self.simulator = Simulator(self.model)
         self.start_switch = self.simulator.run(self.model.start)
         self.start_values = self.model.values(self.model.start, self.start_switch.values)
@@ -212,8 +211,9 @@ class Optimizer:
 
     # --- solving ---
 
-    def solve(self, fixed: Mapping[str, float] | None = None, warm: Run | None = None,
-              begin: Array | None = None) -> Run:  # fmt: skip
+    def solve(
+        self, fixed: Mapping[str, float] | None = None, warm: Run | None = None, begin: Array | None = None
+    ) -> Run:
         """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers fixed."""
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()

@@ -47,7 +47,12 @@ class Free:
 
 
 class Problem:
-    """The unknowns in order (free numbers; then for each block its states and log time; then peaks), and the rest."""
+    """A nonlinear programme, `function` = {x, p, f, g} as CasADi's nlpsol takes it.
+
+    x: the free numbers; for each block its states, column by column, and its log time; the peaks.
+    p: every input of the device, then the weights of what is minimised.
+    g: the blocks' equations, zero; the limits' residuals, in their order, kept where <= 0; samples less peaks, <= 0.
+    """
 
     def __init__(
         self, model: Model, free: Sequence[Free], limits: Sequence[Limit], minimize: Sequence[str], elements: int
@@ -64,7 +69,6 @@ class Problem:
         unknowns = ca.MX.sym("free", len(self.free))
         inputs = ca.MX.sym("inputs", len(self.model.names))
         weights = ca.MX.sym("weights", len(self.minimize))
-        self._unknowns, self._inputs, self._weights = unknowns, inputs, weights
         device_inputs = self._device_inputs = self._with_unknowns(inputs, unknowns)
         wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self.blocks = self._write_blocks(wanted, device_inputs)
@@ -124,7 +128,8 @@ class Problem:
                 peaks[row.name] = ca.MX.sym(row.name)
                 values[row.name] = scale * peaks[row.name]
                 rows.append(ca.vec(samples) / scale - peaks[row.name])
-        switch = ca.vertcat(*(values.get(name, 0.0) for name in self.model.switch_names))
+        # What no wanted row needs is never read; NaN would show it if it were.
+        switch = ca.vertcat(*(values.get(name, np.nan) for name in self.model.switch_names))
         return switch, peaks, ca.vertcat(*rows)
 
     @staticmethod
