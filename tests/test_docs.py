@@ -10,7 +10,7 @@ import pytest
 import yaml
 from support import ROOT, Command
 
-from tvimdesign.catalog import Catalog
+from tvimdesign.catalog import Catalog, check_records
 from tvimdesign.device import table_for
 from tvimdesign.solve.answer import answer
 from tvimdesign.study import read_study, read_study_text
@@ -62,6 +62,18 @@ def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path) ->
         more = ["--no-cad", "--no-plots"] if words[0] == "run" else []
         done = tvimdesign(*words, *more, cwd=tmp_path)
         assert done.returncode == 0, done.stderr
+
+
+def test_the_record_in_the_docs_is_one_that_can_be_used(tmp_path: Path) -> None:
+    page = (ROOT / "docs/catalogue.md").read_text()
+    record = re.findall(r"^```yaml\n(.*?)^```", page, re.M | re.S)[0]
+    (tmp_path / "peltiers").mkdir()
+    (tmp_path / "peltiers/my_pad.yaml").write_text(record)
+    catalog = Catalog(tmp_path)
+    assert check_records(catalog) == []
+    text = f"mode: shear\ncatalog: {tmp_path}\nmodule: {{peltier_module: my_pad}}\n"
+    study = read_study_text(text, "docs/catalogue.md")
+    assert answer(study, catalog, table_for("shear")).design.choices["peltier_module"] == "my_pad"
 
 
 def test_links_lead_somewhere() -> None:
