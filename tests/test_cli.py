@@ -198,6 +198,20 @@ def test_an_interrupt_ends_the_run_with_130_and_a_folder_that_can_be_used_again(
     assert again.returncode == 0, again.stderr
 
 
+def test_cad_refuses_what_is_no_design(tvimdesign: Command, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.json")
+    (tmp_path / "zero.json").symlink_to("/dev/zero")
+    (tmp_path / "folder.json").mkdir()
+    (tmp_path / "text.json").write_text("not JSON")
+    released = (ROOT / "cad/paper_shear/design.json").read_text()
+    (tmp_path / "mode.json").write_text(released.replace('"mode": "shear"', '"mode": "bending"'))
+    (tmp_path / "huge.json").write_text(released.replace('"wire_diameter": 0.001', '"wire_diameter": 1.001', 1))
+    for name in ("pipe", "zero", "folder", "text", "mode", "huge"):
+        done = tvimdesign("cad", tmp_path / f"{name}.json", "--out", tmp_path / f"{name}_out", timeout=20.0)
+        assert done.returncode == 2, (name, done.stderr)
+        assert "Traceback" not in done.stderr
+
+
 def test_the_version_is_the_package_s(tvimdesign: Command) -> None:
     import tvimdesign as package
 

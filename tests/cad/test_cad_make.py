@@ -120,7 +120,7 @@ def test_a_name_in_any_script_survives_step(tmp_path: Path) -> None:
 
 def test_a_coil_that_cannot_be_built_names_the_spring(job: Callable[..., CadReport]) -> None:
     with pytest.raises(GeometryError, match="spring"):
-        job(coil_diameter=1e-3)
+        job(coil_diameter=2.1e-3)
 
 
 @pytest.mark.slow
@@ -148,5 +148,5 @@ def test_a_crash_of_the_graphics_costs_only_the_picture() -> None:
 
 
 def test_no_design_is_an_input_error(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="no such file"):
         make_cad(tmp_path / "none.json", tmp_path / "cad")

@@ -15,8 +15,8 @@ POWERS = {
 }  # fmt: skip
 # The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
 SWINGS = {"damping_ratio": -1, "critical_damping": 4}
-# Lengths that are fixed in millimetres and what is made of them; the strength of a wire falls with its diameter.
-FIXED = {"tang_length", "retainer_gap", "spring_tensile_strength", "wire_range_reserve"}
+# Rows whose formulas hold a diameter in millimetres: strength and tolerance by size.
+FIXED = {"spring_tensile_strength", "wire_range_reserve", "coil_diameter_tolerance"}
 TABLE = table_for("shear")
 
 

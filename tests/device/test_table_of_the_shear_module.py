@@ -113,3 +113,11 @@ def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
         for name in wanted:
             value = np.broadcast_to(np.asarray(arrays[name], dtype=float), (3,))[j]
             assert value == pytest.approx(symbols[name], rel=1e-11, abs=1e-300), name
+
+
+@pytest.mark.parametrize("row", table_for("shear").inputs, ids=lambda row: row.name)
+def test_every_input_says_where_its_default_comes_from(row: Input) -> None:
+    status, _, source = row.source.partition(": ")
+    assert status in {"paper", "handbook", "assumed", "numerics", "record"}
+    assert len(source) > 3
+    assert row.record or row.lower <= row.default <= row.upper

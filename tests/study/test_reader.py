@@ -185,7 +185,8 @@ def test_the_mode(problems: Refuse) -> None:
     assert problems("name: x") == ["x.yaml:1:1: mode: missing; expected 'shear'; write 'mode: shear'"]
     assert problems("mode: [shear]")[0].startswith("x.yaml:1:7: mode: a list does not fit here")
     found = problems("mode: bending\nsolver: {starts: 0}\nmodule: {what: 3}")
-    assert [line.split(": ")[0] for line in found] == ["x.yaml:1:7", "x.yaml:2:18"]
+    # The one mode there is must be meant: what stands under it is told at once.
+    assert [line.split(": ")[0] for line in found] == ["x.yaml:1:7", "x.yaml:2:18", "x.yaml:3:10"]
 
 
 def test_sections_of_the_wrong_shape(problems: Refuse) -> None:

@@ -13,6 +13,10 @@ _SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
 """From SI to what CAD uses, by the unit a row is written in; rows in other units are no dimensions."""
 
 
+_MOST = 64
+"""Parts of one kind beyond which a design is a mistake."""
+
+
 class Dimensions:
     """The design's lengths [mm], angles [rad] and counts by the names of the table: `dims.wire_diameter`."""
 
@@ -34,8 +38,8 @@ class Dimensions:
     def count(self, name: str) -> int:
         """Value of a row that counts something; raises GeometryError where it is no whole number above zero."""
         value: float = getattr(self, name)
-        if value < 1 or value != round(value):
-            raise GeometryError(f"{name} is {value:g}; it must be a whole number above zero")
+        if not 1 <= value <= _MOST or value != round(value):
+            raise GeometryError(f"{name} is {value:g}; it must be a whole number from 1 to {_MOST}")
         return round(value)
 
     def azimuths(self, name: str) -> list[float]:

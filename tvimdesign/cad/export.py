@@ -13,6 +13,7 @@ from tvimdesign.cad.assembly import free_springs, installed_coils, place
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import KINDS, kind_of
 from tvimdesign.cad.mesh import Array, Instance, Mesh, part_meshes
+from tvimdesign.cad.outcome import Check
 from tvimdesign.cad.springs import free_coil
 from tvimdesign.cad.step import Product, write_assembly, write_part
 from tvimdesign.errors import GeometryError
@@ -22,13 +23,23 @@ _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 
 """glTF measures in metres and its y axis points up."""
 
 
+_DIGITS = (6, 5, 7)
+"""Decimals of a millimetre to which a mesh's vertices are merged. A coordinate can lie where one rounding splits it
+from its neighbour of the next face; not where three do."""
+
+
 def export(
     design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], out: Path, progress: Callable[[str], None]
-) -> list[str]:
-    """Write every file into `out` and return their paths relative to it; raises GeometryError where one fails."""
+) -> tuple[list[str], list[Check]]:
+    """Write every file into `out`; returns their paths relative to it, and a check of each mesh.
+
+    A mesh that does not close is a check that fails, and its file is left out; the others are written. Raises
+    GeometryError where a STEP file does not read back as what was written.
+    """
     folder = out / "parts"
     folder.mkdir(parents=True, exist_ok=True)
-    files = []
+    files: list[str] = []
+    checks: list[Check] = []
     free = free_springs(dims, progress)
     coil = free_coil(dims)
     meshes = part_meshes(drawn, {"spring_right": coil, "spring_left": coil})
@@ -36,14 +47,19 @@ def export(
         progress(f"writing {kind}")
         write_part(folder / f"{kind}.step", solid, product(design, kind))
         _read_back(folder / f"{kind}.step", kind, solid.Volume())
-        write_whole(folder / f"{kind}.stl", stl_bytes(kind, meshes[kind]))
-        files += [f"parts/{kind}.step", f"parts/{kind}.stl"]
+        files.append(f"parts/{kind}.step")
+        try:
+            write_whole(folder / f"{kind}.stl", stl_bytes(kind, meshes[kind]))
+            files.append(f"parts/{kind}.stl")
+            checks.append(Check(f"{kind}.stl", 0.0, 0.0, True, f"{kind}: its mesh is watertight"))
+        except GeometryError as error:
+            checks.append(Check(f"{kind}.stl", 1.0, 0.0, False, str(error)))
     progress("writing assembly")
     placed = place(dims, drawn)
     products = {name: product(design, kind_of(name)) for name in placed}
     write_assembly(out / "assembly.step", design.name, placed, products)
     write_whole(out / "assembly.glb", glb_bytes(instances(dims, drawn, placed)))
-    return [*files, "assembly.step", "assembly.glb"]
+    return [*files, "assembly.step", "assembly.glb"], checks
 
 
 def _read_back(path: Path, kind: str, volume: float) -> None:
@@ -68,11 +84,12 @@ def instances(dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[s
 
 def stl_bytes(name: str, mesh: Mesh) -> bytes:
     """Return a mesh as binary STL in millimetres; raises GeometryError where it does not enclose a body."""
-    body = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
-    body.merge_vertices(digits_vertex=6, merge_norm=True, merge_tex=True)
-    if not body.is_watertight or body.volume <= 0.0:
-        raise GeometryError(f"{name}: its triangle mesh is not watertight; the STEP file is sound, print from that")
-    return bytes(body.export(file_type="stl"))
+    for digits in _DIGITS:
+        body = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+        body.merge_vertices(digits_vertex=digits, merge_norm=True, merge_tex=True)
+        if body.is_watertight and body.volume > 0.0:
+            return bytes(body.export(file_type="stl"))
+    raise GeometryError(f"{name}: its triangle mesh is not watertight; the STEP file is sound, print from that")
 
 
 def glb_bytes(placed: Mapping[str, Instance]) -> bytes:

@@ -38,7 +38,8 @@ def run(design_path: Path, out: Path, lines: TextIO) -> None:
     dims = dimensions(design)
     drawn = drawn_parts(dims, progress)
     checks = [asdict(check) for check in all_checks(design, dims, drawn, progress)]
-    files = export(design, dims, drawn, out, progress)
+    files, meshes = export(design, dims, drawn, out, progress)
+    checks += [asdict(check) for check in meshes]
     say(checks=checks, files=files, seconds=time.perf_counter() - started)
     # The picture comes last: where the graphics driver takes the process with it, the parts are there.
     progress("drawing the picture")

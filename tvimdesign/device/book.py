@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from functools import cache
+from importlib import resources
 from typing import Any, Literal, TypeVar
 
+import yaml
+
 from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Row, Rule
+from tvimdesign.units import to_si
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -19,42 +24,32 @@ class Book:
         self.group = group
         self.rows: list[Row] = []
 
-    def variable(self, name: str, unit: str, default: float, lower: float, upper: float, description: str) -> None:
-        """Add a number that a study may set or vary, with the limits within which the models hold. SI."""
-        row = Input(name=name, unit=unit, description=description, group=self.group, default=default, lower=lower,
-                    upper=upper, variable=True)  # fmt: skip
-        self.rows.append(row)
-
-    def condition(
-        self,
-        name: str,
-        unit: str,
-        default: float,
-        lower: float,
-        upper: float,
-        description: str,
-        *,
-        integer: bool = False,
-        per_point: bool = False,
-    ) -> None:
-        """Add a number that a study may set but not vary. SI."""
-        self.rows.append(
-            Input(
-                name=name,
-                unit=unit,
-                description=description,
-                group=self.group,
-                default=default,
-                lower=lower,
-                upper=upper,
-                integer=integer,
-                per_point=per_point,
+    def inputs(self) -> None:
+        """Add the inputs that `inputs.yaml` lists under this group."""
+        for name, entry in _all_inputs()[self.group].items():
+            unit = str(entry["unit"])
+            self.rows.append(
+                Input(
+                    name=name,
+                    unit=unit,
+                    description=entry["about"],
+                    group=self.group,
+                    default=to_si(float(entry["value"]), unit),
+                    lower=to_si(float(entry["from"]), unit),
+                    upper=to_si(float(entry["to"]), unit),
+                    variable=entry.get("vary", False),
+                    integer=entry.get("integer", False),
+                    per_point=entry.get("per_point", False),
+                    source=f"{entry['status']}: {entry['source']}",
+                )
             )
-        )
 
     def property(self, name: str, unit: str, record: tuple[str, str], description: str) -> None:
         """Add a number that comes from a chosen record, (choice, field), unless the study sets it."""
-        row = Input(name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record)
+        row = Input(
+            name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record,
+            source=f"record: {record[1]} of the chosen {record[0]}",
+        )  # fmt: skip
         self.rows.append(row)
 
     def record(
@@ -130,3 +125,11 @@ def _summary(function: Callable[..., Any]) -> str:
     """First paragraph of the docstring, on one line."""
     text = inspect.getdoc(function) or ""
     return " ".join(text.split("\n\n")[0].split()).rstrip(".")
+
+
+@cache
+def _all_inputs() -> dict[str, dict[str, dict[str, Any]]]:
+    """Inputs by group and name, as the data file has them."""
+    text = resources.files("tvimdesign.device").joinpath("inputs.yaml").read_text(encoding="utf-8")
+    loaded: dict[str, dict[str, dict[str, Any]]] = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    return loaded

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
-from tvimdesign.device.layout import MM
 from tvimdesign.device.rows import Rule, Scalar
 from tvimdesign.physics.transmission import leg_direction, pin_distance
 
 book = Book("Gaps")
+
+
+MM = 1e-3
 
 
 def _at_least(value: float, reason: str, exists_above: float | None = None) -> Rule:
@@ -131,9 +133,11 @@ def spring_spring_gap(
 
 
 @book.output("mm", _at_least(0.0, "the retainer must stand above the ground"))
-def retainer_gap(foot_height: Scalar, retainer_thickness: Scalar, running_clearance: Scalar) -> Scalar:
-    """Room between the retainer with a flat screw head of 2.5 mm and the ground."""
-    return foot_height - retainer_thickness - running_clearance - 2.5 * MM
+def retainer_gap(
+    foot_height: Scalar, retainer_thickness: Scalar, running_clearance: Scalar, retainer_screw_head: Scalar
+) -> Scalar:
+    """Room between the ground and the retainer with its screw's head."""
+    return foot_height - retainer_thickness - running_clearance - retainer_screw_head
 
 
 @book.output("mm", _at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))

@@ -11,10 +11,7 @@ from tvimdesign.physics import dynamics, layer, polymer, structure
 
 book = Book("Impedance")
 
-book.condition("temperature", "degC", 303.15, 253.15, 473.15, "Temperature of the PCL layer", per_point=True)
-book.condition("frequency", "Hz", 1.0, 0.001, 1000.0, "Frequency at which the impedance is stated", per_point=True)
-book.condition("moving_inertia", "kg*mm^2", 415.6e-6, 1e-9, 100.0, "Moment of inertia of all that turns, load included")
-book.condition("enthalpy_smoothing", "kJ/kg", 1e3, 10.0, 2e3, "Rounding of the corners of the melting curve")
+book.inputs()
 
 
 @book.helper()

@@ -11,55 +11,9 @@ import numpy as np
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
 
-MM = 1e-3
-DEGREE = np.pi / 180.0
-
 book = Book("Layout")
 
-book.variable("wire_diameter", "mm", 2.413 * MM, 0.3 * MM, 10.0 * MM, "Wire diameter d of the torsion springs")
-book.variable("coil_diameter", "mm", 24.4094 * MM, 2.0 * MM, 100.0 * MM, "Mean coil diameter D of the torsion springs")
-book.variable("coil_count", "1", 3.25, 3.0, 20.0, "Body coils n of a torsion spring, legs not counted")
-book.variable("placement_radius", "mm", 57.0 * MM, 8.0 * MM, 300.0 * MM, "Distance of the spring axes from the axis")
-book.variable("pin_radius_ratio", "1", 0.5, 0.2, 0.8, "Radius of the rotor pins over the placement radius")
-book.variable("preload_angle", "rad", 0.15, 0.0, 1.5, "Angle by which each spring is wound up at rest")
-book.variable("pcl_inner_radius", "mm", 26.0 * MM, 3.0 * MM, 200.0 * MM, "Inner radius of the PCL arcs")
-book.variable("pcl_outer_radius", "mm", 40.0 * MM, 5.0 * MM, 250.0 * MM, "Outer radius of the PCL arcs")
-book.variable("arc_span", "deg", 48.962 * DEGREE, 5.0 * DEGREE, 175.0 * DEGREE, "Angle each PCL arc covers")
-book.variable("pcl_thickness", "mm", 1.0 * MM, 0.2 * MM, 10.0 * MM, "Thickness of the PCL layer")
-book.variable("floor_thickness", "mm", 4.0 * MM, 1.0 * MM, 30.0 * MM, "Thickness of the housing floor")
-book.variable("wall_thickness", "mm", 3.0 * MM, 0.8 * MM, 20.0 * MM, "Thickness of the housing wall")
-book.variable("rotor_thickness", "mm", 4.0 * MM, 1.0 * MM, 30.0 * MM, "Thickness of the rotor plate")
-book.variable("link_thickness", "mm", 4.0 * MM, 1.0 * MM, 30.0 * MM, "Thickness of the output link")
-book.variable("core_radius", "mm", 10.0 * MM, 4.0 * MM, 100.0 * MM, "Radius of the rotor's cylindrical core")
-
-book.condition("spring_pairs", "1", 2, 1, 6, "Pairs of a right- and a left-hand torsion spring", integer=True)
-book.condition("arc_count", "1", 4, 2, 12, "PCL arcs", integer=True)
-book.condition("stroke", "rad", 0.104, 0.001, 0.5, "Largest deflection of the joint to either side")
-book.condition("coil_gap", "mm", 0.1 * MM, 0.02 * MM, 5 * MM, "Gap between neighbouring coils")
-book.condition("pin_diameter", "mm", 4.0 * MM, 1.0 * MM, 30 * MM, "Diameter of the rotor pins the spring legs bear on")
-book.condition("leg_overhang", "mm", 4.0 * MM, 1.0 * MM, 50 * MM, "Length of the rotor-side leg beyond its pin")
-book.condition("radial_clearance", "mm", 1.0 * MM, 0.1 * MM, 20 * MM, "Gap between springs and what they must clear")
-book.condition("running_clearance", "mm", 0.4 * MM, 0.02 * MM, 2 * MM, "Gap between turning and fixed faces")
-book.condition("axial_clearance", "mm", 1.0 * MM, 0.1 * MM, 20 * MM, "Axial gap between legs, pins, wall and link")
-book.condition("rotor_rim", "mm", 1.5 * MM, 0.2 * MM, 20 * MM, "Rotor plate beyond the PCL arcs")
-book.condition("hub_wall", "mm", 3.0 * MM, 0.8 * MM, 20 * MM, "Wall of the hub around the core")
-book.condition("link_rim", "mm", 2.0 * MM, 0.8 * MM, 50 * MM, "Half width of the output link beyond the core's radius")
-book.condition("foot_height", "mm", 6.0 * MM, 3.0 * MM, 50 * MM, "Housing skirt below the floor: air for the cold side")
-book.condition("retainer_thickness", "mm", 2.5 * MM, 1.0 * MM, 20 * MM, "Disc below the floor that retains the rotor")
-book.condition("retainer_lip", "mm", 3.0 * MM, 1.0 * MM, 20 * MM, "Retainer beyond the core's radius")
-book.condition("window_ledge", "mm", 2.0 * MM, 0.5 * MM, 20 * MM, "Ledge of the floor that carries a Peltier pad")
-book.condition("tang_clearance", "mm", 0.25 * MM, 0.05 * MM, 2 * MM, "Radial play of a spring's tang in its hole")
-book.condition("link_screw_pilot", "mm", 2.5 * MM, 1 * MM, 20 * MM, "Pilot hole of the four link screws, M3")
-book.condition("link_screw_clearance", "mm", 3.4 * MM, 1 * MM, 20 * MM, "Clearance hole of the link screws, M3")
-book.condition("link_screw_head", "mm", 5.5 * MM, 1 * MM, 30 * MM, "Head diameter of the link screws, M3")
-book.condition("link_screw_depth", "mm", 6.0 * MM, 2 * MM, 100 * MM, "Depth of the link screws' pilot holes")
-book.condition("retainer_screw_pilot", "mm", 3.3 * MM, 1 * MM, 20 * MM, "Pilot hole of the retainer's screw, M4")
-book.condition("retainer_screw_clearance", "mm", 4.5 * MM, 1 * MM, 20 * MM, "Clearance hole of the retainer's screw")
-book.condition("retainer_screw_depth", "mm", 7.0 * MM, 2 * MM, 100 * MM, "Depth of the retainer screw's pilot hole")
-book.condition("mount_hole", "mm", 3.4 * MM, 1 * MM, 20 * MM, "Holes that fix the housing, M3, between the springs")
-book.condition("mount_boss_radius", "mm", 3.5 * MM, 1 * MM, 30 * MM, "Radius of the feet around those holes")
-book.condition("notch_width", "mm", 12.0 * MM, 1 * MM, 100 * MM, "Openings of the skirt: air and wires of the pads")
-book.condition("link_tool_hole", "mm", 4.5 * MM, 1 * MM, 50 * MM, "Hole at the end of the output link")
+book.inputs()
 
 
 @book.output("1")
@@ -139,9 +93,9 @@ def link_length(housing_outer_radius: Scalar, link_half_width: Scalar) -> Scalar
 
 
 @book.output("mm")
-def link_bolt_circle_radius(core_radius: Scalar) -> Scalar:
+def link_bolt_circle_radius(core_radius: Scalar, link_bolt_ratio: Scalar) -> Scalar:
     """Radius of the circle of the four link screws."""
-    return 0.65 * core_radius
+    return link_bolt_ratio * core_radius
 
 
 # --- levels ----------------------------------------------------------------------------------------------------------
@@ -203,9 +157,9 @@ def post_radius(spring_wound_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
 
 
 @book.output("mm")
-def tang_length(floor_thickness: Scalar) -> Scalar:
-    """Straight length of the tang in the floor, half a millimetre short of its lower face."""
-    return floor_thickness - 0.5 * MM
+def tang_length(floor_thickness: Scalar, tang_end_gap: Scalar) -> Scalar:
+    """Straight length of the tang in the floor, short of its lower face."""
+    return floor_thickness - tang_end_gap
 
 
 # --- envelope --------------------------------------------------------------------------------------------------------

@@ -50,6 +50,8 @@ class Input:
     variable: bool = False
     integer: bool = False
     per_point: bool = False
+    source: str = ""
+    """Where the default comes from: `status: source`."""
     record: tuple[str, str] | None = None
     """(choice, field): where the default comes from when the study does not set it."""
 

@@ -17,6 +17,7 @@ from tvimdesign.physics.transmission import leg_curvature, leg_direction, leg_ra
 book = Book("Springs")
 
 book.option("rate_model", ("bending", "smi"), "Spring rate: pure bending, or the handbook's, 6 % softer by friction")
+book.option("stress_factor", ("shigley", "en_13906"), "Rise of the stress at the inner fibre by the coil's curvature")
 book.option("leg_model", ("bending", "ignored"), "Whether the rotor-side leg bends with the coils")
 book.option(
     "transmission",
@@ -167,9 +168,10 @@ def preload_reserve(preload_angle: Scalar, spring_unwinding: Scalar) -> Scalar:
 
 
 @book.helper()
-def stress_per_angle(spring_rate: Scalar, wire_diameter: Scalar, spring_index: Scalar) -> Scalar:
+def stress_per_angle(spring_rate: Scalar, wire_diameter: Scalar, spring_index: Scalar, stress_factor: str) -> Scalar:
     """Stress at the inner fibre per radian of winding [Pa]."""
-    return spring.bending_stress(spring_rate, wire_diameter, spring.inner_fibre_factor(spring_index))
+    factor = {"shigley": spring.inner_fibre_factor, "en_13906": spring.inner_fibre_factor_en}[stress_factor]
+    return spring.bending_stress(spring_rate, wire_diameter, factor(spring_index))
 
 
 @book.output("MPa")
@@ -240,10 +242,19 @@ def spring_body_length(wire_diameter: Scalar, coil_count: Scalar, spring_winding
     return spring.body_length(wire_diameter, coil_count, spring_winding, coil_gap)
 
 
+_GRADE_2 = 1.0  # the factor Q of DIN 2194 for its middle grade
+
+
+@book.output("mm")
+def coil_diameter_tolerance(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
+    """Tolerance of the coil diameter, DIN 2194 grade 2, to either side."""
+    return spring.diameter_tolerance(wire_diameter, coil_diameter, _GRADE_2)
+
+
 @book.output("deg")
 def free_angle_tolerance(coil_count: Scalar, spring_index: Scalar) -> Scalar:
     """Tolerance of a spring's free angle, DIN 2194 grade 2, to either side."""
-    return spring.free_angle_tolerance(coil_count, spring_index, 1.0)
+    return spring.free_angle_tolerance(coil_count, spring_index, _GRADE_2)
 
 
 _SPREAD = "springs as bought spread more than the preload that is left: make it adjustable"
@@ -274,7 +285,7 @@ def pin_safety(
     pin_diameter: Scalar,
     structure_layer_strength: Scalar,
 ) -> Scalar:
-    """Bending strength of the rotor's pins over the stress under the leg at full winding."""
+    """Bending strength of the rotor's pins, cold, over the stress under the leg at full winding."""
     force = spring_rate * spring_winding / leg_arm
     height = coil_end_level + helix_slope * leg_arm - rotor_top_level
     return structure_layer_strength / spring.bending_stress(force * height, pin_diameter, 1.0)

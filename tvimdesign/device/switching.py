@@ -11,22 +11,12 @@ from tvimdesign.physics.shapes import Section
 
 book = Book("Switch")
 
-book.variable("current", "A", 1.5, 0.05, 20.0, "Current through the Peltier modules, constant during the switch")
-book.condition("ambient_temperature", "degC", 295.15, 233.15, 323.15, "Temperature of the air, and of all at the start")
-book.condition("target_temperature", "degC", 373.15, 303.15, 453.15, "Temperature the thermometer times wait for")
-book.condition("softening_band", "1", 2.0, 1.01, 100.0, "The joint is soft within this factor of its hot impedance")
+book.inputs()
 book.option(
     "response_criterion",
     ("far_face", "mean", "near_face", "softening"),
     "What ends the switch: a face or the mean of the layer at the target temperature, or the joint's impedance",
 )
-book.condition("cold_side_coefficient", "W/m^2/K", 15.0, 1.0, 1e5, "Convection and radiation from the cold side")
-book.condition("sink_capacity", "J/K", 0.0, 0.0, 1e6, "Heat capacity of a sink on the cold side")
-book.condition("hot_contact", "W/m^2/K", 1e4, 100.0, 1e6, "Contact conductance of Peltier pad and layer")
-book.condition("rotor_contact", "W/m^2/K", 1e4, 100.0, 1e6, "Contact conductance of layer and rotor plate")
-book.condition("rotor_coefficient", "W/m^2/K", 10.0, 1.0, 1e4, "Convection and radiation from the rotor plate")
-book.condition("rotor_cells", "1", 8, 1, 1000, "Cells of the heat model through the rotor plate", integer=True)
-book.condition("horizon", "s", 3600.0, 1.0, 1e6, "Longest switch that is simulated")
 
 
 @book.output("1")

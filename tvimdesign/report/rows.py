@@ -73,4 +73,5 @@ def _entry(row: Row, kind: str, unit: str, default: str, allowed: str, name: str
         "allowed": allowed,
         "group": row.group,
         "description": row.description,
+        "source": row.source if isinstance(row, Input) else "",
     }

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Table, table_for
-from tvimdesign.errors import GeometryError, InfeasibleError, TvimError
+from tvimdesign.errors import GeometryError, InfeasibleError, InputError, TvimError
 from tvimdesign.report.folder import ResultsFolder
 from tvimdesign.report.talk import Progress, talk, wide_console
 from tvimdesign.study import Study, read_study
-from tvimdesign.study.design import Design, read_design, write_whole
+from tvimdesign.study.design import Design, read_design, write_design, write_whole
 
 if TYPE_CHECKING:
     from tvimdesign.solve.answer import Answer
@@ -92,7 +92,7 @@ def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told:
     folder.write("temperatures.csv", curves_csv(found.history, units, "degC"))
     units = {name: table.unit(name) for name in found.sweep}
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
-    return folder.write("design.json", found.design.model_dump_json(indent=2) + "\n")
+    return write_design(found.design, folder.path / "design.json")
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
@@ -103,7 +103,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     design = read_design(source)
     troubles: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder:
-        kept = folder.write("design.json", design.model_dump_json(indent=2) + "\n")
+        kept = write_design(design, folder.path / "design.json")
         with talk() as progress, _noting(troubles):
             report = _parts(kept, folder.path, progress)
             if as_json:
@@ -111,7 +111,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
             else:
                 said = f"{len(report['checks'])} checks on the solids hold; parts are in [bold]{out}[/bold]"
                 wide_console().print(said, soft_wrap=True)
-        folder.finish(design.status, {"design": source}, design.study)
+        folder.finish("parts failed" if troubles else design.status, {"design": source}, design.study)
     if troubles:
         raise _partly(troubles)
 
@@ -151,9 +151,11 @@ def _records(design: Design, catalog: Catalog, table: Table) -> dict[str, Path]:
 
 @contextmanager
 def _noting(troubles: list[TvimError]) -> Iterator[None]:
-    """Keep a failure for the end, so that what else can be done is done."""
+    """Keep a failure for the end, so that what else can be done is done; wrong input stays an error of its own."""
     try:
         yield
+    except InputError:
+        raise
     except TvimError as error:
         troubles.append(error)
 

@@ -111,7 +111,9 @@ def _verdict(answer: Answer) -> str:
     starts = solution.free_starts
     converged = sum(start.converged for start in starts)
     optima = len(solution.distinct_optima())
-    agree = "" if converged < 2 else ", all at one optimum" if optima == 1 else f", at {optima} different optima"
+    agree = ", all at one optimum" if optima == 1 else f", at {optima} different optima"
+    if converged < 2:
+        agree = ", others may be better"
     of_start = sum(answer.design.study["minimize"].values())
     return (
         f"[green]Optimal{warned}[/green]: {converged} of {len(starts)} starts converged{agree}; objective "

@@ -69,26 +69,36 @@ def variable_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str
     return rows
 
 
-def margin_text(check: Check, table: Table) -> str:
-    """What is left of a limit: in percent, or in the row's unit where the limit has no size of its own."""
-    if math.isnan(check.margin) or math.isinf(check.margin):
-        return "never"
-    margin = check.margin if abs(check.margin) > NOTHING else 0.0
+def margin_of(check: Check, table: Table) -> tuple[float, str]:
+    """What is left of a limit: a share with the unit 1, or in the row's unit where the limit has no size of its own."""
     if not check.absolute:
-        return f"{margin:+.1%}" if abs(margin) < 100 else "ample"
+        return check.margin, "1"
     unit = table.unit(check.output)
     unit = "K" if unit == "degC" else unit
-    return f"{from_si(margin * check.scale, unit):+.3g} {pretty(unit)}".rstrip()
+    return from_si(check.margin * check.scale, unit), unit
+
+
+def margin_text(check: Check, table: Table) -> str:
+    """The margin for people: in percent or in the row's unit; rounding is not a margin."""
+    if not math.isfinite(check.margin):
+        return "never"
+    margin, unit = margin_of(check, table)
+    margin = margin if abs(check.margin) > NOTHING else 0.0
+    if unit == "1" and not check.absolute:
+        return f"{margin:+.1%}" if abs(margin) < 100 else "ample"
+    return f"{margin:+.3g} {pretty(unit)}".rstrip()
 
 
 def check_row(check: Check, table: Table) -> dict[str, Any]:
     """One check as plain data, in the row's unit."""
     unit = table.unit(check.output)
+    margin, margin_unit = margin_of(check, table)
     return {
         "limit": check.text,
         "value": _finite(from_si(check.value, unit)),
         "unit": pretty(unit),
-        "margin": margin_text(check, table),
+        "margin": _finite(margin),
+        "margin_unit": pretty(margin_unit),
         "kept": check.kept,
         "origin": check.origin,
     }
@@ -117,6 +127,7 @@ def _entry(name: str, value: float, table: Table) -> dict[str, Any]:
         "value": _finite(from_si(value, unit)),
         "unit": pretty(unit),
         "kind": "input" if isinstance(row, Input) else "output",
+        "source": row.source if isinstance(row, Input) else "computed",
         "group": row.group,
         "description": row.description,
     }
@@ -139,7 +150,7 @@ def _all_finite(data: Any) -> Any:
 def results_csv(entries: Mapping[str, Mapping[str, Any]]) -> str:
     """The values of `results` as CSV."""
     stream = io.StringIO()
-    columns = ["name", "value", "unit", "kind", "group", "description"]
+    columns = ["name", "value", "unit", "kind", "group", "description", "source"]
     writer = csv.DictWriter(stream, columns, lineterminator="\n")
     writer.writeheader()
     for name, entry in entries.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import tempfile
 from pathlib import Path
@@ -9,7 +10,9 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from tvimdesign.device import table_for
 from tvimdesign.errors import InputError
+from tvimdesign.study.files import ordinary_bytes, printable
 
 MAX_BYTES = 10_000_000
 
@@ -41,23 +44,41 @@ class Design(BaseModel):
         return self.values[name]
 
 
-def write_design(design: Design, path: Path) -> None:
-    """Write a design as JSON, whole or not at all."""
+def write_design(design: Design, path: Path) -> Path:
+    """Write a design as JSON, whole or not at all; returns the path."""
     write_whole(path, design.model_dump_json(indent=2).encode() + b"\n")
+    return path
 
 
 def read_design(path: Path) -> Design:
     """Read a design; raises InputError that names the file and what is wrong with it."""
+    shown = printable(path)
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise InputError(f"{path}: larger than {MAX_BYTES} bytes; a design is a few tens of kilobytes")
-        return Design.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+        design = Design.model_validate_json(ordinary_bytes(path, MAX_BYTES, _WANTED, lambda _: _too_big(shown)))
+    except FileNotFoundError:
+        raise InputError(f"{shown}: no such file; `tvimdesign run` writes a design.json") from None
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(part) for part in first["loc"]) or "the file"
-        raise InputError(f"{path}: not a design written by `tvimdesign run`: {where}: {first['msg']}") from error
+        raise InputError(f"{shown}: is not {_WANTED}: {where}: {first['msg']}") from error
+    _check_inputs(design, shown)
+    return design
+
+
+_WANTED = "a design.json that `tvimdesign run` wrote"
+
+
+def _too_big(shown: str) -> InputError:
+    return InputError(f"{shown} has more than {MAX_BYTES} bytes; give the path of {_WANTED}, a few tens of kilobytes")
+
+
+def _check_inputs(design: Design, shown: str) -> None:
+    """Raise InputError where an input of the design is not within the limits of its row."""
+    for row in table_for(design.mode).inputs:
+        value = design.values.get(row.name, row.lower if row.per_point else math.nan)
+        margin = 1e-9 * max(abs(row.lower), abs(row.upper)) if math.isfinite(row.upper) else 0.0
+        if not row.lower - margin <= value <= row.upper + margin:
+            raise InputError(f"{shown}: {row.name} is {value:g} (SI), outside the limits of the model")
 
 
 def write_whole(path: Path, data: bytes) -> None:

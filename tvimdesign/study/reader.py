@@ -12,11 +12,12 @@ from pydantic import BaseModel, ValidationError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.errors import CatalogError, InputError
+from tvimdesign.study.files import printable
 from tvimdesign.study.goals import read_minimize, read_require
 from tvimdesign.study.model import FORMAT, SolverOptions, Study, WriteOptions
 from tvimdesign.study.problems import Problems, quoted, step
 from tvimdesign.study.settings import read_module, read_points
-from tvimdesign.study.source import check_characters, printable, read_text
+from tvimdesign.study.source import check_characters, read_text
 from tvimdesign.study.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
 from tvimdesign.study.vary import check_against_module, read_vary, with_start
 from tvimdesign.study.yaml_text import Mapping, Node, Text, compose
@@ -152,7 +153,8 @@ class _Reader:
             return self.table(word)
         except InputError:
             self.problems.unknown(node, "mode", f"mode: {quoted(word)}", word, MODES)
-            return None
+            # Read on with the mode that must be meant, so that the other mistakes are told now and not one by one.
+            return self.table(MODES[0]) if len(MODES) == 1 else None
 
     def _catalog_folder(self) -> Path | None:
         node = self.sections.get("catalog")

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-import stat
 from pathlib import Path
 
 from tvimdesign.errors import InputError
+from tvimdesign.study.files import ordinary_bytes, printable
 from tvimdesign.study.problems import At, Problem, Problems, StudyError, did_you_mean
 
 MOST_BYTES = 1_000_000
@@ -55,29 +55,18 @@ def check_characters(text: str, problems: Problems) -> str:
     return text
 
 
-def printable(path: Path) -> str:
-    """Write a path so that a terminal shows it and obeys nothing in it."""
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(path))
-
-
 def _bytes(path: Path) -> bytes:
     """Return the bytes of an ordinary file of a study's size; raises InputError, in words, for anything else."""
     shown = printable(path)
     try:
-        status = path.stat()
-        if stat.S_ISDIR(status.st_mode):
-            raise InputError(f"{shown} is a folder; give the path of a study file (YAML)")
-        if not stat.S_ISREG(status.st_mode):
-            raise InputError(f"{shown} is no ordinary file; give the path of a study file (YAML)")
-        if status.st_size > MOST_BYTES:
-            raise StudyError([Problem(shown, 0, 0, "", _too_big(status.st_size))])
-        with path.open("rb") as file:
-            return file.read(MOST_BYTES + 1)
+        return ordinary_bytes(
+            path,
+            MOST_BYTES,
+            "a study file (YAML)",
+            lambda size: StudyError([Problem(shown, 0, 0, "", _too_big(size))]),
+        )
     except FileNotFoundError:
         raise InputError(f"{shown}: no such file; {_similar(path) or '`tvimdesign new` writes a study'}") from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise InputError(f"{shown} cannot be read: {reason}") from None
 
 
 def _similar(path: Path) -> str:
