@@ -98,7 +98,7 @@ def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: S
     def reached(_: float, state: np.ndarray) -> float:
         return float(np.asarray(model.instant(state, model.start)).ravel()[target])
 
-    reached.terminal = True  # type: ignore[attr-defined]  # scipy's way
+    reached.terminal = True
     jacobian = model.rates.jacobian()
     begin = np.asarray(model.initial(model.start)).ravel()
     run = solve_ivp(

@@ -37,7 +37,7 @@ def face_times(stack: heat.Stack, cells: int = 12) -> tuple[float, float]:
     def far(_: float, y: np.ndarray) -> float:
         return float(heat.profile(list(y), stack).far - TARGET)
 
-    far.terminal = True  # type: ignore[attr-defined]
+    far.terminal = True
     found = solve_ivp(
         lambda _, y: heat.rates(list(y), stack), (0.0, 2000.0), heat.initial_state(stack, cells, AMBIENT),
         method="LSODA", lband=1, uband=1, rtol=1e-6, atol=1e-8, events=(near, far),

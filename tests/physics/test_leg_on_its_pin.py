@@ -126,7 +126,7 @@ def test_torque_of_one_spring_is_that_of_its_force_on_the_pin() -> None:
     assert torque == pytest.approx(expected, rel=1e-9)
 
 
-def five_points(function, at: float, step: float = 1e-3) -> float:  # type: ignore[no-untyped-def]
+def five_points(function, at: float, step: float = 1e-3) -> float:
     return (8.0 * (function(at + step) - function(at - step)) - function(at + 2 * step) + function(at - 2 * step)) / (
         12.0 * step
     )

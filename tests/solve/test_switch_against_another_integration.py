@@ -157,7 +157,7 @@ def pair(
         def gap(_: float, y: Array) -> float:
             return reference.faces(y)[which] - target
 
-        gap.terminal = which == 2  # type: ignore[attr-defined]
+        gap.terminal = which == 2
         return gap
 
     found = solve_ivp(

@@ -131,7 +131,7 @@ def table_of(table: Table) -> Callable[[str], Table]:
 @pytest.fixture(scope="session")
 def read(table_of: Callable[[str], Table]) -> Callable[..., Study]:
     """Read a study's text against the small table and catalogue."""
-    return partial(read_study_text, name="x.yaml", table=table_of, catalog=SmallCatalog)  # type: ignore[arg-type]
+    return partial(read_study_text, name="x.yaml", table=table_of, catalog=SmallCatalog)
 
 
 @pytest.fixture(scope="session")

@@ -202,4 +202,4 @@ def test_a_file_name_cannot_command_the_terminal(tmp_path: Path) -> None:
 
 def test_a_byte_order_mark_is_no_error(tmp_path: Path, table_of: Callable[..., object]) -> None:
     (tmp_path / "x.yaml").write_bytes(b"\xef\xbb\xbfmode: shear\r\n")
-    assert isinstance(read_study(tmp_path / "x.yaml", table=table_of), Study)  # type: ignore[arg-type]
+    assert isinstance(read_study(tmp_path / "x.yaml", table=table_of), Study)

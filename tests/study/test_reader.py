@@ -104,7 +104,7 @@ def test_json_round_trip(read: Read, text: str) -> None:
 def test_a_study_is_frozen_and_knows_its_keys(read: Read) -> None:
     study = read(GOOD)
     with pytest.raises(ValueError, match="frozen"):
-        study.name = "other"  # type: ignore[misc]
+        study.name = "other"
     with pytest.raises(ValueError, match="Extra inputs"):
         Study.model_validate(study.model_dump() | {"speed": 1})
     with pytest.raises(ValueError, match="finite"):

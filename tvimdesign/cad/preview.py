@@ -135,12 +135,12 @@ def _actor(source: vtkPolyDataNormals | vtkFeatureEdges, colour: Rgb) -> vtkActo
 def _poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
     points = vtkPoints()
     placed = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
-    points.SetData(numpy_to_vtk(placed, deep=True))  # type: ignore[no-untyped-call]
+    points.SetData(numpy_to_vtk(placed, deep=True))  # type: ignore[no-untyped-call]  # vtk says no types here
     cells = np.hstack((np.full((len(mesh.faces), 1), 3), mesh.faces)).astype(np.int64)
     triangles = vtkCellArray()
     triangles.SetCells(
         len(mesh.faces),
-        numpy_to_vtkIdTypeArray(cells.ravel(), deep=True),  # type: ignore[no-untyped-call]
+        numpy_to_vtkIdTypeArray(cells.ravel(), deep=True),  # type: ignore[no-untyped-call]  # vtk says no types here
     )
     data = vtkPolyData()
     data.SetPoints(points)
