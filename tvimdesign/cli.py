@@ -136,7 +136,6 @@ def main() -> None:
 
 
 def _guarded(command: Callable[[], Any]) -> int:
-    usage_error = typer.BadParameter.__mro__[2]  # the base of every usage error, whose home moves between versions
     try:
         code = command()
         if code == INTERRUPTED:
@@ -154,10 +153,12 @@ def _guarded(command: Callable[[], Any]) -> int:
         sys.stderr.close()
         return 0
     except Exception as error:
-        if not isinstance(error, usage_error):
+        # Typer's usage errors can show themselves; their common base has no public name.
+        show = getattr(error, "show", None)
+        if show is None:
             raise
-        error.show()  # type: ignore[attr-defined]  # every usage error has it
-        return 2
+        show()
+        return InputError.exit_code
 
 
 def _print_error(error: TvimError) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from tvimdesign.device import table_for
+from tvimdesign.device import Input, Output, table_for
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import Design
 
@@ -50,9 +50,7 @@ class Dimensions:
 
 def dimensions(design: Design) -> Dimensions:
     """Convert a design's values to the units of CAD."""
-    rows = table_for(design.mode).by_name
-    return Dimensions({
-        name: value * _SCALE[rows[name].unit]  # type: ignore[union-attr]  # a choice has no unit, and no number either
-        for name, value in design.values.items()
-        if name in rows and getattr(rows[name], "unit", None) in _SCALE
-    })  # fmt: skip
+    table = table_for(design.mode)
+    rows: list[Input | Output] = [*table.inputs, *table.outputs]
+    units = {row.name: row.unit for row in rows if row.unit in _SCALE}
+    return Dimensions({name: value * _SCALE[units[name]] for name, value in design.values.items() if name in units})

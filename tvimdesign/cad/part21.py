@@ -21,7 +21,7 @@ def in_fixed_order(text: str) -> str:
         return text
     end = text.index("ENDSEC;", starts[-1])
     blocks = [_unwrapped(text[first:last]) for first, last in pairwise([*starts, end])]
-    first_number = min(int(_NUMBER.match(block)[1]) for block in blocks)  # type: ignore[index]  # it starts with one
+    first_number = min(int(number[1]) for block in blocks if (number := _NUMBER.match(block)))
     blocks.sort(key=_context)
     old = [int(number) for block in blocks for number in re.findall(r"^#(\d+) =", block, re.MULTILINE)]
     new = {number: first_number + index for index, number in enumerate(old)}

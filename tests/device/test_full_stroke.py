@@ -1,0 +1,136 @@
+"""What happens at full stroke: torque and stiffness by statics, and what is left of gaps by walking along the leg."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from tvimdesign.device import table_for
+
+TABLE = table_for("shear")
+ROWS = [
+    "spring_rate", "spring_torque_full_stroke", "spring_stiffness_full_stroke", "stiffness_over_stroke",
+    "spring_stiffness", "leg_offset", "leg_arm", "leg_length", "leg_core_gap", "leg_overhang_reserve", "tang_reserve",
+    "pin_radius", "pin_safety", "spring_assembly_safety", "spring_tensile_strength", "coil_end_level", "helix_slope",
+    "rotor_top_level", "spring_winding", "spring_unwinding", "free_angle_over_preload", "free_angle_tolerance",
+    "preload_reserve", "coil_diameter_tolerance", "stress_per_angle", "spring_index",
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def bent(inputs: dict[str, Any]) -> dict[str, Any]:
+    """The paper's module with its springs on pins, a stroke twice as long, and every row of interest."""
+    given = {**inputs, "transmission": "geometry", "stroke": 0.2, "preload_angle": 0.35}
+    return {**given, **TABLE.evaluate(given, ROWS)}
+
+
+def direction(module: dict[str, Any], angle: float) -> float:
+    """Direction of a right-hand leg with the rotor turned: its line, at the offset from the coil, meets the pin."""
+    pin = module["pin_radius"] * np.array([np.cos(angle), np.sin(angle)]) - [module["placement_radius"], 0.0]
+
+    def miss(along: float) -> float:
+        return float(pin @ [np.sin(along), -np.cos(along)]) - module["leg_offset"]
+
+    return float(brentq(miss, np.pi, 1.5 * np.pi, xtol=1e-14))
+
+
+def energy(module: dict[str, Any], angle: float) -> float:
+    """Energy [J] of the springs: right-hand ones wind as their leg turns on, left-hand ones are their mirror image."""
+    rest = direction(module, 0.0)
+    pair = sum((module["preload_angle"] + direction(module, sign * angle) - rest) ** 2 for sign in (1.0, -1.0))
+    return float(module["spring_pairs"] * 0.5 * module["spring_rate"] * pair)
+
+
+def test_torque_and_stiffness_are_the_slopes_of_the_energy(bent: dict[str, Any]) -> None:
+    end, step = bent["stroke"], 1e-3
+    torque = (energy(bent, end + step) - energy(bent, end - step)) / (2.0 * step)
+    at_end, at_rest = (
+        (energy(bent, a + step) - 2.0 * energy(bent, a) + energy(bent, a - step)) / step**2 for a in (end, 0.0)
+    )
+    assert bent["spring_torque_full_stroke"] == pytest.approx(torque, rel=1e-4)
+    assert bent["spring_stiffness_full_stroke"] == pytest.approx(at_end, rel=1e-4)
+    assert bent["spring_stiffness"] == pytest.approx(at_rest, rel=1e-4)
+    assert bent["stiffness_over_stroke"] == pytest.approx(at_end / at_rest, rel=2e-4)
+
+
+def test_with_unity_the_springs_are_linear(inputs: dict[str, Any]) -> None:
+    found = TABLE.evaluate({**inputs, "transmission": "unity"}, ROWS)
+    assert found["spring_torque_full_stroke"] == pytest.approx(4 * found["spring_rate"] * 0.104, rel=1e-12)
+    assert found["stiffness_over_stroke"] == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("overhang", [2e-3, 4e-3, 25e-3])
+def test_gap_of_leg_and_core_is_the_least_over_leg_and_stroke(inputs: dict[str, Any], overhang: float) -> None:
+    given = {**inputs, "leg_overhang": overhang}
+    module = {**given, **TABLE.evaluate(given, ROWS)}
+    least = np.inf
+    for angle in np.linspace(-module["stroke"], module["stroke"], 41):
+        along = direction(module, float(angle))
+        start = [module["placement_radius"], 0.0] + 0.5 * module["coil_diameter"] * np.array(
+            [np.sin(along), -np.cos(along)]
+        )
+        points = start + np.linspace(0.0, module["leg_length"], 4001)[:, None] * [np.cos(along), np.sin(along)]
+        least = min(least, float(np.min(np.hypot(*points.T))))
+    room = least - 0.5 * module["wire_diameter"] - module["core_radius"] - module["radial_clearance"]
+    assert module["leg_core_gap"] == pytest.approx(room, abs=1e-7)
+
+
+def test_overhang_is_what_the_pin_s_way_along_the_leg_leaves(bent: dict[str, Any]) -> None:
+    along = direction(bent, bent["stroke"])
+    pin = bent["pin_radius"] * np.array([np.cos(bent["stroke"]), np.sin(bent["stroke"])])
+    reached = (pin - [bent["placement_radius"], 0.0]) @ [np.cos(along), np.sin(along)]
+    assert bent["leg_overhang_reserve"] == pytest.approx(bent["leg_length"] - reached, rel=1e-9)
+
+
+def test_tang_keeps_the_play_that_the_growing_coil_leaves(bent: dict[str, Any]) -> None:
+    # D n = D' n': the coil's radius changes by as much as the turns it gains or loses on the way from rest.
+    turns = max(bent["spring_winding"] - bent["preload_angle"], bent["spring_unwinding"]) / (2.0 * np.pi)
+    radius = 0.5 * bent["coil_diameter"]
+    change = radius - radius * bent["coil_count"] / (bent["coil_count"] + turns)
+    assert bent["tang_reserve"] == pytest.approx(bent["tang_clearance"] - change, abs=0.02 * change)
+
+
+def test_pins_bend_under_the_leg_like_a_round_cantilever(bent: dict[str, Any]) -> None:
+    force = bent["spring_rate"] * bent["spring_winding"] / bent["leg_arm"]
+    lever = bent["coil_end_level"] + bent["helix_slope"] * bent["leg_arm"] - bent["rotor_top_level"]
+    section = np.pi * bent["pin_diameter"] ** 4 / 64.0 / (0.5 * bent["pin_diameter"])  # I over c
+    # 31 MPa across the layers of printed PETG, as the catalogue assumes.
+    assert bent["pin_safety"] == pytest.approx(31e6 / (force * lever / section), rel=1e-9)
+
+
+def test_fitting_the_second_hand_winds_the_first_by_twice_the_preload(bent: dict[str, Any]) -> None:
+    index = bent["coil_diameter"] / bent["wire_diameter"]
+    factor = (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
+    torque = bent["spring_rate"] * 2.0 * bent["preload_angle"]
+    stress = factor * torque * 0.5 * bent["wire_diameter"] / (np.pi * bent["wire_diameter"] ** 4 / 64.0)
+    # Music wire at 2.413 mm: 2211 MPa/2.413^0.145, yield in bending 0.78 of it (Shigley, table 10-4 and section 10-12).
+    assert bent["spring_assembly_safety"] == pytest.approx(0.78 * 2211e6 / 2.413**0.145 / stress, rel=1e-6)
+
+
+def test_the_european_stress_factor_can_be_chosen(inputs: dict[str, Any]) -> None:
+    index = 24.4094 / 2.413
+    ours, theirs = (
+        TABLE.evaluate({**inputs, "stress_factor": name}, ["stress_per_angle"])["stress_per_angle"]
+        for name in ("shigley", "en_13906")
+    )
+    en = (index + 0.07) / (index - 0.75)
+    assert theirs / ours == pytest.approx(en / ((4 * index**2 - index - 1) / (4 * index * (index - 1))), rel=1e-9)
+
+
+def test_bought_springs_spread_as_din_2194_says(bent: dict[str, Any]) -> None:
+    # Grade 2: 18.7 degrees of free angle, and 0.025 * 24.4094 * 2.413^-0.17 = 0.525 mm of diameter.
+    assert np.degrees(bent["free_angle_tolerance"]) == pytest.approx(18.7, rel=2e-3)
+    assert bent["coil_diameter_tolerance"] == pytest.approx(0.5253e-3, rel=1e-3)
+    assert bent["free_angle_over_preload"] == pytest.approx(np.radians(18.7) / bent["preload_reserve"], rel=2e-3)
+
+
+@pytest.mark.parametrize("point", ["cold", "hot"])
+def test_impedance_is_the_magnitude_of_springs_layer_and_structure(inputs: dict[str, Any], point: str) -> None:
+    wanted = ["spring_stiffness", "structure_stiffness"]
+    wanted += [f"{name}@{point}" for name in ("pcl_stiffness", "pcl_damping", "joint_impedance")]
+    found = TABLE.evaluate(inputs, wanted)
+    omega = 2.0 * np.pi * inputs[f"frequency@{point}"]
+    layer = complex(found[f"pcl_stiffness@{point}"], omega * found[f"pcl_damping@{point}"])
+    joint = found["spring_stiffness"] + 1.0 / (1.0 / layer + 1.0 / found["structure_stiffness"])
+    assert found[f"joint_impedance@{point}"] == pytest.approx(abs(joint), rel=1e-9)
