@@ -54,6 +54,8 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         found = answer(study, catalog, table, progress)
+        if drawing and found.found:
+            drawing.begin(folder.path / "plots", plot_data(found, table))
         told = results(found, table)
         design = _write(folder, path, study, found, told, table)
         progress("")
@@ -62,7 +64,7 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
         if drawing and found.found:
             progress("drawing the plots")
             with _noting(troubles):
-                drawing.draw(folder.path / "plots", plot_data(found, table))
+                drawing.finish()
         if cad and study.write.cad and found.found:
             with _noting(troubles):
                 told["cad"] = _parts(design, folder.path / "cad", progress)
