@@ -1,0 +1,84 @@
+"""What a virtual test comes to, as plain data: tables of curves, how they are drawn, and the numbers read off them.
+
+Every test returns one `Trial`; the report writes a CSV for each sheet and a figure from the panels, and knows nothing of
+what was tested.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Column:
+    """One quantity, sampled: SI values, and the unit people read it in."""
+
+    name: str
+    unit: str
+    values: Array
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Columns of one length; becomes one CSV file."""
+
+    name: str
+    columns: tuple[Column, ...]
+
+    def column(self, name: str) -> Column:
+        """The column of that name; raises KeyError where there is none."""
+        return next(column for column in self.columns if column.name == name)
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of a panel: two columns of a sheet. `band` names two columns between which the panel is shaded."""
+
+    sheet: str
+    x: str
+    y: str
+    label: str
+    band: tuple[str, str] | None = None
+    dashed: bool = False
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One pair of axes."""
+
+    title: str
+    x_label: str
+    y_label: str
+    lines: tuple[Line, ...]
+    log_x: bool = False
+    log_y: bool = False
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One number read off a test; `low` and `high` where the layer's history leaves an interval, else None."""
+
+    name: str
+    value: float
+    unit: str
+    meaning: str
+    low: float | None = None
+    high: float | None = None
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One virtual test, done."""
+
+    test: str
+    title: str
+    sheets: tuple[Sheet, ...]
+    panels: tuple[Panel, ...]
+    findings: tuple[Finding, ...]
+    notes: tuple[str, ...] = ()
+    """What a reader must know to read the curves right, one sentence each."""
