@@ -20,12 +20,12 @@ class Columns:
 
 @dataclass(frozen=True)
 class Shelf:
-    """What a record must say. Every required number is greater than zero; `rising` values must rise in that order."""
+    """What a record must say. Every required number is greater than zero; The values of each `rising` list must rise."""
 
     values: Mapping[str, str] = field(default_factory=dict)
     tables: Mapping[str, Columns] = field(default_factory=dict)
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    rising: tuple[str, ...] = ()
+    rising: tuple[tuple[str, ...], ...] = ()
 
 
 SHELVES: Mapping[str, Shelf] = {
@@ -76,10 +76,21 @@ SHELVES: Mapping[str, Shelf] = {
             "melt_reference_temperature": "degC",
             "zero_shear_viscosity": "Pa*s",
             "plateau_modulus": "MPa",
+            "avrami_exponent": "1",
+            "crystallization_half_time": "s",
+            "crystallization_reference": "degC",
+            "nucleation_constant": "K^2",
+            "equilibrium_melting_temperature": "degC",
+            "glass_transition": "degC",
+            "transport_energy": "kJ/mol",
             "decomposition_temperature": "degC",
         },
         tables={"melt_spectrum": Columns({"relaxation_time": "s", "modulus": "Pa"})},
-        rising=("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),
+        rising=(
+            ("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),
+            ("glass_transition", "crystallization_reference", "equilibrium_melting_temperature"),
+            ("melting_start", "equilibrium_melting_temperature"),
+        ),
     ),
     "peltiers": Shelf(
         values={

@@ -210,7 +210,8 @@ class _Check:
                     close = get_close_matches(name, set(present) - set(names), n=1)
                     hint = f"; is {close[0]} meant to be it?" if close else ""
                     self.no(f"{section}.{name}", f"missing; expected {expected}{hint}")
-        found = [(name, entries[name].value) for name in self.shelf.rising if name in entries]
-        for (one, low), (other, high) in pairwise(found):
-            if low >= high:
-                self.no(f"values.{other}", f"must be above {one}")
+        for names in self.shelf.rising:
+            found = [(name, entries[name].value) for name in names if name in entries]
+            for (one, low), (other, high) in pairwise(found):
+                if low >= high:
+                    self.no(f"values.{other}", f"must be above {one}")

@@ -7,7 +7,7 @@ import numpy as np
 from tvimdesign.catalog import Record
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Rule, Scalar
-from tvimdesign.physics import dynamics, layer, polymer, structure
+from tvimdesign.physics import crystallization, dynamics, layer, polymer, structure
 
 book = Book("Impedance")
 
@@ -26,6 +26,23 @@ def pcl_melting(
     """Melting curve of the PCL."""
     return polymer.Melting(pcl_specific_heat_solid, pcl_specific_heat_melt, pcl_latent_heat, pcl_melting_start,
                            pcl_melting_end, enthalpy_smoothing)  # fmt: skip
+
+
+@book.helper()
+def pcl_kinetics(
+    pcl_avrami_exponent: Scalar,
+    pcl_crystallization_half_time: Scalar,
+    pcl_crystallization_reference: Scalar,
+    pcl_nucleation_constant: Scalar,
+    pcl_equilibrium_melting_temperature: Scalar,
+    pcl_glass_transition: Scalar,
+    pcl_transport_energy: Scalar,
+    melting_time: Scalar,
+) -> crystallization.Kinetics:
+    """Freezing and melting of the PCL in time."""
+    return crystallization.Kinetics(pcl_avrami_exponent, pcl_crystallization_half_time, pcl_crystallization_reference,
+                                    pcl_nucleation_constant, pcl_equilibrium_melting_temperature, pcl_glass_transition,
+                                    pcl_transport_energy, melting_time)  # fmt: skip
 
 
 @book.helper()

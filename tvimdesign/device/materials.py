@@ -56,8 +56,16 @@ for name, unit, field, description in (
     ("pcl_tensile_yield", "MPa", "tensile_yield", "Tensile yield strength of the frozen PCL"),
     ("pcl_bond_strength", "MPa", "bond_strength", "Traction the bond of layer and faces bears"),
     ("pcl_melt_strain_limit", "1", "melt_strain_limit", "Shear strain the molten layer bears without tearing"),
+    ("pcl_decomposition_temperature", "degC", "decomposition_temperature", "Temperature at which PCL starts to decompose"),
     ("pcl_flow_activation_energy", "kJ/mol", "flow_activation_energy", "Flow activation energy of the melt"),
     ("pcl_melt_reference", "degC", "melt_reference_temperature", "Temperature of the melt's relaxation spectrum"),
+    ("pcl_avrami_exponent", "1", "avrami_exponent", "Avrami exponent of the freezing PCL"),
+    ("pcl_crystallization_half_time", "s", "crystallization_half_time", "Time in which half freezes at its reference"),
+    ("pcl_crystallization_reference", "degC", "crystallization_reference", "Reference temperature of that half-time"),
+    ("pcl_nucleation_constant", "K^2", "nucleation_constant", "Nucleation constant K_g of the freezing PCL"),
+    ("pcl_equilibrium_melting_temperature", "degC", "equilibrium_melting_temperature", "No PCL freezes above that"),
+    ("pcl_glass_transition", "degC", "glass_transition", "Glass transition of the PCL"),
+    ("pcl_transport_energy", "kJ/mol", "transport_energy", "Activation energy of transport to the growing crystal"),
 ):
     book.property(name, unit, ("pcl_grade", field), description)
 
