@@ -1,6 +1,9 @@
 """The module itself: parametric geometry, the modes, and the one table of variables and outputs."""
 
 from tvimdesign.device.modes import MODES, table_for
-from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Rule, Scalar, Table
+from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Rule, Scalar, Stage, Steady, Supplied, Table
 
-__all__ = ["MODES", "Choice", "Event", "Input", "Output", "Path", "Rule", "Scalar", "Table", "table_for"]
+__all__ = [
+    "MODES", "Choice", "Event", "Input", "Output", "Path", "Rule", "Scalar", "Stage", "Steady", "Supplied", "Table",
+    "table_for",
+]  # fmt: skip

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeVar
 
 import yaml
 
-from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Row, Rule
+from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Row, Rule, Stage, Steady
 from tvimdesign.units import to_si
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -98,23 +98,40 @@ class Book:
 
         return add
 
-    def event(self, function: F) -> F:
-        """Add a time: the first instant at which the function, which rises, passes zero."""
-        name, about = function.__name__, _summary(function)
-        row = Event(name=name, unit="s", description=about, group=self.group, function=function, headline=True)
-        self.rows.append(row)
-        return function
+    def event(self, stage: Stage, *, headline: bool = True) -> Callable[[F], F]:
+        """Add a time: the first instant of a stage at which the function, which rises, passes zero."""
+
+        def add(function: F) -> F:
+            row = Event(name=function.__name__, unit="s", description=_summary(function), group=self.group,
+                        function=function, stage=stage.name, headline=headline)  # fmt: skip
+            self.rows.append(row)
+            return function
+
+        return add
 
     def helper(self, *, per_point: bool = False, instant: bool = False) -> Callable[[F], F]:
         """Add an intermediate result that other rows use and nobody asks for."""
         return self.output("1", per_point=per_point, instant=instant, hidden=True)
 
-    def path(self, unit: str, reduce: Literal["integral", "maximum"], *, headline: bool = False) -> Callable[[F], F]:
-        """Add what an instant's value adds up to, or reaches, over the switch."""
+    def path(
+        self, stage: Stage, unit: str, reduce: Literal["integral", "maximum"], *, headline: bool = False
+    ) -> Callable[[F], F]:
+        """Add what an instant's value adds up to, or reaches, over a stage."""
 
         def add(function: F) -> F:
             row = Path(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                       function=function, reduce=reduce, headline=headline)  # fmt: skip
+                       function=function, stage=stage.name, reduce=reduce, headline=headline)  # fmt: skip
+            self.rows.append(row)
+            return function
+
+        return add
+
+    def steady(self, stage: Stage, unit: str, *, headline: bool = False) -> Callable[[F], F]:
+        """Add what an instant's value is when everything stays where a stage ends."""
+
+        def add(function: F) -> F:
+            row = Steady(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
+                         function=function, stage=stage.name, headline=headline)  # fmt: skip
             self.rows.append(row)
             return function
 

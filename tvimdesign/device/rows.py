@@ -6,9 +6,10 @@ parameter `wire_diameter` is the row `wire_diameter`. So the table is also the d
 CasADi symbols go through the same functions.
 
 A row with `per_point=True` has one value at each operating point and is written `name@point`; another row asks for it
-at a certain point with a parameter `name_at_point`. A row with `instant=True` has a value at each instant of a switch.
-`Event` rows are the times at which something that rises passes zero; `Path` rows reduce an instant's value over the
-switch. The solver, or a simulation, supplies those two; everything else is arithmetic.
+at a certain point with a parameter `name_at_point`. A row with `instant=True` has a value at each instant of a stage
+(heating until the joint is soft is one, cooling until it is stiff again another). `Event` rows are the times at which
+something that rises passes zero; `Path` rows reduce an instant's value over a stage; `Steady` rows are what it takes to
+stay where a stage ends. The solver, or a simulation, supplies those three; everything else is arithmetic.
 """
 
 from __future__ import annotations
@@ -104,19 +105,55 @@ class Output:
 
 @dataclass(frozen=True, kw_only=True)
 class Event(Output):
-    """A time in seconds: the first instant of the switch at which `function`, which rises, passes zero."""
+    """A time in seconds: the first instant of a stage at which `function`, which rises, passes zero."""
+
+    stage: str
 
 
 @dataclass(frozen=True, kw_only=True)
 class Path(Output):
-    """What `function` adds up to, or reaches, from the start of the switch to its `response_time`."""
+    """What `function` adds up to, or reaches, from the start of a stage to the event that ends it."""
 
+    stage: str
     reduce: Literal["integral", "maximum"]
 
 
+@dataclass(frozen=True, kw_only=True)
+class Steady(Output):
+    """What `function` is in the steady state in which the event that ends a stage stays at zero."""
+
+    stage: str
+
+
 Row: TypeAlias = Input | Choice | Output
+Supplied = (Event, Path, Steady)
+"""The kinds of output that a simulation or the optimiser supplies."""
+
 STATE = "state"
-"""The one name that is no row: the thermal state of the stack at an instant, a list of scalars."""
+"""The thermal state of the stack at an instant, one array. This and the next two are names that are no rows."""
+DRIVE = "drive_current"
+"""The current [A] at an instant, positive where it heats."""
+STAGE = "stage"
+"""The `Stage` an instant belongs to."""
+_NO_ROWS = frozenset({STATE, DRIVE, STAGE})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stage:
+    """A part of the device's working cycle that is simulated in one go."""
+
+    name: str
+    description: str
+    after: str | None
+    """The stage whose end it starts from; None starts with everything at ambient temperature."""
+    ends: str
+    """The event that ends it."""
+    drive: str
+    """The input that is its current where that is constant."""
+    sign: float
+    """1 where the current heats the layer, -1 where it cools."""
+    history: bool
+    """Whether the polymer's solid fraction has a history of its own, by the kinetics of freezing."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +161,7 @@ class Table:
     """Every row of one kind of module, looked up by name."""
 
     rows: tuple[Row, ...]
+    stages: tuple[Stage, ...] = ()
     by_name: dict[str, Row] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -136,7 +174,7 @@ class Table:
         object.__setattr__(self, "by_name", index)
         for row in self.outputs:
             for need in row.needs:
-                if need.partition("@")[0] not in index and need != STATE:
+                if need.partition("@")[0] not in index and need not in _NO_ROWS:
                     raise ValueError(f"row {row.name!r} needs {need!r}, which is no row")
 
     @cached_property
@@ -163,6 +201,15 @@ class Table:
             if not (row.instant or row.hidden)
             for name in ([f"{row.name}@{point}" for point in points] if row.per_point else [row.name])
         ]
+
+    @cached_property
+    def supplied(self) -> tuple[Event | Path | Steady, ...]:
+        """The outputs that a simulation or the optimiser supplies."""
+        return tuple(row for row in self.outputs if isinstance(row, Supplied))
+
+    def stage(self, name: str) -> Stage:
+        """The stage of that name."""
+        return next(stage for stage in self.stages if stage.name == name)
 
     def row(self, name: str) -> Row:
         """Return the row of a full name; raises InputError where there is none."""
@@ -199,28 +246,28 @@ class Table:
             return known[name]
         base, _, point = name.partition("@")
         row = self.row(base)
-        if not isinstance(row, Output) or isinstance(row, Event | Path):
+        if not isinstance(row, Output) or isinstance(row, Supplied):
             raise InputError(f"{name!r} has no value")
         known[name] = row.call([self._resolve(self._at(need, point), known) for need in row.needs])
         return known[name]
 
     def evaluate_instant(self, given: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
-        """Compute rows at one instant of the switch, each once; `given` must hold the state.
+        """Compute rows at one instant of a stage, each once; `given` must hold the state, the current and the stage.
 
-        Of an event the value is what it waits for, of a path what it reduces.
+        Of an event the value is what it waits for, of a path what it reduces, of a steady row what it takes.
         """
         known = dict(given)
         values: dict[str, Scalar] = {}
         for name in wanted:
             row = self.row(name)
-            if isinstance(row, Event | Path):
+            if isinstance(row, Supplied):
                 values[name] = row.call([self._resolve(need, known) for need in row.needs])
             else:
                 values[name] = self._resolve(name, known)
         return values
 
     def _at(self, need: str, point: str) -> str:
-        if need == STATE or "@" in need:
+        if need in _NO_ROWS or "@" in need:
             return need
         row = self.by_name[need]
         per_point = not isinstance(row, Choice) and row.per_point
@@ -234,7 +281,7 @@ class Table:
             row = self.by_name[todo.pop()]
             for need in row.needs if isinstance(row, Output) else ():
                 base = need.partition("@")[0]
-                if base not in seen and base != STATE:
+                if base not in seen and base not in _NO_ROWS:
                     seen.add(base)
                     todo.append(base)
         return frozenset(seen)

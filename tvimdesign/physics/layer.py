@@ -5,8 +5,9 @@ Textbook torsion of a flat ring: shear strain r theta/t, traction G r theta/t, t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
 
 
 def polar_moment(total_span: Any, inner_radius: Any, outer_radius: Any) -> Any:
@@ -19,14 +20,13 @@ def area(total_span: Any, inner_radius: Any, outer_radius: Any) -> Any:
     return 0.5 * total_span * (outer_radius**2 - inner_radius**2)
 
 
-def series_modulus(moduli: Sequence[tuple[Any, Any]]) -> tuple[Any, Any]:
+def series_modulus(storage: Any, loss: Any) -> tuple[Any, Any]:
     """Storage and loss modulus [Pa] of equally thick slices that carry one shear stress: 1/G* = mean of 1/G*_i.
 
-    A thin molten slice therefore softens the layer long before all of it is hot.
+    Takes the slices' moduli as arrays. A thin molten slice therefore softens the layer long before all of it is hot.
     """
-    compliances = [(storage / (storage**2 + loss**2), loss / (storage**2 + loss**2)) for storage, loss in moduli]
-    real = sum(pair[0] for pair in compliances) / len(moduli)
-    imaginary = sum(pair[1] for pair in compliances) / len(moduli)
+    square = storage**2 + loss**2
+    real, imaginary = np.mean(storage / square), np.mean(loss / square)
     square = real**2 + imaginary**2
     return real / square, imaginary / square
 

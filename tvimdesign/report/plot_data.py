@@ -25,7 +25,7 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
     melting = [shown("pcl_melting_start"), shown("pcl_melting_end")]
     return {
         "switch_temperatures": {
-            "history": answer.history,
+            "history": answer.histories["softening"],
             "melting": melting,
             "target": shown("target_temperature"),
             "thickness": shown("pcl_thickness"),

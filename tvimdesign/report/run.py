@@ -90,8 +90,9 @@ def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told:
     folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
     folder.write_json("results.json", told)
     folder.write("results.csv", results_csv(told["values"]))
-    units = {"time": "s", "joint_impedance": "N*m/rad"}
-    folder.write("temperatures.csv", curves_csv(found.history, units, "degC"))
+    units = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
+    for stage, history in found.histories.items():
+        folder.write(f"{stage}.csv", curves_csv(history, units, "degC"))
     units = {name: table.unit(name) for name in found.sweep}
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     return write_design(found.design, folder.path / "design.json")

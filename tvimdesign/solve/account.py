@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Literal
+
+import numpy as np
 
 from tvimdesign.solve.limits import in_words, make_limit, on_switch
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer, Run
@@ -13,9 +16,13 @@ SWITCH_TOLERANCE = 2e-3
 """Share by which a limit on a row that depends on a switch may be broken: collocation against the simulation."""
 
 
+SAME_CURRENT = 1e-4
+"""Share of the range within which a current is said to be at its end."""
+
+
 def account(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:
     """Simulate and check a run's design again, and say what holds it."""
-    switch = optimizer.simulator.run(run.inputs)
+    switch = optimizer.simulator.run(run.inputs, run.drives)
     values = optimizer.model.values(run.inputs, switch.values)
     limits = _held_by_limits(optimizer, run, values)
     tolerances = [
@@ -32,11 +39,12 @@ def account(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: 
         feasible=feasible,
         model=optimizer.model,
         inputs=run.inputs,
+        drives=run.drives,
         switch=switch,
         values=values,
         objective=sum(w * values[n] / optimizer.reference[n] for n, w in optimizer.study.minimize.items()),
         starts=starts,
-        held=(*limits, *_held_by_bounds(optimizer, run)),
+        held=(*limits, *_held_by_bounds(optimizer, run), *_held_by_currents(optimizer, run)),
         reference=optimizer.reference,
         seconds=seconds,
     )
@@ -81,3 +89,45 @@ def _held_by_bounds(optimizer: Optimizer, run: Run) -> list[Held]:
                 )
             )
     return found
+
+
+def _held_by_currents(optimizer: Optimizer, run: Run) -> list[Held]:
+    """The ends of the range of a free current, all its nodes together, and the supply's slew."""
+    found = []
+    objective = run.start.objective or 1.0
+    for current, place in optimizer.places_of_currents():
+        multipliers, shares = run.bound_multipliers[place], run.unknowns[place]
+        senses: tuple[tuple[Literal["<=", ">="], float, float], ...] = (
+            ("<=", current.upper, 1.0), (">=", current.lower, -1.0),
+        )  # fmt: skip
+        for sense, bound, sign in senses:
+            limit = make_limit(optimizer.table, current.row, sense, bound, "vary")
+            at_it = int(np.sum(sign * (shares - bound / current.upper) >= -SAME_CURRENT))
+            price = float(np.sum(np.maximum(sign * multipliers, 0.0))) * limit.scale / current.upper
+            found.append(
+                Held(
+                    name=f"{limit.name} in {current.stage}",
+                    text=f"{in_words(limit, optimizer.table)}, at {at_it} of {current.nodes} moments of {current.stage}",
+                    residual=float(np.max(sign * (shares - bound / current.upper))),
+                    price=price / objective,
+                    step=limit.step,
+                    origin="vary",
+                )
+            )
+    return found + _held_by_slew(optimizer, run)
+
+
+def _held_by_slew(optimizer: Optimizer, run: Run) -> list[Held]:
+    if not optimizer.currents:
+        return []
+    first = optimizer.problem.equation_count + len(optimizer.problem.limits)
+    prices = run.multipliers[first : first + optimizer.problem.slope_count]
+    value = float(optimizer.model.start[optimizer.model.index["current_slew"]])
+    limit = make_limit(optimizer.table, "current_slew", "<=", value, "module")
+    steepest = max(
+        abs(b - a) * (len(drive.currents) - 1) / drive.duration / value - 1.0
+        for drive in run.drives.values()
+        for a, b in itertools.pairwise(drive.currents)
+    )
+    price = float(np.sum(prices)) / (run.start.objective or 1.0)
+    return [Held(limit.name, in_words(limit, optimizer.table), steepest, price, limit.step, "module")]

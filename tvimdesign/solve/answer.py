@@ -5,16 +5,19 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.solve.account import SWITCH_TOLERANCE
-from tvimdesign.solve.curves import Curves, impedance_sweep, switch_history
+from tvimdesign.solve.curves import Curves, impedance_sweep, stage_history
 from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch, refuse_impossible
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Progress
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.simulate import Simulator
+from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.solve.solution import Solution
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
@@ -47,7 +50,8 @@ class Answer:
     """Requirements and rules."""
     warnings: tuple[Check, ...]
     """Advice that the design does not follow."""
-    history: Curves
+    histories: dict[str, Curves]
+    """By stage."""
     sweep: Curves
     solution: Solution | None
 
@@ -69,26 +73,30 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
     if study.task == "optimize":
         solution = optimize(study, catalog, table, progress)
         model, inputs, switch, values = solution.model, solution.inputs, solution.switch, solution.values
-        status = solution.status
+        status, drives = solution.status, solution.drives
     else:
-        progress("simulating one switch")
+        progress("simulating one working cycle")
         model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
         switch = Simulator(model).run(inputs)
         values = model.values(inputs, switch.values)
-        status = "evaluated"
+        status, drives = "evaluated", {}
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
     design = Design(
         tvimdesign=__version__, name=study.name, mode=study.mode, status=status,
         choices=_choices(model, table), values={**numbers, **values}, study=study.model_dump(mode="json"),
-        solution=_plain(solution),
+        drives={stage: drive.plain() for stage, drive in drives.items()}, solution=_plain(solution),
     )  # fmt: skip
     checks = tuple(_check(limit, values, table) for limit in limits_of(study, table))
     warnings = tuple(check for check in (_check(limit, values, table) for limit in advice_of(table)) if not check.kept)
     return Answer(
-        design=design, checks=checks, warnings=warnings, history=switch_history(model, inputs, switch),
+        design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, switch),
         sweep=impedance_sweep(model, inputs, switch), solution=solution,
     )  # fmt: skip
+
+
+def _histories(model: Model, inputs: NDArray[np.float64], switch: Switch) -> dict[str, Curves]:
+    return {stage: stage_history(model, inputs, line, stage) for stage, line in switch.trajectories.items()}
 
 
 def _choices(model: Model, table: Table) -> dict[str, str]:

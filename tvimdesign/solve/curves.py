@@ -1,4 +1,4 @@
-"""What is drawn: the layer's temperatures over a switch, and stiffness and damping against temperature."""
+"""What is drawn: the layer's temperatures over each stage, and stiffness and damping against temperature."""
 
 from __future__ import annotations
 
@@ -7,24 +7,29 @@ from numpy.typing import NDArray
 
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Switch
+from tvimdesign.solve.simulate import Switch, Trajectory
 
 Array = NDArray[np.float64]
 Curves = dict[str, list[float]]
 SAMPLES = 161
 
 
-def switch_history(model: Model, inputs: Array, switch: Switch) -> Curves:
-    """Temperatures [degC] through the stack over one switch, and the joint's impedance [N*m/rad], by column name."""
-    states, times = switch.trajectory.states, switch.trajectory.times
+def stage_history(model: Model, inputs: Array, trajectory: Trajectory, stage: str) -> Curves:
+    """Temperatures [degC] through the stack over a stage, current [A], impedance [N*m/rad], frozen share, by column."""
+    states, times = trajectory.states, trajectory.times
+    currents = trajectory.currents[None, :]
     columns = np.repeat(inputs[:, None], len(times), axis=1)
-    temperatures = np.asarray(model.temperatures.map(len(times))(states, columns)) - ZERO_CELSIUS
-    impedance = np.asarray(model.impedance_now.map(len(times))(states, columns)).ravel()
+    compiled = model.stages[stage]
+    temperatures = np.asarray(compiled.temperatures.map(len(times))(states, currents, columns)) - ZERO_CELSIUS
+    impedance = np.asarray(compiled.impedance_now.map(len(times))(states, currents, columns)).ravel()
+    frozen = np.mean(np.asarray(compiled.fractions.map(len(times))(states, currents, columns)), axis=0)
     depth = [f"cell_{i + 1}" for i in range(model.cells)]
     plate = [f"rotor_{i + 1}" for i in range(int(inputs[model.index["rotor_cells"]]))]
     names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate, "rotor_rest", "core_and_link"]
+    names += ["sink"] * (len(temperatures) - len(names))
     history = dict(zip(names, temperatures.tolist(), strict=True))
-    return {"time": times.tolist(), **history, "joint_impedance": impedance.tolist()}
+    more = {"current": trajectory.currents.tolist(), "frozen": frozen.tolist(), "joint_impedance": impedance.tolist()}
+    return {"time": times.tolist(), **history, **more}
 
 
 def impedance_sweep(model: Model, inputs: Array, switch: Switch) -> Curves:

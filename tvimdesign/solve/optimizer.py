@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -14,11 +15,13 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
 from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
+from tvimdesign.solve.drive import Drive
 from tvimdesign.solve.limits import Limit, impossible, in_words, is_constant, limits_of, on_switch
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.problem import Free, Problem
-from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.solve.problem import Free, FreeCurrent, Problem
+from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
 from tvimdesign.solve.solution import Start
+from tvimdesign.solve.stage_model import StageModel
 from tvimdesign.solve.transcription import guess
 from tvimdesign.study import Range, Study, given
 
@@ -54,6 +57,8 @@ class Run:
 
     start: Start
     inputs: Array
+    drives: dict[str, Drive]
+    """The free currents by stage."""
     unknowns: Array
     multipliers: Array
     bound_multipliers: Array
@@ -83,7 +88,10 @@ class Optimizer:
         self.simulator = Simulator(self.model)
         self.start_switch = self.simulator.run(self.model.start)
         self.start_values = self.model.values(self.model.start, self.start_switch.values)
-        self.free = tuple(self._free(name) for name in study.vary if isinstance(table.row(name), Input))
+        self.currents = tuple(self._current(stage, pieces) for stage, pieces in study.profile.pieces().items())
+        rows = {current.row for current in self.currents}
+        numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
+        self.free = tuple(self._free(name) for name in numbers)
         self.problem = self._problem(limits_of(study, table))
         self.reference = reference or {name: self._reference(name) for name in study.minimize}
         self._solvers: dict[bool, Any] = {}
@@ -99,9 +107,15 @@ class Optimizer:
             lower, upper = min(numbers), max(numbers)
         return Free(name, lower, upper, reference if reference != 0.0 else upper)
 
+    def _current(self, stage: str, pieces: int) -> FreeCurrent:
+        row = self.table.stage(stage).drive
+        vary = self.study.vary[row]
+        assert isinstance(vary, Range)  # the reader sees to that
+        return FreeCurrent(stage, row, pieces, vary.lower, vary.upper)
+
     def _problem(self, limits: list[Limit]) -> Problem:
         """The problem without the limits that nothing free can change; those are checked here and now."""
-        free = [f.name for f in self.free]
+        free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
         constant = [limit for limit in limits if is_constant(limit, self.table, free)]
         for limit in constant:
             value = self.start_values[limit.output]
@@ -111,9 +125,10 @@ class Optimizer:
                     f"vary one of: {', '.join(self._variables_behind(limit.output))}"
                 )
         kept = [limit for limit in limits if limit not in constant]
-        problem = Problem(self.model, self.free, kept, tuple(self.study.minimize), self.study.solver.elements)
-        problem.check()
-        return problem
+        elements = self.study.solver.elements
+        for current in self.currents:  # corners of the current lie between elements
+            elements = math.lcm(elements, current.pieces) if elements % current.pieces else elements
+        return Problem(self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents)
 
     def _variables_behind(self, name: str) -> list[str]:
         above = self.table.ancestors(name)
@@ -153,7 +168,7 @@ class Optimizer:
         study's own is replaced by the first random one.
         """
         random = np.random.default_rng(self.study.solver.seed)
-        if np.isfinite(self.start_switch.values["response_time"]):
+        if self._trial(self.model.start) is not None:
             yield self.model.start
         else:
             self.progress("the switch of the study's own start never ends: starting elsewhere")
@@ -187,27 +202,42 @@ class Optimizer:
     def _trial(self, inputs: Array) -> Switch | None:
         """The switch at a point, None where it does not end."""
         try:
-            switch = self.start_switch if inputs is self.model.start else self.simulator.run(inputs)
+            known = inputs is self.model.start
+            switch = self.start_switch if known else self.simulator.run(inputs, stages=self.problem.stages)
         except SimulationError:
             return None
-        return switch if np.isfinite(switch.values["response_time"]) else None
+        return switch if all(np.isfinite(switch.values[event]) for event in self.problem.events) else None
 
     def _guess(self, inputs: Array) -> Array:
         """Unknowns at a point: the free numbers, and the switch simulated there (as far as it goes where it stalls)."""
         switch = self._trial(inputs) or self.start_switch
         parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.free])]
         for block in self.problem.blocks:
+            trajectory = switch.trajectories.get(block.stage.stage.name)
+            if trajectory is None:  # a stage that does not begin: as it would stand after the first
+                trajectory = self._standing(block.stage, switch)
             end = switch.values[block.event]
-            end = end if np.isfinite(end) else switch.trajectory.times[-1]
-            parts += [
-                guess(switch.trajectory, self.problem.elements).ravel(order="F"),
-                np.array([np.log(max(end, 1e-3))]),
-            ]
+            end = end if np.isfinite(end) else trajectory.times[-1]
+            points = guess(trajectory, self.problem.elements).ravel(order="F")
+            parts += [points, np.array([np.log(max(end, 1e-3))])]
+        for current in self.currents:
+            size = np.clip(inputs[self.model.index[current.row]], current.lower, current.upper)
+            parts.append(np.full(current.nodes, size / current.upper))
+        for balance in self.problem.balances:
+            begin = switch.balances.get(balance.stage)
+            last = switch.trajectories[balance.stage]
+            parts.append(np.append(last.states[:, -1], last.currents[-1]) if begin is None else begin)
         for name in self.problem.peaks:
             row = self.table.row(name)
             assert isinstance(row, Path)
-            parts.append(np.array([switch.values[name] / self.problem.peak_scale(row)]))
+            value = switch.values[name]
+            parts.append(np.array([(value if np.isfinite(value) else 1.0) / self.problem.peak_scale(row)]))
         return np.concatenate(parts)
+
+    def _standing(self, stage: StageModel, switch: Switch) -> Trajectory:
+        last = switch.trajectory
+        state = np.asarray(stage.begin(last.states[:, -1], self.model.start)).ravel()
+        return Trajectory(np.array([0.0, 60.0]), np.column_stack([state, state]), np.zeros(2))
 
     # --- solving ---
 
@@ -224,7 +254,7 @@ class Optimizer:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         weights = [self.study.minimize[name] / self.reference[name] for name in self.problem.minimize]
         equations = self.problem.equation_count
-        rest = len(self.problem.limits) + self.problem.peak_count
+        rest = len(self.problem.limits) + self.problem.slope_count + self.problem.peak_count
         answer = solver(
             **arguments, p=np.concatenate([self.model.start, weights]), lbx=lower, ubx=upper,
             lbg=np.concatenate([np.zeros(equations), np.full(rest, -np.inf)]), ubg=np.zeros(equations + rest),
@@ -241,7 +271,8 @@ class Optimizer:
             iterations=int(stats["iter_count"]), objective=float(answer["f"]), seconds=seconds,
             begin=self._free_values(inputs), end=self._free_values(end),
         )  # fmt: skip
-        return Run(start, end, unknowns, np.asarray(answer["lam_g"]).ravel(), np.asarray(answer["lam_x"]).ravel())
+        drives = self._drives_of(unknowns)
+        return Run(start, end, drives, unknowns, np.asarray(answer["lam_g"]).ravel(), np.asarray(answer["lam_x"]).ravel())
 
     def _bounds(self, fixed: Mapping[str, float]) -> tuple[Array, Array]:
         lower = np.full(self.problem.unknown_count, -np.inf)
@@ -249,12 +280,36 @@ class Optimizer:
         for i, free in enumerate(self.free):
             low, high = (fixed[free.name],) * 2 if free.name in fixed else (free.lower, free.upper)
             lower[i], upper[i] = free.to_unknown(low), free.to_unknown(high)
+        for current, place in self.places_of_currents():
+            lower[place], upper[place] = current.lower / current.upper, 1.0
         return lower, upper
+
+    def places_of_currents(self) -> Iterator[tuple[FreeCurrent, slice]]:
+        """Where the free currents stand among the unknowns."""
+        first = len(self.free) + sum(block.unknowns.numel() for block in self.problem.blocks)
+        for current in self.currents:
+            yield current, slice(first, first + current.nodes)
+            first += current.nodes
+
+    def _drives_of(self, unknowns: Array) -> dict[str, Drive]:
+        """The free currents over the time their stage takes."""
+        first, times = len(self.free), {}
+        for block in self.problem.blocks:
+            first += block.unknowns.numel()
+            times[block.event] = float(np.exp(unknowns[first - 1]))
+        drives = {}
+        for current, place in self.places_of_currents():
+            stage = self.table.stage(current.stage)
+            sizes = np.clip(unknowns[place] * current.upper, current.lower, current.upper)
+            drives[stage.name] = Drive(times[stage.ends], tuple(float(stage.sign * size) for size in sizes))
+        return drives
 
     def _inputs_of(self, unknowns: Array) -> Array:
         inputs = self.model.start.copy()
         for i, free in enumerate(self.free):
             inputs[self.model.index[free.name]] = min(max(free.to_value(unknowns[i]), free.lower), free.upper)
+        for stage, drive in self._drives_of(unknowns).items():  # the row has one number: the mean
+            inputs[self.model.index[self.table.stage(stage).drive]] = abs(drive.mean)
         return inputs
 
     def _free_values(self, inputs: Array) -> dict[str, float]:

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.device import Path
+from tvimdesign.device import Event, Path, Steady
 from tvimdesign.errors import InputError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.limits import Limit
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.transcription import Block, at_each, switch_block
+from tvimdesign.solve.transcription import Block, at_each, stage_block
 
 Array = NDArray[np.float64]
 
@@ -46,16 +46,50 @@ class Free:
         return self.reference * (np.exp(unknown) if self.logarithmic else unknown)
 
 
+@dataclass(frozen=True)
+class FreeCurrent:
+    """The current of one stage, free at the nodes of its pieces, between `lower` and `upper` [A] in size."""
+
+    stage: str
+    row: str
+    pieces: int
+    lower: float
+    upper: float
+
+    @property
+    def nodes(self) -> int:
+        """Count of its unknowns, currents over `upper`."""
+        return self.pieces + 1
+
+
+@dataclass(frozen=True)
+class Balance:
+    """A steady state that is unknown: everything stays, with the event that ends the stage at zero."""
+
+    stage: str
+    unknowns: Any
+    """MX, the state and the current [A]."""
+    equations: Any
+
+
 class Problem:
     """A nonlinear programme, `function` = {x, p, f, g} as CasADi's nlpsol takes it.
 
-    x: the free numbers; for each block its states, column by column, and its log time; the peaks.
+    x: the free numbers; for each block its states, column by column, and its log time; the free currents at their
+    nodes; the balances' states and currents; the peaks.
     p: every input of the device, then the weights of what is minimised.
-    g: the blocks' equations, zero; the limits' residuals, in their order, kept where <= 0; samples less peaks, <= 0.
+    g: equations, zero; the limits' residuals, in their order, kept where <= 0; the currents' slopes; samples less
+    peaks, all <= 0.
     """
 
     def __init__(
-        self, model: Model, free: Sequence[Free], limits: Sequence[Limit], minimize: Sequence[str], elements: int
+        self,
+        model: Model,
+        free: Sequence[Free],
+        limits: Sequence[Limit],
+        minimize: Sequence[str],
+        elements: int,
+        currents: Sequence[FreeCurrent] = (),
     ) -> None:
         """Write objective and constraints. `minimize` names the outputs whose weighted sum is least."""
         self.model = model
@@ -63,6 +97,9 @@ class Problem:
         self.limits = tuple(limits)
         self.minimize = tuple(minimize)
         self.elements = elements
+        self.free_currents = tuple(currents)
+        self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
+        self._check()
         self._build()
 
     def _build(self) -> None:
@@ -70,21 +107,28 @@ class Problem:
         inputs = ca.MX.sym("inputs", len(self.model.names))
         weights = ca.MX.sym("weights", len(self.minimize))
         device_inputs = self._device_inputs = self._with_unknowns(inputs, unknowns)
-        wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
-        self.blocks = self._write_blocks(wanted, device_inputs)
+        self._nodes = {c.stage: ca.MX.sym(f"current_{c.stage}", c.nodes) for c in self.free_currents}
+        self.blocks = self._write_blocks(device_inputs)
+        self.balances = self._write_balances(device_inputs)
         switch, self.peaks, peak_rows = self._switch_values()
+        wanted = self.wanted
         values = self.model.outputs(wanted)(device_inputs, switch) if wanted else ca.MX(0, 1)
         objective = sum(weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
         rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
-        equations = ca.vertcat(*(block.equations for block in self.blocks))
-        everything = ca.vertcat(unknowns, *(self._block_unknowns(b) for b in self.blocks), *self.peaks.values())
+        equations = ca.vertcat(*(part.equations for part in (*self.blocks, *self.balances)))
+        slopes = self._slopes(device_inputs)
+        everything = ca.vertcat(
+            unknowns, *(block.unknowns for block in self.blocks), *self._nodes.values(),
+            *(balance.unknowns for balance in self.balances), *self.peaks.values(),
+        )  # fmt: skip
         self.equation_count = equations.numel()
+        self.slope_count = slopes.numel()
         self.peak_count = peak_rows.numel()
         self.function = {
             "x": everything,
             "p": ca.vertcat(inputs, weights),
             "f": objective,
-            "g": ca.vertcat(equations, *rows, peak_rows),
+            "g": ca.vertcat(equations, *rows, slopes, peak_rows),
         }
         self.unknown_count = everything.numel()
 
@@ -95,19 +139,85 @@ class Problem:
             entries[self.model.index[free.name]] = free.to_value(unknowns[i])
         return ca.vertcat(*entries)
 
-    def _write_blocks(self, wanted: Sequence[str], inputs: Any) -> list[Block]:
-        needed = self._needed(wanted)
-        events = [row.name for row in self.model.events if row.name in needed]
-        if "response_time" not in events and any(row.name in needed for row in self.model.paths):
-            events.append("response_time")
-        return [switch_block(self.model, event, self.elements, inputs) for event in events]
+    # --- what is simulated elsewhere, as equations ---
 
-    def _needed(self, wanted: Sequence[str]) -> set[str]:
+    @property
+    def events(self) -> list[str]:
+        """The events whose times the problem needs, each after those it starts from."""
+        needed = self._needed()
+        stages = self.model.stages
+        ending: set[str] = {
+            stages[row.stage].stage.ends
+            for row in self.model.table.supplied
+            if isinstance(row, Path) and row.name in needed
+        }
+        found: list[str] = []
+        for stage in reversed(stages.values()):
+            mine = [row.name for row in stage.events if row.name in needed | ending]
+            if mine and stage.stage.after:
+                ending.add(stages[stage.stage.after].stage.ends)
+            found = mine + found
+        return found
+
+    @property
+    def stages(self) -> set[str]:
+        """The stages that must be simulated to know what the problem needs."""
+        rows = [self.model.table.row(name) for name in (*self.events, *self._needed())]
+        return {row.stage for row in rows if isinstance(row, Event | Path | Steady)}
+
+    def _needed(self) -> set[str]:
         table = self.model.table
-        return {base for name in wanted for base in (name.partition("@")[0], *table.ancestors(name))}
+        return {base for name in self.wanted for base in (name.partition("@")[0], *table.ancestors(name))}
+
+    def currents_at_nodes(self, stage: str, inputs: Any) -> Any:
+        """Current [A] of a stage at its nodes: one where it is constant."""
+        row = self.model.stages[stage].stage
+        for current in self.free_currents:
+            if current.stage == stage:
+                return row.sign * current.upper * self._nodes[stage]
+        return row.sign * inputs[self.model.index[row.drive]]
+
+    def _write_blocks(self, inputs: Any) -> list[Block]:
+        blocks: dict[str, Block] = {}
+        for event in self.events:
+            row = self.model.table.row(event)
+            assert isinstance(row, Event)
+            stage = self.model.stages[row.stage]
+            after = stage.stage.after
+            if after is None:
+                start = stage.initial(inputs)
+            else:
+                start = stage.begin(blocks[self.model.stages[after].stage.ends].states[:, -1], inputs)
+            nodes = self.currents_at_nodes(row.stage, inputs)
+            blocks[event] = stage_block(stage, event, self.elements, inputs, start, nodes)
+        return list(blocks.values())
+
+    def _write_balances(self, inputs: Any) -> list[Balance]:
+        needed = self._needed()
+        balances = []
+        for name, stage in self.model.stages.items():
+            if any(row.name in needed for row in stage.steadies):
+                unknowns = ca.MX.sym(f"balance_{name}", stage.state_size + 1)
+                state, drive = unknowns[:-1], unknowns[-1]
+                gap = stage.watch([stage.stage.ends])(state, drive, inputs)
+                equations = ca.vertcat(stage.rates(state, drive, inputs), gap)
+                balances.append(Balance(stage=name, unknowns=unknowns, equations=equations))
+        return balances
+
+    def _slopes(self, inputs: Any) -> Any:
+        """How much steeper than allowed the free currents are, either way, as a share of what is allowed."""
+        rows = []
+        allowed = inputs[self.model.index["current_slew"]] if self.free_currents else None
+        for block in self.blocks:
+            for current in self.free_currents:
+                if block.event == self.model.stages[current.stage].stage.ends:
+                    step = current.upper * ca.diff(self._nodes[current.stage])
+                    slope = step * current.pieces / (block.final_time * allowed)
+                    rows += [slope - 1.0, -slope - 1.0]
+        return ca.vertcat(*rows)
 
     def _switch_values(self) -> tuple[Any, dict[str, Any], Any]:
-        """Values of event and path rows as unknowns see them, the peaks' unknowns, and their constraints (<= 0).
+        """Values of the supplied rows as unknowns see them, the peaks' unknowns, and their constraints (<= 0).
 
         A path's maximum is an unknown that no sample exceeds: exact wherever the study bounds or minimises it.
         """
@@ -115,12 +225,14 @@ class Problem:
         values: dict[str, Any] = {name: block.final_time for name, block in by_event.items()}
         peaks: dict[str, Any] = {}
         rows = []
-        needed = self._needed([*(limit.output for limit in self.limits), *self.minimize])
-        for row in self.model.paths:
-            if row.name not in needed:
+        needed = self._needed()
+        for row in self.model.table.supplied:
+            if not isinstance(row, Path) or row.name not in needed:
                 continue
-            block = by_event["response_time"]
-            samples = at_each(self.model, self.model.watch([row.name]), block.every, self._device_inputs)
+            stage = self.model.stages[row.stage]
+            block = by_event[stage.stage.ends]
+            watch = stage.watch([row.name])
+            samples = at_each(stage, watch, block.every, block.currents, self._device_inputs)
             if row.reduce == "integral":
                 values[row.name] = block.final_time * ca.mtimes(samples[1:], block.weights)
             else:
@@ -128,6 +240,11 @@ class Problem:
                 peaks[row.name] = ca.MX.sym(row.name)
                 values[row.name] = scale * peaks[row.name]
                 rows.append(ca.vec(samples) / scale - peaks[row.name])
+        for balance in self.balances:
+            stage = self.model.stages[balance.stage]
+            for steady in stage.steadies:
+                state, drive = balance.unknowns[:-1], balance.unknowns[-1]
+                values[steady.name] = stage.watch([steady.name])(state, drive, self._device_inputs)
         # What no wanted row needs is never read; NaN would show it if it were.
         switch = ca.vertcat(*(values.get(name, np.nan) for name in self.model.switch_names))
         return switch, peaks, ca.vertcat(*rows)
@@ -137,13 +254,23 @@ class Problem:
         """Order of magnitude of a peak: kelvins are hundreds, watts and volts tens."""
         return 100.0 if row.unit == "degC" else 10.0
 
-    @staticmethod
-    def _block_unknowns(block: Block) -> Any:
-        return ca.vertcat(ca.vec(block.states), block.log_time)
-
-    def check(self) -> None:
-        """Raise InputError where a requirement asks a peak to be high, which has no meaning."""
+    def _check(self) -> None:
+        """Raise InputError for what cannot be put to the solver, with what can be said instead."""
+        table = self.model.table
         for limit in self.limits:
-            row = self.model.table.row(limit.output)
+            row = table.row(limit.output)
             if isinstance(row, Path) and row.reduce == "maximum" and limit.sense == ">=":
                 raise InputError(f"require.{limit.output}: a peak can be kept below a limit, not above one")
+        for current in self.free_currents:
+            ends = self.model.stages[current.stage].stage.ends
+            others = [name for name in self.events if table.row(name).stage == current.stage and name != ends]  # type: ignore[union-attr]
+            if others:
+                raise InputError(
+                    f"profile.{current.stage}: the pieces of the current divide the time to {ends}; {', '.join(others)} "
+                    f"cannot be limited or minimised beside it; choose what ends the stage with `response_criterion`"
+                )
+            if ends not in self.events:
+                raise InputError(
+                    f"profile.{current.stage}: nothing that is required or minimised depends on this stage; "
+                    f"minimise {ends}, or leave the profile out"
+                )

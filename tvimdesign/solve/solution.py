@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.solve.drive import Drive
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.simulate import Switch
 
@@ -55,6 +56,8 @@ class Solution:
     feasible: bool
     model: Model
     inputs: NDArray[np.float64]
+    drives: dict[str, Drive]
+    """The currents that were free, by stage."""
     switch: Switch
     values: dict[str, float]
     objective: float

@@ -1,7 +1,8 @@
-"""One switch as equations: direct collocation of the heat equation over an unknown final time.
+"""One stage as equations: direct collocation of the heat equation over an unknown final time.
 
 Radau points of order three on equal elements, time scaled by the final time, which is itself unknown; the last point of
-an element is the start of the next, so the states need no continuity equations. States have no bounds.
+an element is the start of the next, so the states need no continuity equations. States have no bounds. The current is
+straight between evenly spaced nodes.
 Source: Biegler, Nonlinear Programming (2010), ch. 10.
 """
 
@@ -15,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.model import Model
 from tvimdesign.solve.simulate import Trajectory
+from tvimdesign.solve.stage_model import StageModel
 
 ORDER = 3
 Array = NDArray[np.float64]
@@ -32,9 +33,10 @@ def radau() -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class Block:
-    """The unknowns and equations of one switch that ends at one event."""
+    """The unknowns and equations of one stage that ends at one event."""
 
     event: str
+    stage: StageModel
     states: Any
     """MX, one column a collocation point."""
     log_time: Any
@@ -43,6 +45,8 @@ class Block:
     """MX, zero on a solution: the heat equation at every point, and the event at the last."""
     every: Any
     """MX, the states at the start and at every point, one column each."""
+    currents: Any
+    """MX, the current at the start and at every point, one row."""
     weights: Array
     """Quadrature weights of the points, in units of the final time; the start has none."""
 
@@ -51,15 +55,34 @@ class Block:
         """[s]"""
         return ca.exp(self.log_time)
 
+    @property
+    def unknowns(self) -> Any:
+        """MX, states column by column, then the log time."""
+        return ca.vertcat(ca.vec(self.states), self.log_time)
 
-def switch_block(model: Model, event: str, elements: int, inputs: Any) -> Block:
-    """Write the equations of a switch for symbolic inputs (MX)."""
+
+def fractions(elements: int) -> Array:
+    """The collocation points as fractions of the final time."""
+    return np.concatenate([(element + radau()[0]) / elements for element in range(elements)])
+
+
+def between_nodes(elements: int, nodes: int) -> Array:
+    """Matrix that takes currents at evenly spaced nodes to the start and every collocation point [nodes, points]."""
+    at = np.concatenate([[0.0], fractions(elements)])
+    if nodes == 1:
+        return np.ones((1, len(at)))
+    places = np.linspace(0.0, 1.0, nodes)
+    return np.array([np.interp(at, places, row) for row in np.eye(nodes)])
+
+
+def stage_block(stage: StageModel, event: str, elements: int, inputs: Any, start: Any, nodes: Any) -> Block:
+    """Write the equations of a stage for symbolic inputs, starting state and currents at the nodes (MX)."""
     _, derivative, weights = radau()
     count = elements * ORDER
-    states = ca.MX.sym(f"states_{event}", model.rates.size1_in(0), count)
+    states = ca.MX.sym(f"states_{event}", stage.state_size, count)
     log_time = ca.MX.sym(f"log_time_{event}")
-    start = model.initial(inputs)
-    rates = at_each(model, model.rates, states, inputs)
+    currents = ca.mtimes(nodes.T, between_nodes(elements, nodes.numel()))
+    rates = at_each(stage, stage.rates, states, currents[:, 1:], inputs)
     step = ca.exp(log_time) / elements
     equations = []
     for element in range(elements):
@@ -67,26 +90,26 @@ def switch_block(model: Model, event: str, elements: int, inputs: Any) -> Block:
         before = start if element == 0 else states[:, element * ORDER - 1]
         slopes = ca.mtimes(ca.horzcat(before, states[:, columns]), derivative)
         equations.append(ca.vec(slopes - step * rates[:, columns]))
-    gap = model.watch([event])(states[:, -1], inputs)
+    gap = stage.watch([event])(states[:, -1], currents[:, -1], inputs)
     return Block(
         event=event,
+        stage=stage,
         states=states,
         log_time=log_time,
         equations=ca.vertcat(*equations, gap),
         every=ca.horzcat(start, states),
+        currents=currents,
         weights=np.tile(weights, elements) / elements,
     )
 
 
-def at_each(model: Model, function: Any, states: Any, inputs: Any) -> Any:
-    """A function (state, inputs) of the model applied to every column of `states`."""
-    constants, varying = model.per_switch(function)
+def at_each(stage: StageModel, function: Any, states: Any, currents: Any, inputs: Any) -> Any:
+    """A function (state, current, inputs) of the stage applied to every column of `states`."""
+    constants, varying = stage.per_stage(function)
     count = states.size2()
-    return varying.map(count)(states, ca.repmat(constants(inputs), 1, count))
+    return varying.map(count)(states, currents, ca.repmat(constants(inputs), 1, count))
 
 
 def guess(trajectory: Trajectory, elements: int) -> Array:
     """Values for a block's states from a simulated trajectory, one column a point."""
-    points, _, _ = radau()
-    fractions = np.concatenate([(element + points) / elements for element in range(elements)])
-    return trajectory.at(fractions)
+    return trajectory.at(fractions(elements))

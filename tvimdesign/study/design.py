@@ -34,6 +34,8 @@ class Design(BaseModel):
     """Every input and output by full name (`row` or `row@point`), SI."""
     study: dict[str, Any]
     """The study it answers, resolved."""
+    drives: dict[str, Any] = Field(default_factory=dict)
+    """Currents that are not constant, by stage: `duration` [s] and `currents` [A] at evenly spaced moments."""
     solution: dict[str, Any] = Field(default_factory=dict)
     """How it was found: starts, iterations, constraints with multipliers. Empty for an evaluation."""
 

@@ -58,6 +58,17 @@ class SolverOptions(_Part):
     tolerance: float = Field(1e-8, ge=1e-14, le=1e-2, description="relative tolerance of convergence")
 
 
+class ProfileOptions(_Part):
+    """In how many straight pieces the current of a stage may change with time; 0 keeps it constant."""
+
+    softening: int = Field(0, ge=0, le=64, description="straight pieces of the heating current over the switch")
+    stiffening: int = Field(0, ge=0, le=64, description="straight pieces of the cooling current while it stiffens")
+
+    def pieces(self) -> dict[str, int]:
+        """Count of pieces by stage, of the stages whose current is free."""
+        return {stage: count for stage, count in self.model_dump().items() if count}
+
+
 class WriteOptions(_Part):
     """What the results folder gets besides the numbers."""
 
@@ -76,6 +87,7 @@ class Study(_Part):
     require: tuple[Requirement, ...] = ()
     minimize: dict[str, float] = {}
     operating_points: dict[str, dict[str, float]]
+    profile: ProfileOptions = ProfileOptions()
     solver: SolverOptions = SolverOptions()
     write: WriteOptions = WriteOptions()
     catalog_folder: str | None = None

@@ -14,7 +14,7 @@ from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.errors import CatalogError, InputError
 from tvimdesign.study.files import printable
 from tvimdesign.study.goals import read_minimize, read_require
-from tvimdesign.study.model import FORMAT, SolverOptions, Study, WriteOptions
+from tvimdesign.study.model import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions
 from tvimdesign.study.problems import Problems, quoted, step
 from tvimdesign.study.settings import read_module, read_points
 from tvimdesign.study.source import check_characters, read_text
@@ -33,6 +33,7 @@ SECTIONS = (
     "require",
     "minimize",
     "operating_points",
+    "profile",
     "solver",
     "write",
 )
@@ -94,6 +95,7 @@ class _Reader:
         return {
             "name": self._words("name", 200) or self.name,
             "description": self._words("description", LONGEST_TEXT),
+            "profile": self._options("profile", ProfileOptions),
             "solver": self._options("solver", SolverOptions),
             "write": self._options("write", WriteOptions),
         }
@@ -115,6 +117,7 @@ class _Reader:
         require = read_require(reading, get("require"), points)
         minimize = read_minimize(reading, get("minimize"), points)
         self._both_or_neither()
+        self._profile_has_a_range(reading.table, vary)
         return {
             "mode": _word(get("mode")),
             "module": module,
@@ -132,6 +135,16 @@ class _Reader:
         elif _says_something(vary) and not _says_something(minimize):
             assert vary is not None
             self.problems.add(vary, "vary", "there is nothing to improve: `minimize` is missing", "both or neither")
+
+    def _profile_has_a_range(self, table: Table, vary: dict[str, Vary]) -> None:
+        """A current may only follow a profile between the ends of a range."""
+        section = self.sections.get("profile")
+        for stage, (_, node) in entries(Problems(self.name), section, "profile", "").items():
+            row = next((known.drive for known in table.stages if known.name == stage), None)
+            free = row is not None and isinstance(vary.get(row), Range)
+            if row is not None and not free and not (isinstance(node, Text) and node.value.strip() == "0"):
+                found = f"the current of this stage has no range: `vary.{row}` is missing"
+                self.problems.add(node, step("profile", stage), found, f"{row}: [0.1 A, 3 A] under `vary`, for one")
 
     def _format(self) -> None:
         node = self.sections.get("tvimdesign")

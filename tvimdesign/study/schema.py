@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
-from tvimdesign.study.model import FORMAT, SolverOptions, WriteOptions
+from tvimdesign.study.model import FORMAT, ProfileOptions, SolverOptions, WriteOptions
 from tvimdesign.study.sizes import SIZES_SHELF
 
 SCHEMA_FILE = Path(__file__).with_name("schema.json")
@@ -42,6 +42,7 @@ def json_schema(table: Table, modes: tuple[str, ...] = MODES) -> _Schema:
             "require": _section("what must hold", {}, _by_output(table, _require)),
             "minimize": _minimize(table),
             "operating_points": _points(table),
+            "profile": _options(ProfileOptions),
             "solver": _options(SolverOptions),
             "write": _options(WriteOptions),
         },

@@ -1,0 +1,90 @@
+"""Cooling until the joint is stiff again, with the current reversed; and the two stages together as a cycle."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.book import Book
+from tvimdesign.device.rows import Rule, Scalar
+from tvimdesign.device.stages import EQUILIBRIUM_STIFFENING, STIFFENING
+from tvimdesign.physics import heat
+
+book = Book("Stiffening")
+
+book.inputs()
+
+
+@book.event(STIFFENING)
+def stiffening_time(impedance_now: Scalar, joint_impedance_at_cold: Scalar, stiffening_band: Scalar) -> Scalar:
+    """Time from the end of the switch until the joint's impedance is within the stiffening band of its cold value."""
+    return np.log(impedance_now) - np.log(joint_impedance_at_cold / stiffening_band)
+
+
+@book.event(EQUILIBRIUM_STIFFENING)
+def equilibrium_stiffening_time(
+    impedance_now: Scalar, joint_impedance_at_cold: Scalar, stiffening_band: Scalar
+) -> Scalar:
+    """What stiffening would take if the layer froze where it melts: a claim, not a prediction."""
+    return stiffening_time(impedance_now, joint_impedance_at_cold, stiffening_band)
+
+
+@book.event(STIFFENING, headline=False)
+def near_face_cooling_time(stack_profile: heat.Profile, temperature_at_cold: Scalar) -> Scalar:
+    """Time from the end of the switch until the face at the pads is down to the cold point's temperature."""
+    return (temperature_at_cold - stack_profile.near) / heat.TEMPERATURE_SCALE
+
+
+@book.event(STIFFENING, headline=False)
+def mean_cooling_time(mean_temperature: Scalar, temperature_at_cold: Scalar) -> Scalar:
+    """Time from the end of the switch until the layer's mean is down to the cold point's temperature."""
+    return (temperature_at_cold - mean_temperature) / heat.TEMPERATURE_SCALE
+
+
+@book.event(STIFFENING)
+def far_face_cooling_time(stack_profile: heat.Profile, temperature_at_cold: Scalar) -> Scalar:
+    """Time from the end of the switch until the face at the rotor is down to the cold point's temperature."""
+    return (temperature_at_cold - stack_profile.far) / heat.TEMPERATURE_SCALE
+
+
+@book.path(STIFFENING, "J", "integral", headline=True)
+def stiffening_energy(electrical_power: Scalar) -> Scalar:
+    """Electrical energy of cooling the joint stiff."""
+    return electrical_power
+
+
+@book.path(STIFFENING, "W", "maximum")
+def stiffening_peak_power(electrical_power: Scalar) -> Scalar:
+    """Highest electrical power while the joint stiffens."""
+    return electrical_power
+
+
+@book.path(STIFFENING, "V", "maximum")
+def stiffening_peak_voltage(supply_voltage: Scalar) -> Scalar:
+    """Highest voltage over all pads in series while the joint stiffens."""
+    return supply_voltage
+
+
+@book.path(STIFFENING, "degC", "maximum")
+def peak_cold_side_temperature(stack_profile: heat.Profile) -> Scalar:
+    """Highest temperature of the pads' outer side, which heats up while the joint stiffens."""
+    return stack_profile.cold
+
+
+@book.output(
+    "K", advice=(Rule(sense=">=", value=0.0, reason="the pads' outer side is above the temperature it is rated for"),)
+)
+def cold_side_temperature_reserve(peltier_max_temperature: Scalar, peak_cold_side_temperature: Scalar) -> Scalar:
+    """Rated temperature of the Peltier module less the highest of its outer side."""
+    return peltier_max_temperature - peak_cold_side_temperature
+
+
+@book.output("s", headline=True)
+def cycle_time(response_time: Scalar, stiffening_time: Scalar) -> Scalar:
+    """Time to soften and to stiffen again."""
+    return response_time + stiffening_time
+
+
+@book.output("J", headline=True)
+def cycle_energy(switch_energy: Scalar, stiffening_energy: Scalar) -> Scalar:
+    """Electrical energy to soften and to stiffen again."""
+    return switch_energy + stiffening_energy
