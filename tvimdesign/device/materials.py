@@ -56,7 +56,12 @@ for name, unit, field, description in (
     ("pcl_tensile_yield", "MPa", "tensile_yield", "Tensile yield strength of the frozen PCL"),
     ("pcl_bond_strength", "MPa", "bond_strength", "Traction the bond of layer and faces bears"),
     ("pcl_melt_strain_limit", "1", "melt_strain_limit", "Shear strain the molten layer bears without tearing"),
-    ("pcl_decomposition_temperature", "degC", "decomposition_temperature", "Temperature at which PCL starts to decompose"),
+    (
+        "pcl_decomposition_temperature",
+        "degC",
+        "decomposition_temperature",
+        "Temperature at which PCL starts to decompose",
+    ),
     ("pcl_flow_activation_energy", "kJ/mol", "flow_activation_energy", "Flow activation energy of the melt"),
     ("pcl_melt_reference", "degC", "melt_reference_temperature", "Temperature of the melt's relaxation spectrum"),
     ("pcl_avrami_exponent", "1", "avrami_exponent", "Avrami exponent of the freezing PCL"),

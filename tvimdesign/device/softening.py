@@ -18,6 +18,12 @@ book.option(
     "What ends the switch: a face or the mean of the layer at the target temperature, or the joint's impedance",
 )
 
+book.option(
+    "impedance_targets",
+    ("operating_points", "stated"),
+    "What soft and stiff mean: the joint at its hot and cold points, or `soft_impedance` and `stiff_impedance`",
+)
+
 # --- response times --------------------------------------------------------------------------------------------------
 
 
@@ -39,10 +45,24 @@ def far_face_time(stack_profile: heat.Profile, target_temperature: Scalar) -> Sc
     return (stack_profile.far - target_temperature) / heat.TEMPERATURE_SCALE
 
 
+@book.output("N*m/rad")
+def soft_threshold(
+    impedance_targets: str, soft_impedance: Scalar, joint_impedance_at_hot: Scalar, softening_band: Scalar
+) -> Scalar:
+    """Impedance at and below which the joint counts as soft: the softening band above its target."""
+    return softening_band * (soft_impedance if impedance_targets == "stated" else joint_impedance_at_hot)
+
+
+@book.output("1", Rule(sense=">=", value=0.0, reason="the joint never gets as soft as `soft_impedance` asks"))
+def soft_reach(soft_threshold: Scalar, joint_impedance_at_hot: Scalar) -> Scalar:
+    """How far below the soft threshold the hot joint is, as the logarithm of the ratio."""
+    return np.log(soft_threshold) - np.log(joint_impedance_at_hot)
+
+
 @book.event(SOFTENING)
-def softening_time(impedance_now: Scalar, joint_impedance_at_hot: Scalar, softening_band: Scalar) -> Scalar:
-    """Time until the joint's impedance is within the softening band of its hot value."""
-    return np.log(softening_band * joint_impedance_at_hot) - np.log(impedance_now)
+def softening_time(impedance_now: Scalar, soft_threshold: Scalar) -> Scalar:
+    """Time until the joint's impedance is within the softening band of its target, its hot value unless stated."""
+    return np.log(soft_threshold) - np.log(impedance_now)
 
 
 @book.event(SOFTENING)
@@ -52,12 +72,11 @@ def response_time(
     mean_temperature: Scalar,
     target_temperature: Scalar,
     impedance_now: Scalar,
-    joint_impedance_at_hot: Scalar,
-    softening_band: Scalar,
+    soft_threshold: Scalar,
 ) -> Scalar:
     """Time of one switch, by the criterion the study chose."""
     if response_criterion == "softening":
-        return softening_time(impedance_now, joint_impedance_at_hot, softening_band)
+        return softening_time(impedance_now, soft_threshold)
     if response_criterion == "mean":
         return mean_time(mean_temperature, target_temperature)
     face = near_face_time if response_criterion == "near_face" else far_face_time
@@ -129,9 +148,7 @@ def peltier_temperature_reserve(peltier_max_temperature: Scalar, peak_peltier_te
     return peltier_max_temperature - peak_peltier_temperature
 
 
-@book.output(
-    "K", advice=(Rule(sense=">=", value=0.0, reason="the PCL decomposes"),)
-)
+@book.output("K", advice=(Rule(sense=">=", value=0.0, reason="the PCL decomposes"),))
 def pcl_temperature_reserve(pcl_decomposition_temperature: Scalar, peak_pcl_temperature: Scalar) -> Scalar:
     """Temperature at which the PCL starts to decompose less the highest it sees."""
     return pcl_decomposition_temperature - peak_pcl_temperature

@@ -14,18 +14,30 @@ book = Book("Stiffening")
 book.inputs()
 
 
+@book.output("N*m/rad")
+def stiff_threshold(
+    impedance_targets: str, stiff_impedance: Scalar, joint_impedance_at_cold: Scalar, stiffening_band: Scalar
+) -> Scalar:
+    """Impedance at and above which the joint counts as stiff: the stiffening band below its target."""
+    return (stiff_impedance if impedance_targets == "stated" else joint_impedance_at_cold) / stiffening_band
+
+
+@book.output("1", Rule(sense=">=", value=0.0, reason="the joint never gets as stiff as `stiff_impedance` asks"))
+def stiff_reach(stiff_threshold: Scalar, joint_impedance_at_cold: Scalar) -> Scalar:
+    """How far above the stiff threshold the cold joint is, as the logarithm of the ratio."""
+    return np.log(joint_impedance_at_cold) - np.log(stiff_threshold)
+
+
 @book.event(STIFFENING)
-def stiffening_time(impedance_now: Scalar, joint_impedance_at_cold: Scalar, stiffening_band: Scalar) -> Scalar:
-    """Time from the end of the switch until the joint's impedance is within the stiffening band of its cold value."""
-    return np.log(impedance_now) - np.log(joint_impedance_at_cold / stiffening_band)
+def stiffening_time(impedance_now: Scalar, stiff_threshold: Scalar) -> Scalar:
+    """Time from the end of the switch until the impedance is within the stiffening band of its target, its cold value unless stated."""
+    return np.log(impedance_now) - np.log(stiff_threshold)
 
 
 @book.event(EQUILIBRIUM_STIFFENING)
-def equilibrium_stiffening_time(
-    impedance_now: Scalar, joint_impedance_at_cold: Scalar, stiffening_band: Scalar
-) -> Scalar:
+def equilibrium_stiffening_time(impedance_now: Scalar, stiff_threshold: Scalar) -> Scalar:
     """What stiffening would take if the layer froze where it melts: a claim, not a prediction."""
-    return stiffening_time(impedance_now, joint_impedance_at_cold, stiffening_band)
+    return stiffening_time(impedance_now, stiff_threshold)
 
 
 @book.event(STIFFENING, headline=False)

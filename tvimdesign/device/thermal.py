@@ -165,9 +165,7 @@ def stack(
 
 
 @book.helper(instant=True)
-def stack_now(
-    stack: heat.Stack, stage: Stage, phase_model: str, pcl_kinetics: crystallization.Kinetics
-) -> heat.Stack:
+def stack_now(stack: heat.Stack, stage: Stage, phase_model: str, pcl_kinetics: crystallization.Kinetics) -> heat.Stack:
     """The stack as a stage sees it: where the layer freezes, with the kinetics of freezing."""
     return stack._replace(freezing=pcl_kinetics) if stage.history and phase_model == "kinetic" else stack
 

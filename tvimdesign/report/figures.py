@@ -8,7 +8,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
+from matplotlib.ticker import MaxNLocator, NullLocator
 
 mpl.rcParams.update(
     {
@@ -41,31 +41,75 @@ def warm_up() -> None:
     figure.savefig(io.BytesIO(), format="png", dpi=120)
 
 
-def switch_temperatures(data: dict[str, Any]) -> Figure:
-    """Temperature at the layer's faces over time, and through the layer at several times."""
-    history = data["history"]
-    figure = _figure(10.0)
-    over_time, through = figure.subplots(1, 2)
+def cycle(data: dict[str, Any]) -> Figure:
+    """The working cycle: temperatures, impedance and current over time, and temperatures through the layer."""
+    figure = _figure(11.0, 7.0)
+    (over_time, heating), (impedance, cooling) = figure.subplots(2, 2, width_ratios=[1.4, 1.0])
+    soft, stiff = data["softening"], data.get("stiffening")
+    _temperatures(over_time, soft, stiff, data)
+    _impedance_over_time(impedance, soft, data)
+    _through(heating, soft, data, "Through the layer while it heats")
+    if stiff:
+        _through(cooling, stiff, data, "Through the layer while it cools")
+    else:
+        cooling.set_axis_off()
+    figure.subplots_adjust(left=0.07, right=0.9, bottom=0.07, top=0.95, wspace=0.16, hspace=0.28)
+    return figure
+
+
+def _joined(soft: dict[str, Any], stiff: dict[str, Any] | None, name: str) -> tuple[list[float], list[float]]:
+    """Times and values of a column over both stages."""
+    if not stiff:
+        return soft["time"], soft[name]
+    end = soft["time"][-1]
+    return [*soft["time"], *(end + time for time in stiff["time"])], [*soft[name], *stiff[name]]
+
+
+def _temperatures(axes: Any, soft: dict[str, Any], stiff: dict[str, Any] | None, data: dict[str, Any]) -> None:
+    for name, label in (("hot_side", "pads, inner side"), ("near_face", "layer, near face"),
+                        ("far_face", "layer, far face"), ("cold_side", "pads, outer side")):  # fmt: skip
+        axes.plot(*_joined(soft, stiff, name), label=label)
+    axes.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange", label="melting range")
+    axes.axhline(data["target"], color="black", linewidth=0.8, linestyle=":", label="target")
+    axes.axvline(soft["time"][-1], color="grey", linewidth=0.8)
+    axes.set(ylabel="temperature (°C)", title="Over the cycle: heating, then cooling")
+    axes.legend(fontsize=8, loc="upper right")
+    current = axes.twinx()
+    current.plot(*_joined(soft, stiff, "current"), color="grey", linewidth=1.0, linestyle="--")
+    current.set_ylabel("current (A), dashed")
+    current.grid(visible=False)
+    current.yaxis.set_major_locator(MaxNLocator(4))
+
+
+def _impedance_over_time(axes: Any, soft: dict[str, Any], data: dict[str, Any]) -> None:
+    end = soft["time"][-1]
+    axes.semilogy(soft["time"], soft["joint_impedance"], color="tab:red", label="heating")
+    for stage, label, style in (("stiffening", "cooling: freezes supercooled", "-"),
+                                ("equilibrium_stiffening", "cooling, as the melting curve would claim", "--")):  # fmt: skip
+        if stage in data:
+            times = [end + time for time in data[stage]["time"]]
+            axes.semilogy(times, data[stage]["joint_impedance"], color="tab:blue", linestyle=style, label=label)
+    for threshold in ("soft", "stiff"):
+        axes.axhline(data[threshold], color="black", linewidth=0.8, linestyle=":")
+        axes.text(0.0, data[threshold], f"{threshold} ", va="bottom", fontsize=8)
+    axes.yaxis.set_minor_locator(NullLocator())  # minor ticks of a log axis take longer to draw than all else
+    axes.set(xlabel="time (s)", ylabel="joint impedance (N·m/rad)")
+    axes.legend(fontsize=8, loc="lower right")
+
+
+def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: str) -> None:
     time = history["time"]
     cells = [name for name in history if name.startswith("cell_")]
-    for name, label in (("hot_side", "Peltier hot side"), ("near_face", "near face"), ("far_face", "far face"),
-                        ("cold_side", "Peltier cold side")):  # fmt: skip
-        over_time.plot(time, history[name], label=label)
-    over_time.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange", label="melting range")
-    over_time.axhline(data["target"], color="black", linewidth=0.8, linestyle=":", label="target")
-    over_time.set(xlabel="time (s)", ylabel="temperature (°C)", title="Over the switch")
-    over_time.legend(fontsize=8)
     depths = [0.0, *((i + 0.5) / len(cells) * data["thickness"] for i in range(len(cells))), data["thickness"]]
     colours = mpl.colormaps["plasma"]
     for i in range(_PROFILES):
-        at = round(i / (_PROFILES - 1) * (len(time) - 1))
+        wanted = time[-1] * i / (_PROFILES - 1)
+        at = next(k for k, moment in enumerate(time) if moment >= wanted)
         line = [history["near_face"][at], *(history[name][at] for name in cells), history["far_face"][at]]
-        through.plot(depths, line, color=colours(0.9 * i / (_PROFILES - 1)), label=f"{time[at]:.0f} s")
-    through.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange")
-    through.set(xlabel="depth from the Peltier pads (mm)", ylabel="temperature (°C)", title="Through the PCL layer")
-    through.legend(fontsize=8, title="after", loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    figure.subplots_adjust(left=0.07, right=0.91, bottom=0.12, top=0.92, wspace=0.2)
-    return figure
+        axes.plot(depths, line, color=colours(0.9 * i / (_PROFILES - 1)), label=f"{time[at]:.0f} s")
+    axes.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange")
+    axes.set(xlabel="depth from the Peltier pads (mm)", ylabel="temperature (°C)", title=title)
+    axes.legend(fontsize=8, title="after", loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
 def impedance(data: dict[str, Any]) -> Figure:

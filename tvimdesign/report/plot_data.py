@@ -24,9 +24,11 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
 
     melting = [shown("pcl_melting_start"), shown("pcl_melting_end")]
     return {
-        "switch_temperatures": {
-            "history": answer.histories["softening"],
+        "cycle": {
+            **answer.histories,
             "melting": melting,
+            "soft": shown("soft_threshold"),
+            "stiff": shown("stiff_threshold"),
             "target": shown("target_temperature"),
             "thickness": shown("pcl_thickness"),
         },

@@ -8,8 +8,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
 
-from tvimdesign.device import Table
-from tvimdesign.report.tables import NOTHING, headline_rows, margin_text, number, point_rows, variable_rows
+from tvimdesign.device import Input, Table
+from tvimdesign.report.tables import NOTHING, drive_rows, headline_rows, margin_text, number, point_rows, variable_rows
 from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.units import format_quantity, from_si, pretty
 
@@ -29,6 +29,7 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     _print_warnings(answer, table, console)
     _print_variables(answer, table, console, "What was varied")
     _print_sizes(answer, table, console)
+    _print_drives(answer, table, console)
     _print_points(answer, table, console)
     grid = _grid("What the module is", ("", "value", "unit", "meaning"), right=(1,))
     group = ""
@@ -71,6 +72,32 @@ def _print_sizes(answer: Answer, table: Table, console: Console) -> None:
     if between is not None:
         said.append(f"A size between the listed ones would do {1.0 - between / runs[0].objective:.1%} better.")
     console.print(f"[dim]{' '.join(said)}[/dim]")
+
+
+def _print_drives(answer: Answer, table: Table, console: Console) -> None:
+    """Currents that follow a profile, and what the same module does at the constant current of the paper."""
+    rows = drive_rows(answer.design, table)
+    if not rows:
+        return
+    grid = _grid("What the current does, straight between these moments", ("", "s", "A", ""), right=(1, 2))
+    for row in rows:
+        grid.add_row(*row)
+    console.print(grid)
+    grid = _grid("What that buys in this module", ("", "profile", "constant", "unit", "meaning"), right=(1, 2))
+    for name, value in answer.constant_current.items():
+        unit = table.unit(name)
+        pair = (number(from_si(v, unit)) for v in (answer.design.value(name), value))
+        grid.add_row(name, *pair, pretty(unit), table.row(name).description)
+    console.print(grid)
+    currents = (table.stage(stage).drive for stage in answer.design.drives)
+    said = ", ".join(f"{name} {format_quantity(_default(table, name), table.unit(name))}" for name in currents)
+    console.print(f"[dim]Constant: {said}, the table's own values; the paper heats with 1.5 A.[/dim]")
+
+
+def _default(table: Table, name: str) -> float:
+    row = table.row(name)
+    assert isinstance(row, Input) and row.default is not None
+    return row.default
 
 
 def _print_points(answer: Answer, table: Table, console: Console) -> None:

@@ -58,6 +58,8 @@ def variable_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str
     rows = []
     first = answer.solution.starts[0].begin
     for name, vary in answer.design.study["vary"].items():
+        if name not in first and name not in answer.design.choices:
+            continue  # a current that follows a profile: a table of its own
         if name not in first:
             rows.append((name, "", answer.design.choices[name], "", ", ".join(str(v) for v in vary["values"])))
             continue
@@ -66,6 +68,22 @@ def variable_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str
         ends = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
         low, high = (number(from_si(end, unit)) for end in ends)
         rows.append((name, *shown, pretty(unit), f"{low} to {high}" + ("" if "lower" in vary else ", listed")))
+    return rows
+
+
+def drive_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]]:
+    """(stage, moment [s], current [A], what that is of the range) of the currents that follow a profile."""
+    rows = []
+    for name, plain in design.drives.items():
+        vary = design.study["vary"][table.stage(name).drive]
+        currents = plain["currents"]
+        for i, current in enumerate(currents):
+            size = abs(current)
+            end = "at its upper end" if size > 0.999 * vary["upper"] else "at its lower end"
+            inside = 1.001 * vary["lower"] + 1e-3 * vary["upper"] < size < 0.999 * vary["upper"]
+            current = current if size > 1e-4 * vary["upper"] else 0.0
+            moment = number(plain["duration"] * i / (len(currents) - 1), 3)
+            rows.append((name if i == 0 else "", moment, number(current, 3), "" if inside else end))
     return rows
 
 
@@ -116,6 +134,8 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
         "values": {name: _entry(name, value, table) for name, value in design.values.items()},
         "checks": [check_row(check, table) for check in answer.checks],
         "warnings": [check_row(check, table) for check in answer.warnings],
+        "drives": design.drives,
+        "at_constant_current": {name: _entry(name, value, table) for name, value in answer.constant_current.items()},
         "solution": _all_finite(design.solution),
     }
 

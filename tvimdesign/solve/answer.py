@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table
+from tvimdesign.device import Input, Table
 from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.curves import Curves, impedance_sweep, stage_history
 from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch, refuse_impossible
@@ -54,6 +54,8 @@ class Answer:
     """By stage."""
     sweep: Curves
     solution: Solution | None
+    constant_current: dict[str, float]
+    """What the same module does where currents that follow a profile stay at their default; empty where none does."""
 
     @property
     def found(self) -> bool:
@@ -92,7 +94,27 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
     return Answer(
         design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, switch),
         sweep=impedance_sweep(model, inputs, switch), solution=solution,
+        constant_current=_at_constant_current(model, inputs, set(drives)),
     )  # fmt: skip
+
+
+_COMPARED = {
+    "softening": ("response_time", "softening_time", "switch_energy", "peak_power", "peak_voltage",
+                  "peak_peltier_temperature"),
+    "stiffening": ("stiffening_time", "stiffening_energy", "peak_cold_side_temperature"),
+}  # fmt: skip
+
+
+def _at_constant_current(model: Model, inputs: NDArray[np.float64], stages: set[str]) -> dict[str, float]:
+    if not stages:
+        return {}
+    changed = inputs.copy()
+    for stage in stages:
+        row = model.table.row(model.table.stage(stage).drive)
+        assert isinstance(row, Input)
+        changed[model.index[row.name]] = row.default
+    values = Simulator(model).run(changed).values
+    return {name: values[name] for stage in _COMPARED if stage in stages for name in _COMPARED[stage]}
 
 
 def _histories(model: Model, inputs: NDArray[np.float64], switch: Switch) -> dict[str, Curves]:

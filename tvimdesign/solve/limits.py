@@ -75,9 +75,27 @@ def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
 def refuse_impossible(study: Study, catalog: Catalog, table: Table) -> None:
     """Raise InputError, naming what is wrong, where a study's start is no geometry and nothing can be said of it."""
     rows = [row.name for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]
-    found = impossible(table.evaluate(given(study, catalog, table), rows), table)
+    start = given(study, catalog, table)
+    found = impossible(table.evaluate(start, rows), table)
     if found:
         raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
+    if not study.vary:
+        _refuse_unreachable(start, table)
+
+
+def _refuse_unreachable(start: Mapping[str, Any], table: Table) -> None:
+    """Raise InputError where a stated target impedance lies outside what the joint can have."""
+    if start.get("impedance_targets") != "stated":
+        return
+    ends = table.evaluate(start, ["joint_impedance@hot", "joint_impedance@cold", "soft_reach", "stiff_reach"])
+    soft, stiff = (format_quantity(ends[f"joint_impedance@{point}"], "N*m/rad") for point in ("hot", "cold"))
+    bad = [name for name in ("soft", "stiff") if ends[f"{name}_reach"] < 0.0]
+    if bad:
+        said = ", ".join(f"{name}_impedance {format_quantity(start[f'{name}_impedance'], 'N*m/rad')}" for name in bad)
+        raise InputError(
+            f"{said} cannot be reached: this joint goes from {soft} hot to {stiff} cold; a target may be the band "
+            f"(softening_band, stiffening_band) beyond that, no more"
+        )
 
 
 def impossible(values: Mapping[str, float], table: Table) -> list[str]:

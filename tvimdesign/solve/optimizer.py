@@ -272,7 +272,9 @@ class Optimizer:
             begin=self._free_values(inputs), end=self._free_values(end),
         )  # fmt: skip
         drives = self._drives_of(unknowns)
-        return Run(start, end, drives, unknowns, np.asarray(answer["lam_g"]).ravel(), np.asarray(answer["lam_x"]).ravel())
+        return Run(
+            start, end, drives, unknowns, np.asarray(answer["lam_g"]).ravel(), np.asarray(answer["lam_x"]).ravel()
+        )
 
     def _bounds(self, fixed: Mapping[str, float]) -> tuple[Array, Array]:
         lower = np.full(self.problem.unknown_count, -np.inf)

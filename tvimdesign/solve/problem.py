@@ -115,7 +115,7 @@ class Problem:
         values = self.model.outputs(wanted)(device_inputs, switch) if wanted else ca.MX(0, 1)
         objective = sum(weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
         rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
-        equations = ca.vertcat(*(part.equations for part in (*self.blocks, *self.balances)))
+        equations = ca.vertcat(*(block.equations for block in self.blocks), *(b.equations for b in self.balances))
         slopes = self._slopes(device_inputs)
         everything = ca.vertcat(
             unknowns, *(block.unknowns for block in self.blocks), *self._nodes.values(),
@@ -263,7 +263,8 @@ class Problem:
                 raise InputError(f"require.{limit.output}: a peak can be kept below a limit, not above one")
         for current in self.free_currents:
             ends = self.model.stages[current.stage].stage.ends
-            others = [name for name in self.events if table.row(name).stage == current.stage and name != ends]  # type: ignore[union-attr]
+            mine = [row.name for row in self.model.stages[current.stage].events if row.name != ends]
+            others = [name for name in self.events if name in mine]
             if others:
                 raise InputError(
                     f"profile.{current.stage}: the pieces of the current divide the time to {ends}; {', '.join(others)} "

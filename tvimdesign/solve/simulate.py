@@ -131,7 +131,14 @@ class _StageSimulator:
             },
             0.0,
             np.linspace(0.0, 1.0, STEPS + 1)[1:],
-            {"reltol": TOLERANCE, "abstol": TOLERANCE * 1e-2, "max_num_steps": 100_000},
+            {
+                "reltol": TOLERANCE,
+                "abstol": TOLERANCE * 1e-2,
+                "max_num_steps": 100_000,
+                # A stage that cannot be simulated raises; what CVODES and CasADi say meanwhile is not for people.
+                "show_eval_warnings": False,
+                "disable_internal_warnings": True,
+            },  # fmt: skip
         )
         self._events = [row.name for row in stage.events]
         self._watched = stage.watch([row.name for row in (*stage.events, *stage.paths)])
@@ -152,7 +159,9 @@ class _StageSimulator:
             gaps = self._gaps(stretch, inputs, currents)
             for name, gap in zip(self._events, gaps, strict=True):
                 if not np.isfinite(found[name]) and np.any(gap >= 0.0):
-                    found[name] = time + self._crossing(stretch, inputs, length, currents, self._events.index(name), gap)
+                    found[name] = time + self._crossing(
+                        stretch, inputs, length, currents, self._events.index(name), gap
+                    )
             times.append(time + length * np.linspace(0.0, 1.0, STEPS + 1)[1:])
             states.append(stretch[:, 1:])
             begin, time = stretch[:, -1], time + length
@@ -180,9 +189,7 @@ class _StageSimulator:
         watched = np.asarray(self._of_stretch(stretch[: self.stage.state_size], currents[None, :], columns))
         return watched[: len(self._events)]
 
-    def _crossing(
-        self, stretch: Array, inputs: Array, length: float, currents: Array, event: int, gap: Array
-    ) -> float:
+    def _crossing(self, stretch: Array, inputs: Array, length: float, currents: Array, event: int, gap: Array) -> float:
         """Time within the stretch at which an event's gap passes zero; looked at closely once, then linear."""
         if gap[0] >= 0.0:
             return 0.0
@@ -205,9 +212,9 @@ class _StageSimulator:
         trajectory = Trajectory(times=times, states=states[:size], currents=drive.at(times))
         values: dict[str, Any] = {name: float(time) for name, time in found.items()}
         columns = np.repeat(inputs[:, None], len(times), axis=1)
-        watched = np.asarray(
-            self._watched.map(len(times))(trajectory.states, trajectory.currents[None, :], columns)
-        )[len(self._events) :]
+        watched = np.asarray(self._watched.map(len(times))(trajectory.states, trajectory.currents[None, :], columns))[
+            len(self._events) :
+        ]
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
         for row, sampled in zip(self.stage.paths, watched, strict=True):
             values[row.name] = float(integrals.get(row.name, np.max(sampled)))
