@@ -1,4 +1,4 @@
-"""Heating until the joint is soft: response times, energy, power, the highest temperatures, and what it takes to stay."""
+"""Heating until the joint is soft: response times, energy, power, peaks of temperature, and what it takes to stay."""
 
 from __future__ import annotations
 
@@ -61,7 +61,10 @@ def soft_reach(soft_threshold: Scalar, joint_impedance_at_hot: Scalar) -> Scalar
 
 @book.event(SOFTENING)
 def softening_time(impedance_now: Scalar, soft_threshold: Scalar) -> Scalar:
-    """Time until the joint's impedance is within the softening band of its target, its hot value unless stated."""
+    """Time until the joint's impedance is within the softening band of its target.
+
+    The target is the joint's impedance at the hot point unless it is stated.
+    """
     return np.log(soft_threshold) - np.log(impedance_now)
 
 

@@ -30,7 +30,10 @@ def stiff_reach(stiff_threshold: Scalar, joint_impedance_at_cold: Scalar) -> Sca
 
 @book.event(STIFFENING)
 def stiffening_time(impedance_now: Scalar, stiff_threshold: Scalar) -> Scalar:
-    """Time from the end of the switch until the impedance is within the stiffening band of its target, its cold value unless stated."""
+    """Time from the end of the switch until the joint's impedance is within the stiffening band of its target.
+
+    The target is the joint's impedance at the cold point unless it is stated.
+    """
     return np.log(impedance_now) - np.log(stiff_threshold)
 
 

@@ -1,4 +1,4 @@
-"""Transient heat through the stack: air or sink | Peltier cold side | Peltier hot side | polymer | plate | air.
+"""Transient heat through the stack: air or sink | Peltier cold side | hot side | polymer | plate | air.
 
 One dimension through the stack, finite volumes; what the plate is part of takes up heat sideways, as a chain of lumps.
 The polymer's states are enthalpies, not temperatures with an apparent heat capacity, so the latent heat is never
@@ -16,6 +16,7 @@ stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all 
 
 from __future__ import annotations
 
+import itertools
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -143,9 +144,10 @@ def _others(stack: Stack) -> int:
 def _parts(state: Any, stack: Stack) -> _Parts:
     cells = len(state) - 2 - _others(stack)
     cells = cells // 2 if stack.freezing else cells
-    ends = np.cumsum([2, cells, stack.plate_cells, len(stack.beside), int(stack.sink is not None)])
-    layer, plate, beside, sink = (state[int(a) : int(b)] for a, b in zip(ends[:-1], ends[1:], strict=True))
-    return _Parts(state[0], state[1], layer, plate, beside, sink, state[int(ends[-1]) :])
+    lengths = (2, cells, stack.plate_cells, len(stack.beside), int(stack.sink is not None))
+    ends = list(itertools.accumulate(lengths))
+    layer, plate, beside, sink = (state[a:b] for a, b in itertools.pairwise(ends))
+    return _Parts(state[0], state[1], layer, plate, beside, sink, state[ends[-1] :])
 
 
 def initial_state(stack: Stack, cells: int, temperature: Any) -> Any:
@@ -191,7 +193,7 @@ def profile(state: Any, stack: Stack) -> Profile:
     inside = -np.diff(cells) / (half[:-1] + half[1:])
     across = (cells[-1] - plate[0]) / (half[-1] + 1.0 / (stack.plate_contact * stack.area) + plate_half)
     within = -np.diff(plate) / (2.0 * plate_half)
-    # Radiation at the temperature of the outermost cell: in a thin plate that is the surface's to a fraction of a kelvin.
+    # Radiation at the temperature of the outermost cell: in a thin plate that is nearly the surface's.
     outside = surface_coefficient(stack.plate_surface, plate[-1], stack.ambient) * stack.area
     outflow = (plate[-1] - stack.ambient) / (plate_half + 1.0 / outside)
     return Profile(

@@ -44,16 +44,29 @@ def warm_up() -> None:
 def cycle(data: dict[str, Any]) -> Figure:
     """The working cycle: temperatures, impedance and current over time, and temperatures through the layer."""
     figure = _figure(11.0, 7.0)
-    (over_time, heating), (impedance, cooling) = figure.subplots(2, 2, width_ratios=[1.4, 1.0])
+    grid = figure.add_gridspec(12, 2, width_ratios=[1.4, 1.0])
+    over_time, current, impedance = (
+        figure.add_subplot(grid[rows, 0]) for rows in (slice(5), slice(5, 7), slice(7, 12))
+    )
+    heating, cooling = (figure.add_subplot(grid[rows, 1]) for rows in (slice(6), slice(6, 12)))
     soft, stiff = data["softening"], data.get("stiffening")
     _temperatures(over_time, soft, stiff, data)
+    current.plot(*_joined(soft, stiff, "current"), color="tab:green")
+    current.set_ylabel("current (A)")
+    current.yaxis.set_major_locator(MaxNLocator(3))
     _impedance_over_time(impedance, soft, data)
+    for axes in (over_time, current, impedance):
+        axes.axvline(soft["time"][-1], color="grey", linewidth=0.8)
+        axes.sharex(impedance)
+    for axes in (over_time, current):
+        axes.tick_params(axis="x", labelbottom=False)
+    (cooling if stiff else heating).set_xlabel("depth from the Peltier pads (mm)")
     _through(heating, soft, data, "Through the layer while it heats")
     if stiff:
         _through(cooling, stiff, data, "Through the layer while it cools")
     else:
         cooling.set_axis_off()
-    figure.subplots_adjust(left=0.07, right=0.9, bottom=0.07, top=0.95, wspace=0.16, hspace=0.28)
+    figure.subplots_adjust(left=0.08, right=0.9, bottom=0.07, top=0.95, wspace=0.2, hspace=1.4)
     return figure
 
 
@@ -71,21 +84,17 @@ def _temperatures(axes: Any, soft: dict[str, Any], stiff: dict[str, Any] | None,
         axes.plot(*_joined(soft, stiff, name), label=label)
     axes.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange", label="melting range")
     axes.axhline(data["target"], color="black", linewidth=0.8, linestyle=":", label="target")
-    axes.axvline(soft["time"][-1], color="grey", linewidth=0.8)
     axes.set(ylabel="temperature (°C)", title="Over the cycle: heating, then cooling")
     axes.legend(fontsize=8, loc="upper right")
-    current = axes.twinx()
-    current.plot(*_joined(soft, stiff, "current"), color="grey", linewidth=1.0, linestyle="--")
-    current.set_ylabel("current (A), dashed")
-    current.grid(visible=False)
-    current.yaxis.set_major_locator(MaxNLocator(4))
 
 
 def _impedance_over_time(axes: Any, soft: dict[str, Any], data: dict[str, Any]) -> None:
     end = soft["time"][-1]
     axes.semilogy(soft["time"], soft["joint_impedance"], color="tab:red", label="heating")
-    for stage, label, style in (("stiffening", "cooling: freezes supercooled", "-"),
-                                ("equilibrium_stiffening", "cooling, as the melting curve would claim", "--")):  # fmt: skip
+    for stage, label, style in (
+        ("stiffening", "cooling: freezes supercooled", "-"),
+        ("equilibrium_stiffening", "cooling, as the melting curve would claim", "--"),
+    ):
         if stage in data:
             times = [end + time for time in data[stage]["time"]]
             axes.semilogy(times, data[stage]["joint_impedance"], color="tab:blue", linestyle=style, label=label)
@@ -108,7 +117,7 @@ def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: st
         line = [history["near_face"][at], *(history[name][at] for name in cells), history["far_face"][at]]
         axes.plot(depths, line, color=colours(0.9 * i / (_PROFILES - 1)), label=f"{time[at]:.0f} s")
     axes.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange")
-    axes.set(xlabel="depth from the Peltier pads (mm)", ylabel="temperature (°C)", title=title)
+    axes.set(ylabel="temperature (°C)", title=title)
     axes.legend(fontsize=8, title="after", loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 

@@ -96,7 +96,8 @@ def _print_drives(answer: Answer, table: Table, console: Console) -> None:
 
 def _default(table: Table, name: str) -> float:
     row = table.row(name)
-    assert isinstance(row, Input) and row.default is not None
+    assert isinstance(row, Input)
+    assert row.default is not None
     return row.default
 
 

@@ -77,11 +77,11 @@ def drive_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]]:
     for name, plain in design.drives.items():
         vary = design.study["vary"][table.stage(name).drive]
         currents = plain["currents"]
-        for i, current in enumerate(currents):
-            size = abs(current)
+        for i, exact in enumerate(currents):
+            size = abs(exact)
             end = "at its upper end" if size > 0.999 * vary["upper"] else "at its lower end"
             inside = 1.001 * vary["lower"] + 1e-3 * vary["upper"] < size < 0.999 * vary["upper"]
-            current = current if size > 1e-4 * vary["upper"] else 0.0
+            current = exact if size > 1e-4 * vary["upper"] else 0.0
             moment = number(plain["duration"] * i / (len(currents) - 1), 3)
             rows.append((name if i == 0 else "", moment, number(current, 3), "" if inside else end))
     return rows

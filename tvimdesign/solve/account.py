@@ -102,12 +102,13 @@ def _held_by_currents(optimizer: Optimizer, run: Run) -> list[Held]:
         )  # fmt: skip
         for sense, bound, sign in senses:
             limit = make_limit(optimizer.table, current.row, sense, bound, "vary")
+            bound_text = in_words(limit, optimizer.table)
             at_it = int(np.sum(sign * (shares - bound / current.upper) >= -SAME_CURRENT))
             price = float(np.sum(np.maximum(sign * multipliers, 0.0))) * limit.scale / current.upper
             found.append(
                 Held(
                     name=f"{limit.name} in {current.stage}",
-                    text=f"{in_words(limit, optimizer.table)}, at {at_it} of {current.nodes} moments of {current.stage}",
+                    text=f"{bound_text}, at {at_it} of {current.nodes} moments of {current.stage}",
                     residual=float(np.max(sign * (shares - bound / current.upper))),
                     price=price / objective,
                     step=limit.step,

@@ -1,4 +1,4 @@
-"""The working cycle simulated, stage after stage: the stack's heat equation through CVODES until every event is found."""
+"""The working cycle simulated, stage after stage: the heat equation through CVODES until every event is found."""
 
 from __future__ import annotations
 
@@ -138,7 +138,7 @@ class _StageSimulator:
                 # A stage that cannot be simulated raises; what CVODES and CasADi say meanwhile is not for people.
                 "show_eval_warnings": False,
                 "disable_internal_warnings": True,
-            },  # fmt: skip
+            },
         )
         self._events = [row.name for row in stage.events]
         self._watched = stage.watch([row.name for row in (*stage.events, *stage.paths)])

@@ -1,4 +1,4 @@
-"""One stage of the working cycle, compiled: its heat equation and its instants as functions of (state, current, inputs)."""
+"""One stage of the working cycle, compiled: heat equation and instants as functions of (state, current, inputs)."""
 
 from __future__ import annotations
 
