@@ -1,7 +1,7 @@
 """What a virtual test comes to, as plain data: tables of curves, how they are drawn, and the numbers read off them.
 
-Every test returns one `Trial`; the report writes a CSV for each sheet and a figure from the panels, and knows nothing of
-what was tested.
+Every test returns one `Trial`; the report writes a CSV for each sheet and a figure from the panels, and knows nothing
+of what was tested.
 """
 
 from __future__ import annotations
