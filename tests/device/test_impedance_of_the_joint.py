@@ -64,8 +64,8 @@ def test_swing_follows_from_the_joints_stiffness_and_damping(joint: dict[str, An
 
 
 def test_frozen_layer_is_the_solid_and_molten_layer_the_melt(joint: dict[str, Any], inputs: dict[str, Any]) -> None:
-    # Solid at 30 degC: 411 MPa at 23 degC, ln E falling by 0.45 ln(1 + exp((T - 42)/5)), nu 0.45, all at 1 Hz; with a loss
-    # factor of 0.05 it grows as w^(2 delta/pi) from there. Melt at 100 degC: its spectrum, nothing else.
+    # Solid at 30 degC: 411 MPa at 23 degC, ln E falling by 0.45 ln(1 + exp((T - 42)/5)), nu 0.45, all at 1 Hz; with a
+    # loss factor of 0.05 it grows as w^(2 delta/pi) from there. Melt at 100 degC: its spectrum, nothing else.
     fall = 0.45 * np.log1p(np.exp(-12.0 / 5.0)) - 0.45 * np.log1p(np.exp(-19.0 / 5.0))
     expected = 411e6 * np.exp(-fall) / 2.9 * HERTZ ** (2.0 / np.pi * np.arctan(0.05))
     assert joint["storage_modulus@cold"] == pytest.approx(expected, rel=0.01)
