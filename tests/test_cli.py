@@ -35,7 +35,7 @@ assert not found, found
 
 @pytest.mark.parametrize(
     "command",
-    [[], ["run"], ["check"], ["new"], ["cad"], ["ledger"], ["rows"]],
+    [[], ["run"], ["check"], ["new"], ["cad"], ["simulate"], ["ledger"], ["rows"]],
     ids=lambda words: " ".join(words) or "tvimdesign",
 )
 def test_every_command_explains_itself(tvimdesign: Command, command: list[str]) -> None:
@@ -74,6 +74,8 @@ def test_the_new_study_runs(tvimdesign: Command, tmp_path: Path) -> None:
         (["rows", "no such thing"], "no row"),
         (["rows", "--mode", "bending"], "bending"),
         (["runn"], "runn"),
+        (["simulate", "studies/paper_shear.yaml", "--test", "relaxaton"], "did you mean relaxation?"),
+        (["simulate", "nowhere.yaml", "--test", "creep"], "no such file"),
         (["run"], "STUDY"),
     ],
 )

@@ -54,7 +54,7 @@ def test_the_study_in_the_readme_has_an_optimum() -> None:
 def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path) -> None:
     lines = [line.split("#")[0] for line in _blocks("sh")[2].splitlines()]
     commands = [shlex.split(line)[1:] for line in lines if line.strip()]
-    assert [words[0] for words in commands] == ["new", "check", "run", "cad", "rows", "ledger"]
+    assert [words[0] for words in commands] == ["new", "check", "run", "cad", "rows", "simulate", "ledger"]
     for words in commands:
         if words[0] == "cad":  # the parts have their own tests; here its input is looked at
             assert (tmp_path / words[1]).exists()

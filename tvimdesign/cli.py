@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from tvimdesign.errors import InputError, TvimError
+from tvimdesign.solve.trials import TESTS
 
 INTERRUPTED = 130
 _STOPPED = "interrupted; what was finished is kept\n"
@@ -100,6 +101,21 @@ def cad(
     from tvimdesign.report.run import make_parts
 
     make_parts(design, out or _default_folder(design), overwrite=overwrite, as_json=json)
+
+
+@app.command()
+def simulate(
+    study: StudyFile,
+    test: Annotated[str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.")],
+    out: Out = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
+    """Put a study's module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
+    from tvimdesign.report.simulate import simulate_study
+
+    folder = out or Path("results") / f"{study.stem}-{test}"
+    simulate_study(study, test, folder, overwrite=overwrite, as_json=json)
 
 
 @app.command()

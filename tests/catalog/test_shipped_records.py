@@ -98,6 +98,16 @@ def test_melt_spectrum_adds_up(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", CATALOG.names("polymers"))
+def test_solid_spectrum_has_a_modulus_of_one_at_1_hertz_and_pairs_with_the_melts(name: str) -> None:
+    polymer = CATALOG.record("polymers", name)
+    modes = polymer.table("solid_spectrum")
+    assert len(modes) == len(polymer.table("melt_spectrum"))
+    star = sum(mode["relative_modulus"] / (1.0 + 1.0 / (2j * math.pi * mode["relaxation_time"])) for mode in modes)
+    assert star.real == pytest.approx(1.0, rel=1e-4)
+    assert 0.02 < star.imag / star.real < 0.10
+
+
+@pytest.mark.parametrize("name", CATALOG.names("polymers"))
 def test_solid_softens_as_calibrated(name: str) -> None:
     value = CATALOG.record("polymers", name).value
 

@@ -119,6 +119,30 @@ def test_a_broken_table_is_named(tmp_path: Path, columns: str, rows: str, status
     assert said in str(caught.value)
 
 
+PCL = Path(__file__).parents[2] / "tvimdesign/catalog/data/polymers/pcl_80k.yaml"
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "said"),
+    [
+        ("[2.068841e-3, 130775.3]", "[2.068841e-3, -3.5]",
+         "tables.melt_spectrum.rows[3].modulus: -3.5 does not do: it must be greater than zero"),
+        ("[0.1, 0.07545]", "[0, 0.07545]",
+         "tables.solid_spectrum.rows[4].relaxation_time: 0 does not do: it must be greater than zero"),
+        ("[10, 0.07414]", "[0.5, 0.07414]",
+         "tables.solid_spectrum.rows[3].relaxation_time: 1 does not do: it must be below the row's before"),
+        ("      - [0.1, 0.07545]\n", "", "melt_spectrum has 6, solid_spectrum has 5 rows"),
+    ],
+)  # fmt: skip
+def test_a_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:
+    text = PCL.read_text(encoding="utf-8")
+    assert good in text
+    with pytest.raises(CatalogError) as caught:
+        put(tmp_path, text.replace(good, bad, 1), shelf="polymers").record("polymers", "mine")
+    assert said in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+
+
 def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
     shipped = Path(__file__).parents[2] / "tvimdesign" / "catalog" / "data" / "spring_materials" / "music_wire.yaml"
     text = shipped.read_text(encoding="utf-8").replace("wire_diameter_to: mm", "wire_diameter_to: in", 1)

@@ -15,7 +15,7 @@ from tvimdesign.solve.transcription import guess, switch_block
 Array = NDArray[np.float64]
 VARIABLES = [row.name for row in table_for("shear").inputs if row.variable]
 EVENTS = ("near_face_time", "mean_time", "far_face_time", "softening_time", "response_time")
-ELEMENTS = 48
+ELEMENTS = 64
 
 
 def differences(function: Any, at: Array, which: list[int], share: float) -> Array:

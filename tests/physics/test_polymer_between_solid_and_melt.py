@@ -1,4 +1,4 @@
-"""Polycaprolactone: melting curve, frozen modulus, and the melt's spectrum against its own Fourier integral."""
+"""Polycaprolactone: melting curve, frozen modulus, and the one spectrum of every state between solid and melt."""
 
 import numpy as np
 import pytest
@@ -18,12 +18,18 @@ GRADES = ("pcl_50k", "pcl_80k")
 
 def solid_of(record: Record) -> polymer.SolidModulus:
     names = ("flexural_modulus", "reference_temperature", "softening_slope", "softening_onset", "softening_width",
-             "poissons_ratio", "solid_loss_factor")  # fmt: skip
+             "poissons_ratio")  # fmt: skip
     return polymer.SolidModulus(*(record.value(name) for name in names))
 
 
 def modes_of(record: Record) -> list[tuple[float, float]]:
     return [(row["relaxation_time"], row["modulus"]) for row in record.table("melt_spectrum")]
+
+
+def rheology_of(grade: str) -> polymer.Rheology:
+    record = Catalog().record("polymers", grade)
+    solid = [(row["relaxation_time"], row["relative_modulus"]) for row in record.table("solid_spectrum")]
+    return polymer.Rheology(solid_of(record), solid, modes_of(record), 35e3, CELSIUS + 100.0)
 
 
 @given(celsius=st.one_of(st.floats(-20.0, 40.0), st.floats(55.0, 60.0), st.floats(75.0, 180.0)))
@@ -129,15 +135,84 @@ def test_melt_viscosity_falls_with_temperature_as_arrhenius_says() -> None:
 
 @given(celsius=st.floats(70.0, 160.0))
 def test_melt_at_another_temperature_is_the_melt_at_a_shifted_frequency(celsius: float) -> None:
-    rheology = polymer.Rheology(solid_of(Catalog().record("polymers", "pcl_80k")), MODES, 35e3, 373.15)
+    rheology = rheology_of("pcl_80k")
     viscosity = polymer.moduli(CELSIUS + celsius, 0.0, 1e-5, rheology)[1] / 1e-5
     reference = polymer.moduli(373.15, 0.0, 1e-5, rheology)[1] / 1e-5
     slope = np.log(viscosity / reference) / (1.0 / (CELSIUS + celsius) - 1.0 / 373.15) if celsius != 100.0 else 4209.6
     assert slope == pytest.approx(35e3 / 8.314462618, rel=1e-3)
 
 
-def test_part_frozen_polymer_is_the_geometric_mean_of_its_phases() -> None:
-    # Lichtenecker: log G = X log G_solid + (1 - X) log G_melt.
-    assert polymer.mix(0.25, (1e8, 1e6), (1e4, 1e2)) == pytest.approx((1e5, 1e3), rel=1e-9)
-    assert polymer.mix(1.0, (1e8, 1e6), (1e4, 1e2)) == pytest.approx((1e8, 1e6), rel=1e-9)
-    assert polymer.mix(0.0, (1e8, 1e6), (1e4, 1e2)) == pytest.approx((1e4, 1e2), rel=1e-9)
+SWEEP = np.geomspace(0.1, 628.0, 60)
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_frozen_polymer_has_a_loss_factor_near_5_percent_over_the_rheometers_range(grade: str) -> None:
+    storage, loss = polymer.moduli(CELSIUS + 30.0, 1.0, SWEEP, rheology_of(grade))
+    assert np.all(np.abs(loss / storage - 0.05) < 0.0035)
+    # With a constant loss factor G' grows as w^(2 delta/pi): 0.0318 a unit of ln w.
+    slope = np.polyfit(np.log(SWEEP), np.log(storage), 1)[0]
+    assert slope == pytest.approx(2.0 / np.pi * np.arctan(0.05), rel=0.05)
+
+
+@pytest.mark.parametrize("grade", GRADES)
+@pytest.mark.parametrize("celsius", [-5.0, 23.0, 37.0, 50.0])
+def test_frozen_polymer_at_1_hertz_has_the_data_sheets_modulus(grade: str, celsius: float) -> None:
+    # 411 MPa at 23 degC, nu 0.45, and ln E falling by 0.09*5*ln(1 + exp((T - 42)/5)).
+    fall = [0.45 * np.log1p(np.exp((at - 42.0) / 5.0)) for at in (23.0, celsius)]
+    expected = 411e6 * np.exp(fall[0] - fall[1]) / 2.9
+    storage, _ = polymer.moduli(CELSIUS + celsius, 1.0, 2.0 * np.pi, rheology_of(grade))
+    assert storage == pytest.approx(expected, rel=1e-9)
+
+
+def test_part_frozen_polymer_mixes_paired_modes_by_their_logarithms() -> None:
+    # At the melt's reference and the solid's: a quarter solid is the geometric mean with weights 1/4 and 3/4.
+    stiff = polymer.SolidModulus(2.9e8, 373.15, 0.09, 900.0, 5.0, 0.45)
+    rheology = polymer.Rheology(stiff, [(1e12, 1.0)], [(1e-4, 1e4)], 35e3, 373.15)
+    ((time, modulus),) = polymer.spectrum(373.15, 0.25, rheology)
+    assert modulus == pytest.approx(1e5, rel=1e-9)  # 1e8 and 1e4 Pa
+    assert time == pytest.approx(1.0, rel=1e-9)  # 1e12 and 1e-4 s
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_molten_polymer_is_the_melts_spectrum_shifted(grade: str) -> None:
+    rheology = rheology_of(grade)
+    shift = np.exp(35e3 / 8.314462618 * (1.0 / (CELSIUS + 120.0) - 1.0 / (CELSIUS + 100.0)))
+    found = polymer.spectrum(CELSIUS + 120.0, 0.0, rheology)
+    expected = [(tau * shift, g) for tau, g in modes_of(Catalog().record("polymers", grade))]
+    assert np.allclose(found, expected, rtol=1e-9, atol=0.0)
+
+
+@given(celsius=st.floats(-20.0, 70.0), fraction=st.floats(-1e-3, 1.001), frequency=st.floats(1e-3, 1e4))
+def test_every_state_is_passive_and_stiffer_the_more_is_frozen(
+    celsius: float, fraction: float, frequency: float
+) -> None:
+    rheology = rheology_of("pcl_80k")
+    assert all(tau > 0.0 and g > 0.0 for tau, g in polymer.spectrum(CELSIUS + celsius, fraction, rheology))
+    storage, loss = polymer.moduli(CELSIUS + celsius, fraction, frequency, rheology)
+    assert storage > 0.0
+    assert loss > 0.0
+    more, _ = polymer.moduli(CELSIUS + celsius, fraction + 0.01, frequency, rheology)
+    assert more > storage
+
+
+def test_spectrum_takes_symbols_and_arrays_as_it_takes_floats() -> None:
+    import casadi as ca
+
+    rheology = rheology_of("pcl_80k")
+    temperature, fraction = ca.SX.sym("T"), ca.SX.sym("X")
+    pairs = [part for mode in polymer.spectrum(temperature, fraction, rheology) for part in mode]
+    symbolic = ca.Function("spectrum", [temperature, fraction], [ca.vertcat(*pairs)])
+    arrays = polymer.spectrum(np.array([300.0, 333.0, 370.0]), np.array([1.0, 0.4, 0.0]), rheology)
+    for i, (at, frozen) in enumerate([(300.0, 1.0), (333.0, 0.4), (370.0, 0.0)]):
+        plain = [part for mode in polymer.spectrum(at, frozen, rheology) for part in mode]
+        assert np.allclose(np.asarray(symbolic(at, frozen)).ravel(), plain, rtol=1e-12, atol=0.0)
+        assert np.allclose([part[i] for mode in arrays for part in mode], plain, rtol=1e-12, atol=0.0)
+
+
+def test_five_percent_of_the_modulus_are_gone_at_the_linear_limit() -> None:
+    limits = polymer.LinearRange(solid=0.003, melt=0.3)
+    assert polymer.damping_function(0.003, polymer.linear_strain(1.0, limits)) == pytest.approx(0.95, rel=1e-12)
+    assert polymer.damping_function(0.3, polymer.linear_strain(0.0, limits)) == pytest.approx(0.95, rel=1e-12)
+    assert polymer.linear_strain(0.5, limits) == pytest.approx(0.03, rel=1e-12)  # the geometric mean
+    # Soskey and Winter: far beyond the limit the modulus falls with the square of the strain.
+    assert polymer.damping_function(300.0, 0.3) / polymer.damping_function(30.0, 0.3) == pytest.approx(0.01, rel=3e-3)

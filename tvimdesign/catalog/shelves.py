@@ -10,22 +10,28 @@ from dataclasses import dataclass, field
 class Columns:
     """The columns a table must have, with a unit of the kind each needs.
 
-    `exact` wants these very units, where a formula goes with them. `rising` columns must rise within each row.
+    `exact` wants these very units, where a formula goes with them. `rising` columns must rise within each row,
+    `falling` ones fall from row to row.
     """
 
     units: Mapping[str, str]
     exact: bool = False
     rising: tuple[str, ...] = ()
+    falling: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Shelf:
-    """What a record must say. Every required number is greater than zero; each list in `rising` must rise."""
+    """What a record must say. Every required number is greater than zero; each list in `rising` must rise.
+
+    The rows of `paired` tables belong together, first to first: there must be as many in each.
+    """
 
     values: Mapping[str, str] = field(default_factory=dict)
     tables: Mapping[str, Columns] = field(default_factory=dict)
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     rising: tuple[tuple[str, ...], ...] = ()
+    paired: tuple[str, ...] = ()
 
 
 SHELVES: Mapping[str, Shelf] = {
@@ -68,7 +74,8 @@ SHELVES: Mapping[str, Shelf] = {
             "softening_onset": "degC",
             "softening_width": "K",
             "poissons_ratio": "1",
-            "solid_loss_factor": "1",
+            "linear_strain_solid": "1",
+            "linear_strain_melt": "1",
             "tensile_yield": "MPa",
             "bond_strength": "MPa",
             "melt_strain_limit": "1",
@@ -85,7 +92,11 @@ SHELVES: Mapping[str, Shelf] = {
             "transport_energy": "kJ/mol",
             "decomposition_temperature": "degC",
         },
-        tables={"melt_spectrum": Columns({"relaxation_time": "s", "modulus": "Pa"})},
+        tables={
+            "melt_spectrum": Columns({"relaxation_time": "s", "modulus": "Pa"}, falling=("relaxation_time",)),
+            "solid_spectrum": Columns({"relaxation_time": "s", "relative_modulus": "1"}, falling=("relaxation_time",)),
+        },
+        paired=("melt_spectrum", "solid_spectrum"),
         rising=(
             ("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),
             ("glass_transition", "crystallization_reference", "equilibrium_melting_temperature"),

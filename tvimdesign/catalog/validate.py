@@ -30,6 +30,7 @@ def build_record(shelf: str, name: str, file: str, tree: dict[str, Tree]) -> tup
     sheets = {key: sheet for key, item in check.section(tree, "tables") if (sheet := check.sheet(key, item))}
     words = {key: item for key, item in check.section(tree, "words") if check.word(key, item) and isinstance(item, str)}
     check.required(tree, entries)
+    check.paired(sheets)
     return Record(shelf, name, title, entries, sheets, words, file), check.problems
 
 
@@ -183,9 +184,16 @@ class _Check:
             rows.append(tuple(row))
             for key in needed.units:
                 if (values[key] or 0.0) <= 0.0:
-                    self.no(f"{here}.{key}", "must be greater than zero")
+                    self.no(f"{here}.{key}", f"{values[key]:g} does not do: it must be greater than zero")
             if any((values[a] or 0.0) >= (values[b] or 0.0) for a, b in pairwise(needed.rising)):
                 self.no(here, f"expected {' < '.join(needed.rising)}")
+        for key in needed.falling:
+            down = [row[list(columns).index(key)] for row in rows]
+            if min(down, default=0.0) <= 0.0:  # named already
+                continue
+            for index, (above, below) in enumerate(pairwise(down), start=2):
+                if below >= above:
+                    self.no(f"{field}[{index}].{key}", f"{below:g} does not do: it must be below the row's before")
         return rows
 
     def word(self, name: str, item: Tree) -> bool:
@@ -194,6 +202,12 @@ class _Check:
             self.no(f"words.{name}", f"expected {' or '.join(allowed) if allowed else 'a word'}")
             return False
         return True
+
+    def paired(self, sheets: dict[str, Sheet]) -> None:
+        counts = {name: len(sheets[name].rows) for name in self.shelf.paired if name in sheets}
+        if len(set(counts.values())) > 1:
+            found = ", ".join(f"{name} has {count}" for name, count in counts.items())
+            self.no("tables", f"{found} rows; they belong together, first to first, and must be as many")
 
     def required(self, tree: dict[str, Tree], entries: dict[str, Entry]) -> None:
         """Name what the shelf wants and the file does not have at all; what is there but wrong is named already."""

@@ -53,12 +53,10 @@ def pcl_solid_modulus(
     pcl_softening_onset: Scalar,
     pcl_softening_width: Scalar,
     pcl_poissons_ratio: Scalar,
-    pcl_loss_factor: Scalar,
 ) -> polymer.SolidModulus:
     """Modulus of the frozen PCL."""
     return polymer.SolidModulus(pcl_flexural_modulus, pcl_reference_temperature, pcl_softening_slope,
-                                pcl_softening_onset, pcl_softening_width, pcl_poissons_ratio,
-                                pcl_loss_factor)  # fmt: skip
+                                pcl_softening_onset, pcl_softening_width, pcl_poissons_ratio)  # fmt: skip
 
 
 @book.helper()
@@ -68,9 +66,16 @@ def pcl_rheology(
     pcl_flow_activation_energy: Scalar,
     pcl_melt_reference: Scalar,
 ) -> polymer.Rheology:
-    """Complex modulus of the PCL at any temperature, solid fraction and frequency."""
-    modes = [(row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")]
-    return polymer.Rheology(pcl_solid_modulus, modes, pcl_flow_activation_energy, pcl_melt_reference)
+    """Relaxation spectrum of the PCL at any temperature and solid fraction."""
+    solid = [(row["relaxation_time"], row["relative_modulus"]) for row in pcl_grade.table("solid_spectrum")]
+    melt = [(row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")]
+    return polymer.Rheology(pcl_solid_modulus, solid, melt, pcl_flow_activation_energy, pcl_melt_reference)
+
+
+@book.helper()
+def pcl_linear_range(pcl_linear_strain_solid: Scalar, pcl_linear_strain_melt: Scalar) -> polymer.LinearRange:
+    """Strains up to which the PCL's moduli do not depend on strain."""
+    return polymer.LinearRange(pcl_linear_strain_solid, pcl_linear_strain_melt)
 
 
 @book.output("m^4")
@@ -85,6 +90,12 @@ def layer_polar_moment(
 def solid_fraction(temperature: Scalar, pcl_melting: polymer.Melting) -> Scalar:
     """Share of the PCL that is frozen, on the equilibrium melting curve."""
     return polymer.solid_fraction(polymer.enthalpy(temperature, pcl_melting), pcl_melting)
+
+
+@book.output("%", per_point=True)
+def linear_strain(solid_fraction: Scalar, pcl_linear_range: polymer.LinearRange) -> Scalar:
+    """Shear strain up to which the PCL's moduli do not depend on it: the storage modulus has fallen 5 % there."""
+    return polymer.linear_strain(solid_fraction, pcl_linear_range)
 
 
 @book.helper(per_point=True)

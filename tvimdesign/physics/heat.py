@@ -6,8 +6,8 @@ stepped over (Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709). Fa
 half-cell resistances in series (Patankar, Numerical Heat Transfer and Fluid Flow, 1980, sec. 4.2). Surfaces lose heat
 by convection and grey radiation to surroundings at ambient temperature (Incropera, ch. 1).
 
-What is frozen follows the equilibrium melting curve, which is right for melting; with `Stack.freezing` each cell carries
-its own history instead, and freezes late and supercooled.
+What is frozen follows the equilibrium melting curve, which is right for melting; with `Stack.freezing` each cell
+carries its own history instead, and freezes late and supercooled.
 
 A state is a one-dimensional array: cold side, hot side, polymer cells from the hot side on, plate cells, the lumps
 beside the plate, the sink if there is one, and with kinetics one extended fraction for each polymer cell. Temperatures

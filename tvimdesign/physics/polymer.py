@@ -1,9 +1,10 @@
-"""Polycaprolactone between frozen and molten: enthalpy, solid fraction and complex shear modulus.
+"""Polycaprolactone between frozen and molten: enthalpy, solid fraction, and the relaxation spectrum of every state.
 
 Temperatures in kelvin; specific enthalpy in J/kg, zero at 0 degC in the solid. Melting here is the equilibrium curve
 over a window; freezing, which lags behind it by tens of kelvin, is not in these equations.
 Sources: [F] Ferry, Viscoelastic Properties of Polymers, 3rd ed. (generalised Maxwell model, time-temperature shift);
-[V] Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709 (enthalpy form of melting over a range).
+[V] Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709 (enthalpy form of melting over a range);
+[S] Soskey and Winter, J. Rheol. 28 (1984) 625 (damping function of large strains).
 """
 
 from __future__ import annotations
@@ -15,6 +16,16 @@ import numpy as np
 
 GAS_CONSTANT = 8.314462618  # J/(mol K), CODATA
 ZERO_CELSIUS = 273.15  # K
+PINNED_FREQUENCY = 2.0 * np.pi  # rad/s, 1 Hz
+"""The angular frequency at which the frozen polymer's storage modulus is the data sheet's E/(2 (1 + nu)).
+
+A flexural test takes seconds to minutes; with a loss factor of 0.05 the modulus changes 8 % a decade of frequency.
+"""
+LINEAR_DROP = 0.05
+"""Share by which the storage modulus has fallen at the limit of the linear range: what rheometers' software takes."""
+
+Modes = Sequence[tuple[Any, Any]]
+"""A relaxation spectrum: (relaxation time [s], modulus [Pa]) of each Maxwell element."""
 
 
 class Melting(NamedTuple):
@@ -83,11 +94,10 @@ class SolidModulus(NamedTuple):
     onset: Any
     width: Any
     poissons_ratio: Any
-    loss_factor: Any
 
 
 def solid_shear_modulus(temperature_kelvin: Any, solid: SolidModulus) -> Any:
-    """Storage shear modulus of the frozen polymer [Pa].
+    """Storage shear modulus of the frozen polymer at the pinned frequency [Pa].
 
     G = E/(2 (1 + nu)); ln E falls by slope*width*ln(1 + exp((T - onset)/width)), which is flat well below the onset and
     straight well above it. Calibrated to E at 23, 37 and 50 degC.
@@ -105,8 +115,8 @@ def arrhenius_shift(temperature_kelvin: Any, reference: Any, activation_energy: 
     return np.exp(activation_energy / GAS_CONSTANT * (1.0 / temperature_kelvin - 1.0 / reference))
 
 
-def maxwell_moduli(angular_frequency: Any, modes: Sequence[tuple[Any, Any]]) -> tuple[Any, Any]:
-    """Storage and loss modulus [Pa] of a generalised Maxwell fluid [F ch. 3].
+def maxwell_moduli(angular_frequency: Any, modes: Modes) -> tuple[Any, Any]:
+    """Storage and loss modulus [Pa] of a generalised Maxwell body [F ch. 3].
 
     `modes` holds (relaxation time [s], modulus [Pa]); G' = sum G (w t)^2/(1 + (w t)^2), G'' = sum G w t/(1 + (w t)^2).
     """
@@ -119,29 +129,61 @@ def maxwell_moduli(angular_frequency: Any, modes: Sequence[tuple[Any, Any]]) -> 
     return storage, loss
 
 
-def mix(fraction: Any, solid: tuple[Any, Any], melt: tuple[Any, Any]) -> tuple[Any, Any]:
-    """Complex modulus of a part-frozen polymer: the logarithms of G' and of G'' mix by the solid fraction.
-
-    Lichtenecker's rule, assumed: between the pure phases it is right in order of magnitude only.
-    """
-    storage = np.exp(fraction * np.log(solid[0]) + (1.0 - fraction) * np.log(melt[0]))
-    loss = np.exp(fraction * np.log(solid[1]) + (1.0 - fraction) * np.log(melt[1]))
-    return storage, loss
-
-
 class Rheology(NamedTuple):
-    """What the complex modulus of a polymer follows from, frozen and molten."""
+    """What the spectrum of a polymer follows from, frozen and molten; the two tables pair row by row."""
 
     solid: SolidModulus
-    modes: Sequence[tuple[Any, Any]]
+    solid_modes: Modes
+    """Relaxation spectrum of the solid: (time [s], modulus relative to the others [1])."""
+    melt_modes: Modes
     """Relaxation spectrum of the melt at its reference temperature: (time [s], modulus [Pa])."""
     activation_energy: Any
     melt_reference: Any
 
 
+def spectrum(temperature_kelvin: Any, fraction: Any, rheology: Rheology) -> list[tuple[Any, Any]]:
+    """Relaxation spectrum (time [s], modulus [Pa]) at a temperature and a solid fraction X.
+
+    Paired modes mix by their logarithms: ln G = X ln G_solid + (1 - X) ln G_melt, ln tau likewise. So moduli and times
+    are positive in every state, which is therefore passive, and every test in time or frequency follows from one
+    spectrum. Lichtenecker's rule, assumed: between the pure phases it is right in order of magnitude only. The melt's
+    times shift with temperature, the solid's do not; the solid's moduli follow `solid_shear_modulus`.
+    """
+    pinned, _ = maxwell_moduli(PINNED_FREQUENCY, rheology.solid_modes)
+    level = np.log(solid_shear_modulus(temperature_kelvin, rheology.solid)) - np.log(pinned)
+    shift = np.log(arrhenius_shift(temperature_kelvin, rheology.melt_reference, rheology.activation_energy))
+    molten = 1.0 - fraction
+    return [
+        (
+            np.exp(fraction * np.log(solid_time) + molten * (shift + np.log(melt_time))),
+            np.exp(fraction * (level + np.log(share)) + molten * np.log(melt_modulus)),
+        )
+        for (solid_time, share), (melt_time, melt_modulus) in zip(
+            rheology.solid_modes, rheology.melt_modes, strict=True
+        )
+    ]
+
+
 def moduli(temperature_kelvin: Any, fraction: Any, angular_frequency: Any, rheology: Rheology) -> tuple[Any, Any]:
     """Storage and loss shear modulus [Pa] at a temperature, a solid fraction and an angular frequency."""
-    storage = solid_shear_modulus(temperature_kelvin, rheology.solid)
-    shift = arrhenius_shift(temperature_kelvin, rheology.melt_reference, rheology.activation_energy)
-    melt = maxwell_moduli(angular_frequency * shift, rheology.modes)
-    return mix(fraction, (storage, rheology.solid.loss_factor * storage), melt)
+    return maxwell_moduli(angular_frequency, spectrum(temperature_kelvin, fraction, rheology))
+
+
+class LinearRange(NamedTuple):
+    """Shear strains [1] at which the storage modulus of the two phases has fallen by `LINEAR_DROP`."""
+
+    solid: Any
+    melt: Any
+
+
+def linear_strain(fraction: Any, limits: LinearRange) -> Any:
+    """Limit of the linear range at a solid fraction [1]: the phases' limits mixed by their logarithms, assumed."""
+    return np.exp(fraction * np.log(limits.solid) + (1.0 - fraction) * np.log(limits.melt))
+
+
+def damping_function(strain: Any, limit: Any) -> Any:
+    """Share of the linear modulus that is left at a strain, h = 1/(1 + a (gamma/gamma_L)^2) [1] [S, exponent 2].
+
+    a = d/(1 - d) makes the drop at the linear limit gamma_L be d = `LINEAR_DROP`.
+    """
+    return 1.0 / (1.0 + LINEAR_DROP / (1.0 - LINEAR_DROP) * (strain / limit) ** 2)

@@ -1,4 +1,4 @@
-"""The figures of a run: each takes plain data and returns a matplotlib figure, without pyplot and without a display."""
+"""The figures of runs and virtual tests: each takes plain data and returns a matplotlib figure, without a display."""
 
 from __future__ import annotations
 
@@ -22,6 +22,9 @@ mpl.rcParams.update(
     }
 )
 _PROFILES = 7
+_ACROSS = 3
+_DECADES_SHOWN = 1e10
+"""Largest over smallest value of a logarithmic axis: what is smaller is nothing, and would press all else flat."""
 
 
 def _figure(width: float = 8.0, height: float = 4.5) -> Figure:
@@ -192,3 +195,47 @@ def bounds(data: dict[str, Any]) -> Figure:
     inches = figure.get_figheight()
     figure.subplots_adjust(left=0.13, right=0.99, bottom=0.75 / inches, top=1.0 - 0.35 / inches, wspace=0.75)
     return figure
+
+
+def trial(data: dict[str, Any]) -> Figure:
+    """The panels of a virtual test side by side, at most three in a row; bands where the layer's history decides."""
+    panels = data["panels"]
+    down = -(-len(panels) // _ACROSS)
+    across = -(-len(panels) // down)
+    width, height = 4.6 * across + 0.4, 3.9 * down + 0.5
+    figure = _figure(width, height)
+    grid = figure.subplots(down, across, squeeze=False).ravel()
+    for axes, panel in zip(grid, panels, strict=False):
+        _panel(axes, panel)
+    for axes in grid[len(panels) :]:
+        axes.set_axis_off()
+    figure.suptitle(data["title"], y=1.0 - 0.14 / height, va="top")
+    figure.subplots_adjust(left=0.8 / width, right=1.0 - 0.15 / width, bottom=0.6 / height, top=1.0 - 0.8 / height,
+                           wspace=0.28, hspace=0.34)  # fmt: skip
+    return figure
+
+
+def _panel(axes: Any, panel: dict[str, Any]) -> None:
+    """One pair of axes of a virtual test; a colour for each beginning of a label."""
+    colours: dict[str, str] = {}
+    for line in panel["lines"]:
+        colour = colours.setdefault(line["label"].partition(",")[0], f"C{len(colours)}")
+        axes.plot(line["x"], line["y"], color=colour, linestyle="--" if line["dashed"] else "-", label=line["label"])
+        if line["band"]:
+            axes.fill_between(line["x"], *line["band"], color=colour, alpha=0.15, linewidth=0.0)
+    if panel["log_x"]:
+        axes.set_xscale("log")
+    if panel["log_y"]:
+        _logarithmic(axes, panel["lines"])
+    axes.set(xlabel=panel["x_label"], ylabel=panel["y_label"], title=panel["title"])
+    axes.legend(fontsize=7)
+
+
+def _logarithmic(axes: Any, lines: list[dict[str, Any]]) -> None:
+    """A logarithmic y axis that shows no more decades than there is something on."""
+    axes.set_yscale("log", nonpositive="clip")
+    drawn = [value for line in lines for part in (line["y"], *(line["band"] or ())) for value in part if value > 0.0]
+    least, most = max(min(drawn), max(drawn) / _DECADES_SHOWN), max(drawn)
+    axes.set_ylim(least / 1.5, most * 1.5)
+    if most / least > 100.0:  # minor ticks take longer to draw than all else; within a decade they are the only ones
+        axes.yaxis.set_minor_locator(NullLocator())

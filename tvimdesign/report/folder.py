@@ -20,7 +20,7 @@ from tvimdesign.study.design import write_whole
 
 MANIFEST = "manifest.json"
 RUNNING = "running"
-_LIBRARIES = ("casadi", "numpy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh")
+_LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh")
 
 
 class ResultsFolder:

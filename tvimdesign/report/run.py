@@ -41,7 +41,7 @@ def describe(study: Study) -> str:
 def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool) -> None:
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.plot_data import plot_data
-    from tvimdesign.report.plots import PlotProcess
+    from tvimdesign.report.plots import Drawing, PlotProcess
     from tvimdesign.report.summary import complaint, print_summary
     from tvimdesign.report.tables import results
     from tvimdesign.solve.answer import answer
@@ -55,7 +55,8 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         found = answer(study, catalog, table, progress)
         if drawing and found.found:
-            drawing.begin(folder.path / "plots", plot_data(found, table))
+            plotted = plot_data(found, table)
+            drawing.begin(folder.path / "plots", [Drawing(name, name, data) for name, data in plotted.items()])
         told = results(found, table)
         design = _write(folder, path, study, found, told, table)
         progress("")

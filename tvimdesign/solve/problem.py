@@ -268,7 +268,8 @@ class Problem:
             if others:
                 raise InputError(
                     f"profile.{current.stage}: the pieces of the current divide the time to {ends}; "
-                    f"{', '.join(others)} cannot be limited or minimised beside it; choose what ends the stage with `response_criterion`"
+                    f"{', '.join(others)} cannot be limited or minimised beside it; "
+                    "choose what ends the stage with `response_criterion`"
                 )
             if ends not in self.events:
                 raise InputError(

@@ -37,7 +37,10 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Line:
-    """One line of a panel: two columns of a sheet. `band` names two columns between which the panel is shaded."""
+    """One line of a panel: two columns of a sheet. `band` names two columns between which the panel is shaded.
+
+    Lines whose labels are the same up to a comma have one colour.
+    """
 
     sheet: str
     x: str

@@ -1,0 +1,35 @@
+"""What a virtual test is given: a study, resolved, and the table its rows are evaluated with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table
+from tvimdesign.study import Study, given
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A module on the bench. `values` holds every input in SI by full name, and every choice as record or word."""
+
+    study: Study
+    catalog: Catalog
+    table: Table
+    values: Mapping[str, Any]
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """Names of the operating points."""
+        return tuple(self.study.operating_points)
+
+    def row(self, name: str) -> Any:
+        """Value of one row by full name; hidden rows too."""
+        return self.table.evaluate(self.values, [name])[name]
+
+
+def rig_for(study: Study, catalog: Catalog, table: Table) -> Rig:
+    """Resolve a study for testing; what it varies stands at its start. Raises InputError for what has no value."""
+    return Rig(study, catalog, table, given(study, catalog, table))
