@@ -33,7 +33,7 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     _print_points(answer, table, console)
     grid = _grid("What the module is", ("", "value", "unit", "meaning"), right=(1,))
     group = ""
-    for section, name, value, unit, description in headline_rows(design, table):
+    for section, name, value, unit, description in headline_rows(answer, table):
         if section != group:
             grid.add_row(f"[dim]{section}[/dim]")
             group = section
@@ -102,18 +102,17 @@ def _default(table: Table, name: str) -> float:
 
 
 def _print_points(answer: Answer, table: Table, console: Console) -> None:
-    points, rows = point_rows(answer.design, table)
+    points, rows = point_rows(answer, table)
     right = tuple(range(1, len(points) + 1))
     grid = _grid("At the operating points", ("", *points, "unit", "meaning"), right=right)
     for row in rows:
         grid.add_row(*row)
     console.print(grid)
     for point in points:
-        low, high = (answer.design.value(f"pcl_melting_{end}") for end in ("start", "end"))
-        if low < answer.design.value(f"temperature@{point}") < high:
+        if f"solid_fraction@{point}" in answer.intervals:
             console.print(
                 f"[yellow]Mind[/yellow] the point {point} lies in the melting range: there the layer depends on its "
-                "history, and these figures are those of the equilibrium curve, right in order of magnitude only."
+                "history. The figures reach from cooled from the melt, still liquid, to heated and melting late."
             )
 
 

@@ -25,24 +25,33 @@ def number(value: float, digits: int = 4) -> str:
     return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
 
 
-def headline_rows(design: Design, table: Table) -> list[tuple[str, str, str, str, str]]:
+def value_text(answer: Answer, name: str, table: Table) -> str:
+    """The value of an output for people: one number, or `low to high` where history leaves it open."""
+    unit = table.unit(name)
+    if name not in answer.intervals:
+        return number(from_si(answer.design.value(name), unit))
+    low, high = (number(from_si(end, unit), 2) for end in answer.intervals[name])
+    return f"{low} to {high}"
+
+
+def headline_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str, str]]:
     """(group, name, value, unit, description) of the rows with one value that stand in a summary."""
     return [
-        (row.group, row.name, number(from_si(design.value(row.name), row.unit)), pretty(row.unit), row.description)
+        (row.group, row.name, value_text(answer, row.name, table), pretty(row.unit), row.description)
         for row in table.outputs
         if row.headline and not row.per_point
     ]
 
 
-def point_rows(design: Design, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
+def point_rows(answer: Answer, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
     """Names of the operating points, and (name, one value a point, unit, description) of the rows that have several."""
-    points = list(design.study["operating_points"])
+    points = list(answer.design.study["operating_points"])
     shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
     shown += [row for row in table.outputs if row.per_point and row.headline]
     rows = [
         (
             row.name,
-            *(number(from_si(design.value(f"{row.name}@{point}"), row.unit)) for point in points),
+            *(value_text(answer, f"{row.name}@{point}", table) for point in points),
             pretty(row.unit),
             row.description,
         )
@@ -131,7 +140,9 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
         "status": design.status,
         "feasible": answer.feasible,
         "choices": design.choices,
-        "values": {name: _entry(name, value, table) for name, value in design.values.items()},
+        "values": {
+            name: _entry(name, value, table) | _ends(answer, name, table) for name, value in design.values.items()
+        },
         "checks": [check_row(check, table) for check in answer.checks],
         "warnings": [check_row(check, table) for check in answer.warnings],
         "drives": design.drives,
@@ -153,6 +164,14 @@ def _entry(name: str, value: float, table: Table) -> dict[str, Any]:
     }
 
 
+def _ends(answer: Answer, name: str, table: Table) -> dict[str, Any]:
+    """`low` and `high` of an output that history leaves open; its value is that of the equilibrium curve on heating."""
+    if name not in answer.intervals:
+        return {}
+    low, high = (from_si(end, table.unit(name)) for end in answer.intervals[name])
+    return {"low": low, "high": high}
+
+
 def _finite(value: float) -> float | None:
     """JSON has no infinity: what never happens is null."""
     return value if math.isfinite(value) else None
@@ -170,7 +189,7 @@ def _all_finite(data: Any) -> Any:
 def results_csv(entries: Mapping[str, Mapping[str, Any]]) -> str:
     """The values of `results` as CSV."""
     stream = io.StringIO()
-    columns = ["name", "value", "unit", "kind", "group", "description", "source"]
+    columns = ["name", "value", "low", "high", "unit", "kind", "group", "description", "source"]
     writer = csv.DictWriter(stream, columns, lineterminator="\n")
     writer.writeheader()
     for name, entry in entries.items():

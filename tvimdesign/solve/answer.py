@@ -13,9 +13,11 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
 from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.curves import Curves, impedance_sweep, stage_history
+from tvimdesign.solve.history import intervals
 from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch, refuse_impossible
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Progress
+from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.solve.solution import Solution
@@ -54,6 +56,8 @@ class Answer:
     """By stage."""
     sweep: Curves
     solution: Solution | None
+    intervals: dict[str, tuple[float, float]]
+    """Least and largest value (SI) of the outputs for which a point inside the melting range has no one answer."""
     constant_current: dict[str, float]
     """What the same module does where currents that follow a profile stay at their default; empty where none does."""
 
@@ -89,11 +93,13 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
         choices=_choices(model, table), values={**numbers, **values}, study=study.model_dump(mode="json"),
         drives={stage: drive.plain() for stage, drive in drives.items()}, solution=_plain(solution),
     )  # fmt: skip
+    rig = Rig(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
     checks = tuple(_check(limit, values, table) for limit in limits_of(study, table))
     warnings = tuple(check for check in (_check(limit, values, table) for limit in advice_of(table)) if not check.kept)
     return Answer(
         design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, switch),
         sweep=impedance_sweep(model, inputs, switch), solution=solution,
+        intervals=intervals(rig, model, inputs, switch.values),
         constant_current=_at_constant_current(model, inputs, set(drives)),
     )  # fmt: skip
 

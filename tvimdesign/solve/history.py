@@ -6,10 +6,17 @@ heated it follows the equilibrium curve, which the record knows to some kelvin o
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from tvimdesign.physics import polymer
+from tvimdesign.solve.model import Model
 from tvimdesign.solve.rig import Rig
+
+Array = NDArray[np.float64]
 
 
 class Fractions(NamedTuple):
@@ -40,6 +47,27 @@ def fractions_at(rig: Rig, temperature: float) -> Fractions:
         start=melting.start + _off(rig, "melting_start")[1], end=melting.end + _off(rig, "melting_end")[1]
     )
     return Fractions(0.0, nominal, max(nominal, _on_heating(temperature, late)))
+
+
+def intervals(rig: Rig, model: Model, inputs: Array, switch: Mapping[str, float]) -> dict[str, tuple[float, float]]:
+    """Least and largest value (SI) of every output that a point inside the melting range leaves open, by full name."""
+    found: dict[str, tuple[float, float]] = {}
+    supplied = [switch[name] for name in model.switch_names]
+    for point in rig.points:
+        low, nominal, high = fractions_at(rig, float(inputs[model.index[f"temperature@{point}"]]))
+        if low == high:
+            continue
+        runs = [
+            np.asarray(model.outputs(model.output_names, {f"solid_fraction@{point}": share})(inputs, supplied)).ravel()
+            for share in (low, nominal, high)
+        ]
+        least, most = np.min(runs, axis=0), np.max(runs, axis=0)
+        for name, a, b in zip(model.output_names, least, most, strict=True):
+            if b - a > 1e-9 * max(abs(a), abs(b)) and np.isfinite(a) and np.isfinite(b):
+                other = found.get(name, (a, b))
+                found[name] = (float(min(a, other[0])), float(max(b, other[1])))
+        found[f"solid_fraction@{point}"] = (low, high)
+    return found
 
 
 def _on_heating(temperature: float, melting: polymer.Melting) -> float:

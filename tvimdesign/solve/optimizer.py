@@ -86,13 +86,13 @@ class Optimizer:
         began = time.perf_counter()
         self.model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
         self.simulator = Simulator(self.model)
-        self.start_switch = self.simulator.run(self.model.start)
-        self.start_values = self.model.values(self.model.start, self.start_switch.values)
         self.currents = tuple(self._current(stage, pieces) for stage, pieces in study.profile.pieces().items())
         rows = {current.row for current in self.currents}
         numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
         self.free = tuple(self._free(name) for name in numbers)
         self.problem = self._problem(limits_of(study, table))
+        self.start_switch = self.simulator.run(self.model.start, stages=self.problem.stages)
+        self.start_values = self.model.values(self.model.start, self.start_switch.values)
         self.reference = reference or {name: self._reference(name) for name in study.minimize}
         self._solvers: dict[bool, Any] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
@@ -117,8 +117,10 @@ class Optimizer:
         """The problem without the limits that nothing free can change; those are checked here and now."""
         free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
         constant = [limit for limit in limits if is_constant(limit, self.table, free)]
+        without_switch = dict.fromkeys(self.model.switch_names, np.inf)
+        values = self.model.values(self.model.start, without_switch) if constant else {}
         for limit in constant:
-            value = self.start_values[limit.output]
+            value = values[limit.output]
             if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
                 raise InfeasibleError(
                     f"{in_words(limit, self.table)} does not hold, and nothing under `vary` can change it; "
