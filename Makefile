@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all lint format types contracts schema cad clean
+.PHONY: help study test test-all bench-switch lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -23,6 +23,9 @@ test: $(STAMP)  ## the fast tests
 
 test-all: $(STAMP)  ## all tests, the long ones too
 	$(BIN)/python -m pytest -q -n 2 -m ''
+
+bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/switch.py
 
 lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
 	$(BIN)/ruff check .

@@ -119,11 +119,22 @@ def simulate(
 
 
 @app.command()
-def ledger(json: AsJson = False) -> None:
+def ledger(
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder for tables and a figure of the designs that take the paper's 70 s."),
+    ] = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
     """Print the paper against its own numbers, as computed by this code."""
     from tvimdesign.report.ledger import print_ledger
 
     print_ledger(as_json=json)
+    if out:
+        from tvimdesign.report.level_sets import print_level_sets
+
+        print_level_sets(out, overwrite=overwrite, as_json=json)
 
 
 @app.command()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from typing import Any
 
 import matplotlib as mpl
@@ -239,3 +240,27 @@ def _logarithmic(axes: Any, lines: list[dict[str, Any]]) -> None:
     axes.set_ylim(least / 1.5, most * 1.5)
     if most / least > 100.0:  # minor ticks take longer to draw than all else; within a decade they are the only ones
         axes.yaxis.set_minor_locator(NullLocator())
+
+
+_PLACES = {"near_face_time": "near face at its target", "mean_time": "mean at its target",
+           "far_face_time": "far face at its target", "softening_time": "joint soft"}  # fmt: skip
+
+
+def level_sets(data: dict[str, Any]) -> Figure:
+    """Thickness that gives one response time against other parameters, a line for each place of the sensor."""
+    figure = _figure(4.2 * len(data["panels"]), 4.5)
+    every = figure.subplots(1, len(data["panels"]), sharey=True, squeeze=False)[0]
+    for axes, one in zip(every, data["panels"], strict=True):
+        for place, label in _PLACES.items():
+            line = [math.nan if y is None else y for y in one["lines"][place]]
+            none = all(math.isnan(y) for y in line)
+            axes.plot(one["x"], line, marker=".", label=f"{label}: none here" if none else label)
+        axes.plot(*one["published"], "k+", markersize=10, label="as assumed here")
+        axes.set(xlabel=one["label"], ylim=(0.0, data["range"][1]))
+        if one["logarithmic"]:
+            axes.set_xscale("log")
+        axes.legend(fontsize=7)
+    every[0].set_ylabel("thickness of the layer (mm)")
+    figure.suptitle(f"What gives {data['wanted']:g} s: thickness from {data['range'][0]:g} to {data['range'][1]:g} mm")
+    figure.subplots_adjust(left=0.06, right=0.98, bottom=0.14, top=0.9, wspace=0.08)
+    return figure

@@ -12,12 +12,15 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cache
 from importlib import resources
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
 from tvimdesign.physics import dynamics, layer, spring, transmission
 from tvimdesign.units import from_si, to_si
+
+if TYPE_CHECKING:
+    from tvimdesign.solve.model import Model
 
 
 @dataclass(frozen=True)
@@ -38,20 +41,21 @@ def claims() -> dict[str, Any]:
     return loaded
 
 
-def _stated(name: str) -> float:
+def from_paper(name: str) -> float:
     """SI value of a number the paper states."""
     entry = claims()["numbers"][name]
     return to_si(float(entry["value"]), entry["unit"])
 
 
 def _spring_rate(wire_diameter: float) -> float:
-    return float(spring.rate(_stated("youngs_modulus"), wire_diameter, _stated("coil_diameter"), _stated("coil_count")))
+    coil_diameter, count = from_paper("coil_diameter"), from_paper("coil_count")
+    return float(spring.rate(from_paper("youngs_modulus"), wire_diameter, coil_diameter, count))
 
 
 def _torsion_rate() -> str:
-    rate, stated = _spring_rate(_stated("wire_diameter")), _stated("torsion_rate")
+    rate, stated = _spring_rate(from_paper("wire_diameter")), from_paper("torsion_rate")
     inch_pounds = rate / (to_si(1.0, "lbf") * to_si(1.0, "in"))
-    needed = _stated("wire_diameter") * (stated / rate) ** 0.25
+    needed = from_paper("wire_diameter") * (stated / rate) ** 0.25
     return (
         f"E d^4/(64 D n) = {rate:.4f} N·m/rad = {inch_pounds:.2f} in·lbf/rad, which is {stated / rate:.2f} times less; "
         f"{from_si(stated, 'N*m/rad'):g} N·m/rad needs d = {from_si(needed, 'mm'):.2f} mm"
@@ -59,8 +63,8 @@ def _torsion_rate() -> str:
 
 
 def _output_stiffness() -> str:
-    rate = _spring_rate(_stated("wire_diameter"))
-    count, stroke = _stated("springs"), _stated("stroke")
+    rate = _spring_rate(from_paper("wire_diameter"))
+    count, stroke = from_paper("springs"), from_paper("stroke")
     unity = transmission.output_stiffness(count, rate, 0.0, 1.0, 0.0)
     return (
         f"N·m/rad on the left, N·m·rad on the right; the paper's own energy line gives K_s = 4 k (alpha/theta)^2 = "
@@ -69,8 +73,8 @@ def _output_stiffness() -> str:
 
 
 def _inertia() -> str:
-    inertia = _stated("inertia")
-    stiffness = 4.0 * _spring_rate(_stated("wire_diameter"))
+    inertia = from_paper("inertia")
+    stiffness = 4.0 * _spring_rate(from_paper("wire_diameter"))
     return (
         f"{inertia:.3e} kg·m2 as kg·mm2; on springs of {stiffness:.2f} N·m/rad that rings at "
         f"{dynamics.natural_frequency(stiffness, inertia):.1f} Hz"
@@ -78,7 +82,7 @@ def _inertia() -> str:
 
 
 def _motion() -> str:
-    stiffness, inertia = 4.0 * _spring_rate(_stated("wire_diameter")), _stated("inertia")
+    stiffness, inertia = 4.0 * _spring_rate(from_paper("wire_diameter")), from_paper("inertia")
     growth = math.sqrt(stiffness / inertia)
     return (
         f"with K on the wrong side the springs push away from rest: a deflection would grow as exp({growth:.0f} t/s); "
@@ -88,7 +92,7 @@ def _motion() -> str:
 
 
 def _creep() -> str:
-    first, second = _stated("recovery_methods"), _stated("recovery_results")
+    first, second = from_paper("recovery_methods"), from_paper("recovery_results")
     return f"two different times for one test: {first:g} s and {second:g} s, a factor of {second / first:g}"
 
 
@@ -104,7 +108,7 @@ def _area() -> str:
 
 
 def _response() -> str:
-    stated = _stated("response_time")
+    stated = from_paper("response_time")
     thickness, simulate = _switches()
     now, insulated = simulate({}), simulate(_INSULATED)
 
@@ -124,17 +128,24 @@ _INSULATED = {"rotor_contact": 1e-3}
 """A rotor behind no thermal contact at all: the other end of what the paper leaves open."""
 
 
-def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
-    """The paper's thickness as assumed here [m], and a function from changed inputs to the values of one switch."""
+@cache
+def published_model() -> Model:
+    """The paper's module as published, compiled."""
     from tvimdesign.catalog import Catalog
     from tvimdesign.device import table_for
     from tvimdesign.solve.model import Model
-    from tvimdesign.solve.simulate import Simulator
     from tvimdesign.study import given, read_study_text
 
     study = read_study_text(claims()["study"], "the paper's module")
     table = table_for(study.mode)
-    model = Model(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+    return Model(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+
+
+def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
+    """The paper's thickness as assumed here [m], and a function from changed inputs to the values of one switch."""
+    from tvimdesign.solve.simulate import Simulator
+
+    model = published_model()
     simulator = Simulator(model)
 
     def simulate(changes: dict[str, float]) -> dict[str, float]:
@@ -155,12 +166,12 @@ def _bisect(function: Callable[[float], float], low: float, high: float, steps: 
 
 
 def _ratio() -> str:
-    place, rate = _stated("placement_radius"), _spring_rate(_stated("wire_diameter"))
+    place, rate = from_paper("placement_radius"), _spring_rate(from_paper("wire_diameter"))
     pins = (0.5 * place, 38e-3)
     stiffness = [
         transmission.output_stiffness(4, rate, 0.0, transmission.leg_ratio(pin, place, 0.0, 0.0), 0.0) for pin in pins
     ]
-    strain = layer.shear_strain(40e-3, _stated("stroke"), 1e-3)
+    strain = layer.shear_strain(40e-3, from_paper("stroke"), 1e-3)
     return (
         f"alpha/theta = p/(r - p) for a pin at radius p: one only at p = {pins[0] * 1e3:.1f} mm "
         f"(K_s {stiffness[0]:.2f}), K_s = {stiffness[1]:.1f} N·m/rad at p = 38 mm; "

@@ -1,0 +1,222 @@
+"""One switch simulated by tvimdesign and by scipy's solvers on the same equations, side by side at the same accuracy.
+
+Every solver finds the same four times: near face, mean and far face at the target temperature, and the joint soft. Each
+of scipy's gets the loosest tolerance at which its times are as accurate as asked, measured against a solution that
+is far tighter; tvimdesign's runs as shipped. All run in turn, so that what else the machine does hits all alike.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import switching, table_for
+from tvimdesign.physics import heat
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Simulator
+from tvimdesign.study import given, read_study
+
+Array = NDArray[np.float64]
+EVENTS = ("near_face_time", "mean_time", "far_face_time", "softening_time")
+STUDY = Path(__file__).resolve().parents[1] / "studies/paper_as_published.yaml"
+LADDER = [10.0 ** (-0.5 * k) for k in range(4, 25)]  # relative tolerances from 1e-2 to 1e-12
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The same initial-value problem in one form or another, as scipy takes it."""
+
+    start: Array
+    rates: Callable[[float, Array], Any]
+    gaps: Callable[[float, Array], Any]
+    """What each of EVENTS waits for: it rises, and the event is where it passes zero."""
+    jacobian: Callable[[float, Array], Any] | None = None
+    sparsity: Array | None = None
+
+
+@dataclass(frozen=True)
+class Contender:
+    """One way to simulate a switch; `solve` takes a relative tolerance."""
+
+    name: str
+    solve: Callable[[float], Array]
+
+
+class Quick:
+    """A CasADi function of (state, inputs) called through its buffers, which the object keeps alive."""
+
+    def __init__(self, function: Any, inputs: Array) -> None:
+        """Hand the function the memory it reads from and writes to."""
+        self._buffer, self._call = function.buffer()
+        self._state, self._inputs = np.zeros(function.numel_in(0)), np.ascontiguousarray(inputs)
+        self._result = np.zeros(function.numel_out(0))
+        self._shape = function.size_out(0) if function.size2_out(0) > 1 else (function.numel_out(0),)
+        self._buffer.set_arg(0, memoryview(self._state))
+        self._buffer.set_arg(1, memoryview(self._inputs))
+        self._buffer.set_res(0, memoryview(self._result))
+
+    def __call__(self, _: float, state: Array) -> Array:
+        """Evaluate at a state; time plays no part."""
+        self._state[:] = state
+        self._call()
+        return self._result.reshape(self._shape, order="F").copy()
+
+
+def written_by_hand(model: Model, sparse: bool) -> Equations:
+    """Write the equations as a user of numpy and scipy would: floats through `physics.heat`, a state as an array."""
+    numbers = {name: float(value) for name, value in zip(model.names, model.start, strict=True)}
+    known = {**model.words, **numbers, "rotor_cells": int(numbers["rotor_cells"])}
+    wanted = ["stack", "pcl_rheology", "layer_polar_moment", "structure_stiffness", "spring_stiffness",
+              "joint_impedance@hot"]  # fmt: skip
+    stack, rheology, moment, structure, springs, hot = (model.table.evaluate(known, wanted)[name] for name in wanted)
+    target, soft = numbers["target_temperature"], numbers["softening_band"] * hot
+
+    def rates(_: float, state: Array) -> list[Any]:
+        return heat.rates(state.tolist(), stack)
+
+    def gaps(_: float, state: Array) -> list[Any]:
+        now = heat.profile(state.tolist(), stack)
+        moduli = switching.layer_moduli(now, rheology, numbers["frequency@hot"])
+        impedance = switching.impedance_now(moduli, moment, numbers["pcl_thickness"], structure, springs)
+        mean = sum(now.cells) / len(now.cells)
+        return [now.near - target, mean - target, now.far - target, np.log(soft / impedance)]
+
+    start = np.asarray(model.initial(model.start)).ravel()
+    return Equations(start, rates, gaps, sparsity=_pattern(model) if sparse else None)
+
+
+def compiled(model: Model) -> Equations:
+    """Hand scipy tvimdesign's own compiled right-hand side, exact Jacobian and its events."""
+    state, inputs = ca.SX.sym("state", model.rates.size1_in(0)), ca.SX.sym("inputs", len(model.names))
+    slope = ca.densify(ca.jacobian(model.rates(state, inputs), state))
+    return Equations(
+        np.asarray(model.initial(model.start)).ravel(),
+        Quick(model.rates, model.start),
+        Quick(model.watch(EVENTS), model.start),
+        Quick(ca.Function("jacobian", [state, inputs], [slope]), model.start),
+    )
+
+
+def _pattern(model: Model) -> Array:
+    return np.asarray(ca.DM(model.rates.jac_sparsity(0, 0), 1).full())
+
+
+def by_scipy(equations: Equations, method: str) -> Callable[[float], Array]:
+    """Event times by `solve_ivp`, which stops at the last of them."""
+    options: dict[str, Any] = {}
+    if equations.jacobian is not None:
+        options["jac"] = equations.jacobian
+    if equations.sparsity is not None:
+        options["jac_sparsity"] = equations.sparsity
+    latest: list[Any] = [None, None]
+
+    def watched(which: int) -> Callable[[float, Array], float]:
+        def gap(now: float, state: Array) -> float:
+            if latest[0] != now:  # the four events ask one after the other for the same instant
+                latest[:] = now, equations.gaps(now, state)
+            return float(latest[1][which])
+
+        gap.terminal = EVENTS[which] == "far_face_time"  # how scipy is told
+        return gap
+
+    def solve(tolerance: float) -> Array:
+        latest[0] = None
+        found = solve_ivp(
+            equations.rates, (0.0, 600.0), equations.start, method=method, rtol=tolerance, atol=1e-2 * tolerance,
+            events=[watched(i) for i in range(len(EVENTS))], **options,
+        )  # fmt: skip
+        return np.array([times[0] if len(times) else np.inf for times in found.t_events])
+
+    return solve
+
+
+def by_tvimdesign(model: Model) -> Callable[[float], Array]:
+    """Event times as the product finds them, with its own tolerance, energies and peaks included."""
+    simulator = Simulator(model)
+
+    def solve(_: float) -> Array:
+        values = simulator.run(model.start).values
+        return np.array([values[name] for name in EVENTS])
+
+    return solve
+
+
+def settled(contender: Contender, reference: Array, wanted: float) -> float:
+    """Loosest tolerance at which, and at the next tighter one, the worst of the times is as accurate as wanted."""
+    for tolerance, tighter in pairwise(LADDER):
+        if max(_error(contender.solve(t), reference) for t in (tolerance, tighter)) <= wanted:
+            return tolerance
+    return LADDER[-1]
+
+
+def _error(times: Array, reference: Array) -> float:
+    return float(np.max(np.abs(times / reference - 1.0)))
+
+
+def clocked(contenders: list[tuple[Contender, float]], repeats: int) -> list[float]:
+    """Median time [s] of each contender, all run in turn."""
+    taken: list[list[float]] = [[] for _ in contenders]
+    for _ in range(repeats):
+        for times, (contender, tolerance) in zip(taken, contenders, strict=True):
+            begin = time.perf_counter()
+            contender.solve(tolerance)
+            times.append(time.perf_counter() - begin)
+    return [statistics.median(times) for times in taken]
+
+
+def table(model: Model, wanted: float | None, repeats: int) -> str:
+    """Compare at an accuracy of the event times; None is as accurate as tvimdesign."""
+    machine = compiled(model)
+    ours = Contender("tvimdesign", by_tvimdesign(model))
+    others = [
+        Contender("BDF, numpy", by_scipy(written_by_hand(model, sparse=False), "BDF")),
+        Contender("BDF, numpy, sparsity given", by_scipy(written_by_hand(model, sparse=True), "BDF")),
+        Contender("LSODA, numpy", by_scipy(written_by_hand(model, sparse=False), "LSODA")),
+        Contender("BDF, compiled, exact Jacobian", by_scipy(machine, "BDF")),
+        Contender("LSODA, compiled, exact Jacobian", by_scipy(machine, "LSODA")),
+        Contender("Radau, compiled, exact Jacobian", by_scipy(machine, "Radau")),
+    ]
+    reference = by_scipy(machine, "LSODA")(1e-12)
+    wanted = wanted or max(_error(ours.solve(0.0), reference), 1e-8)
+    runs = [(ours, 0.0), *((contender, settled(contender, reference, wanted)) for contender in others)]
+    medians = clocked(runs, repeats)
+    lines = [
+        f"{len(machine.start)} states, event times within {wanted:.0e}, median of {repeats}",
+        f"{'solver':34}{'tolerance':>10}{'error':>10}{'ms':>9}{'times tvimdesign':>18}",
+    ]
+    for (contender, tolerance), median in zip(runs, medians, strict=True):
+        told = f"{tolerance:.0e}" if tolerance else "shipped"
+        error = _error(contender.solve(tolerance), reference)
+        lines.append(f"{contender.name:34}{told:>10}{error:>10.0e}{1e3 * median:>9.1f}{median / medians[0]:>18.1f}")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Print the comparison; with --out write it too."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--repeats", type=int, default=7, help="runs of each solver")
+    parser.add_argument("--out", type=Path, help="text file to write the tables to")
+    chosen = parser.parse_args()
+    study = read_study(STUDY)
+    rows = table_for(study.mode)
+    model = Model(rows, given(study, Catalog(), rows), tuple(study.operating_points), study.solver.cells)
+    text = "\n\n".join(table(model, wanted, chosen.repeats) for wanted in (None, 1e-4))
+    print(text)
+    if chosen.out:
+        chosen.out.write_text(text + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

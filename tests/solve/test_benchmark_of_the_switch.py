@@ -1,0 +1,58 @@
+"""The benchmark compares like with like: every row solves the same equations and finds the same times."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from types import ModuleType
+
+import numpy as np
+import pytest
+from support import ROOT
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.model import Model
+from tvimdesign.study import given, read_study
+
+
+@pytest.fixture(scope="module")
+def bench() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("bench_switch", ROOT / "benchmarks/switch.py")
+    assert spec
+    assert spec.loader
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["bench_switch"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def model(bench: ModuleType) -> Model:
+    study = read_study(bench.STUDY)
+    table = table_for(study.mode)
+    return Model(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+
+
+def test_equations_by_hand_and_compiled_are_the_same(bench: ModuleType, model: Model) -> None:
+    hand, machine = bench.written_by_hand(model, sparse=True), bench.compiled(model)
+    assert hand.start == pytest.approx(machine.start)
+    generator = np.random.default_rng(1)
+    for _ in range(5):
+        state = hand.start * generator.uniform(0.9, 4.0, hand.start.size)
+        assert hand.rates(0.0, state) == pytest.approx(machine.rates(0.0, state), rel=1e-9, abs=1e-12)
+        gaps = np.asarray(hand.gaps(0.0, state)) / np.array([100.0, 100.0, 100.0, 1.0])
+        assert gaps == pytest.approx(machine.gaps(0.0, state), rel=1e-9, abs=1e-12)
+        slope = machine.jacobian(0.0, state)
+        assert np.all((slope == 0.0) | (hand.sparsity == 1.0))
+        shift = 1e-6 * generator.standard_normal(state.size)
+        change = machine.rates(0.0, state + shift) - machine.rates(0.0, state - shift)
+        assert change == pytest.approx(2.0 * slope @ shift, rel=1e-4, abs=1e-10)
+
+
+def test_all_rows_find_the_same_times(bench: ModuleType, model: Model) -> None:
+    machine = bench.compiled(model)
+    ours = bench.by_tvimdesign(model)(0.0)
+    assert bench.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-5)
+    assert bench.by_scipy(machine, "BDF")(1e-7) == pytest.approx(ours, rel=1e-5)
+    assert bench.by_scipy(bench.written_by_hand(model, sparse=True), "BDF")(1e-5) == pytest.approx(ours, rel=1e-4)

@@ -1,0 +1,65 @@
+"""The designs that take a given time do take it, and where none does the line has a gap."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tvimdesign.report.ledger import published_model
+from tvimdesign.solve.level_set import PLACES, LevelSet, _root, level_set
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Simulator
+
+WANTED = 70.0
+THICKNESSES = [0.2e-3, 0.6e-3, 2e-3]
+
+
+@pytest.fixture(scope="module")
+def model() -> Model:
+    return published_model()
+
+
+@pytest.fixture(scope="module")
+def found(model: Model) -> LevelSet:
+    return level_set(model, "current", [1.4, 1.75, 2.2], THICKNESSES, WANTED)
+
+
+def test_a_point_on_a_line_takes_the_time_when_it_is_simulated(model: Model, found: LevelSet) -> None:
+    points = 0
+    for place in PLACES:
+        for current, thickness in zip(found.values, found.line[place], strict=True):
+            if math.isnan(thickness):
+                continue
+            inputs = model.start.copy()
+            inputs[model.index["current"]], inputs[model.index["pcl_thickness"]] = current, thickness
+            assert Simulator(model).run(inputs).values[place] == pytest.approx(WANTED, rel=2e-4)
+            assert 0.2e-3 <= thickness <= 2e-3
+            points += 1
+    assert points >= 4
+
+
+def test_where_the_line_has_a_gap_no_thickness_of_the_grid_is_on_either_side(found: LevelSet) -> None:
+    gaps = 0
+    for place in PLACES:
+        for times, thickness in zip(found.times[place], found.line[place], strict=True):
+            if math.isnan(thickness):
+                assert np.all(times > WANTED) or np.all(times < WANTED)
+                gaps += 1
+    assert gaps >= 4
+
+
+def test_a_place_further_from_the_pads_needs_a_thinner_layer(found: LevelSet) -> None:
+    near, mean, far = (found.line[f"{place}_time"][1] for place in ("near_face", "mean", "far_face"))
+    assert far < mean < near
+    assert np.all(np.diff(found.times["far_face_time"], axis=1) > 0.0)
+
+
+@pytest.mark.parametrize("power", [0.5, 1.0, 4.0])
+def test_a_root_is_found_also_where_the_upper_end_is_never(power: float) -> None:
+    def function(x: float) -> float:
+        return x**power - 2.0 if x < 5.0 ** (1.0 / power) else math.inf
+
+    expected = 2.0 ** (1.0 / power)
+    assert _root(function, (0.1, function(0.1)), (30.0, math.inf), 1e-9) == pytest.approx(expected, rel=1e-8)
