@@ -169,6 +169,21 @@ def test_maxwell_cannot_hold_a_load_that_kelvin_voigt_holds(done: Done) -> None:
     assert named(trial, "maxwell_after_a_day@100_degC").value == pytest.approx(1.0, rel=0.05)
 
 
+@pytest.mark.parametrize("celsius", [30, 60, 100])
+def test_after_the_load_maxwell_keeps_its_flow_and_kelvin_voigt_creeps_back(done: Done, celsius: int) -> None:
+    trial = done("creep")
+    curves = next(sheet for sheet in trial.sheets if sheet.name == f"creep_{celsius}_degC")
+    bodies = next(sheet for sheet in trial.sheets if sheet.name == "simple_bodies")
+    fitted = {column.name: column.values[{30: 0, 60: 1, 100: -1}[celsius]] for column in bodies.columns}
+    time, after = curves.column("time").values, curves.column("time").values >= 300.0
+    flow = 50.0 * 300.0 / fitted["maxwell_viscosity"]
+    assert np.allclose(curves.column("strain_maxwell").values[after], flow, rtol=1e-6)
+    stiffness, viscosity = fitted["kelvin_voigt_stiffness"], fitted["kelvin_voigt_viscosity"]
+    begin = 50.0 / stiffness * -np.expm1(-300.0 * stiffness / viscosity)
+    back = begin * np.exp(-(time[after] - 300.0) * stiffness / viscosity)
+    assert np.allclose(curves.column("strain_kelvin_voigt").values[after], back, rtol=1e-6, atol=1e-12 * begin)
+
+
 def test_maxwells_body_of_the_slow_melt_has_its_viscosity(done: Done) -> None:
     sheet = next(sheet for sheet in done("creep").sheets if sheet.name == "simple_bodies")
     melt = int(np.argmax(sheet.column("temperature").values))
