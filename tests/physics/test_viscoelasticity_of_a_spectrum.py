@@ -113,7 +113,7 @@ def test_strain_under_and_after_a_load_is_what_the_internal_equations_integrate_
 
 @NAMED
 def test_storage_and_loss_obey_kramers_and_kronig(modes: Modes) -> None:
-    # G''(w) = -(2 w/pi) P int (G'(x) - G'(w))/(x^2 - w^2) dx (Tschoegl, ch. 8);
+    # G''(w) = -(2 w/pi) P int (G'(x) - G'(w))/(x^2 - w^2) dx (Tschoegl);
     # in ln x, the pole taken out by symmetry.
     for omega in (0.5, 20.0):
 
