@@ -131,6 +131,8 @@ PCL = Path(__file__).parents[2] / "tvimdesign/catalog/data/polymers/pcl_80k.yaml
          "tables.solid_spectrum.rows[4].relaxation_time: 0 does not do: it must be greater than zero"),
         ("[10, 0.07414]", "[0.5, 0.07414]",
          "tables.solid_spectrum.rows[3].relaxation_time: 1 does not do: it must be below the row's before"),
+        ("[10, 0.07414]", "[1, 0.07414]",
+         "tables.solid_spectrum.rows[3].relaxation_time: 1 does not do: it must be below the row's before"),
         ("      - [0.1, 0.07545]\n", "", "melt_spectrum has 6, solid_spectrum has 5 rows"),
     ],
 )  # fmt: skip

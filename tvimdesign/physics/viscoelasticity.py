@@ -3,7 +3,7 @@
 A spectrum is a list of (relaxation time [s], modulus [Pa]), the Maxwell elements of a generalised Maxwell body. Its
 creep is exact too: the retardation spectrum has one time fewer, and a viscosity.
 Sources: [F] Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 3 and 4; [T] Tschoegl, The Phenomenological Theory
-of Linear Viscoelastic Behavior, ch. 3 and 8 (the times of retardation lie between those of relaxation).
+of Linear Viscoelastic Behavior (interconversion; the times of retardation lie between those of relaxation).
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ class Retardation(NamedTuple):
 
 
 def retardation(modes: Modes) -> Retardation:
-    """Retardation spectrum of a relaxation spectrum, exactly [T ch. 8].
+    """Retardation spectrum of a relaxation spectrum, exactly [T].
 
     With the rates p = 1/tau the operational modulus is Q(s) = s F(s), F(s) = sum G/(s + p), and the compliance is the
     partial fractions of 1/Q: one rate r between each two neighbouring p, F(-r) = 0, with the compliance

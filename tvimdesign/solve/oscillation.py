@@ -18,7 +18,7 @@ SMALL_STRAIN = 1e-4
 """Strain of the frequency and temperature sweeps: the paper's 0.01 %."""
 FREQUENCIES = np.geomspace(0.1, 628.0, 77)  # rad/s, the paper's
 STRAINS = np.geomspace(1e-4, 10.0, 101)
-AMPLITUDE_FREQUENCY = 10.0  # rad/s; the paper gives none, ISO 6721-10 and makers suggest it
+AMPLITUDE_FREQUENCY = 10.0  # rad/s; the paper gives none: assumed, a usual choice
 TEMPERATURES = np.arange(-5.0, 200.5, 1.0) + ZERO_CELSIUS  # K, the paper's
 ONE_HERTZ = 2.0 * np.pi  # rad/s
 

@@ -1,0 +1,112 @@
+"""`tvimdesign simulate`: a folder with sheets, figure and findings that agree with one another."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support import Command
+
+from tvimdesign.report.simulate import figure_data, findings, sheet_csv
+from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
+
+SHEET = Sheet(
+    "warm",
+    (
+        Column("temperature", "degC", np.array([273.15, 333.15])),
+        Column("strain", "%", np.array([0.01, 0.02])),
+        Column("strain_low", "%", np.array([0.0, 0.01])),
+        Column("strain_high", "%", np.array([0.02, 0.03])),
+    ),
+)
+LINE = Line("warm", "temperature", "strain", "as is", ("strain_low", "strain_high"))
+TRIAL = Trial(
+    test="none",
+    title="No test",
+    sheets=(SHEET,),
+    panels=(Panel("A panel", "temperature (°C)", "strain (%)", (LINE,), log_y=True),),
+    findings=(
+        Finding("sure", 0.02, "%", "one number"),
+        Finding("unsure", 0.02, "%", "an interval", 0.01, 0.03),
+        Finding("never", float("inf"), "s", "does not happen"),
+    ),
+)
+
+
+def test_sheets_are_headed_by_name_and_unit_and_hold_numbers_in_it() -> None:
+    rows = list(csv.reader(sheet_csv(SHEET).splitlines()))
+    assert rows[0] == ["temperature [degC]", "strain [%]", "strain_low [%]", "strain_high [%]"]
+    assert [float(value) for value in rows[2]] == pytest.approx([60.0, 2.0, 1.0, 3.0])
+
+
+def test_findings_are_numbers_in_their_unit_and_intervals_have_no_value() -> None:
+    sure, unsure, never = findings(TRIAL)["findings"]
+    assert sure["value"] == pytest.approx(2.0)
+    assert sure["unit"] == "%"
+    assert "value" not in unsure
+    assert (unsure["low"], unsure["nominal"], unsure["high"]) == pytest.approx((1.0, 2.0, 3.0))
+    assert never["value"] is None
+    json.dumps(findings(TRIAL), allow_nan=False)
+
+
+def test_figures_are_drawn_in_the_units_of_the_sheets() -> None:
+    line = figure_data(TRIAL)["panels"][0]["lines"][0]
+    assert line["x"] == pytest.approx([0.0, 60.0])
+    assert line["y"] == pytest.approx([1.0, 2.0])
+    assert line["band"] == [pytest.approx([0.0, 1.0]), pytest.approx([2.0, 3.0])]
+
+
+def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Command, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "frequency", "--out", out)
+    assert done.returncode == 0, done.stderr
+    files = {path.name for path in out.iterdir()}
+    sheets = {f"frequency_{point}.csv" for point in ("30_degC", "60_degC", "100_degC")} | {"simple_bodies.csv"}
+    assert files == sheets | {"frequency.png", "findings.json", "manifest.json", "study.yaml"}
+    manifest = json.loads((out / "manifest.json").read_text())
+    assert manifest["status"] == "tested"
+    assert manifest["files"].keys() == files - {"manifest.json"}
+    assert "polymers/pcl_80k" in manifest["inputs"]
+    line = next(line for line in done.stdout.splitlines() if line.startswith("storage_modulus@60_degC"))
+    assert " to " in line
+
+    import matplotlib.image as mpimg
+
+    picture = mpimg.imread(out / "frequency.png")
+    assert picture.shape[0] > 500
+    assert np.std(picture[..., :3]) > 0.05
+
+    again = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "frequency", "--out", out)
+    assert again.returncode == 2
+    assert "--overwrite" in again.stderr
+
+
+def test_scripts_get_json(tvimdesign: Command, tmp_path: Path) -> None:
+    done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "amplitude", "--json", "--out",
+                      tmp_path / "out")  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["test"] == "amplitude"
+    names = {found["name"] for found in told["findings"]}
+    assert "linear_limit@30_degC" in names
+
+
+def test_an_unknown_test_leaves_no_folder(tvimdesign: Command, tmp_path: Path) -> None:
+    done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "frequence", "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert "did you mean frequency?" in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_record_with_a_negative_modulus_is_named_by_the_command(tvimdesign: Command, tmp_path: Path) -> None:
+    shipped = Path(__file__).parents[2] / "tvimdesign/catalog/data/polymers/pcl_80k.yaml"
+    (tmp_path / "mine/polymers").mkdir(parents=True)
+    text = shipped.read_text(encoding="utf-8").replace("82513.7", "-82513.7")
+    (tmp_path / "mine/polymers/odd.yaml").write_text(text, encoding="utf-8")
+    (tmp_path / "study.yaml").write_text("mode: shear\ncatalog: mine\nmodule: {pcl_grade: odd}\n")
+    done = tvimdesign("simulate", tmp_path / "study.yaml", "--test", "creep", "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert "odd.yaml" in done.stderr
+    assert "tables.melt_spectrum.rows[1].modulus: -82513.7 does not do: it must be greater than zero" in done.stderr
+    assert not (tmp_path / "out").exists()
