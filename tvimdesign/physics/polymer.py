@@ -119,14 +119,8 @@ def maxwell_moduli(angular_frequency: Any, modes: Sequence[tuple[Any, Any]]) -> 
     return storage, loss
 
 
-def mix(fraction: Any, solid: tuple[Any, Any], melt: tuple[Any, Any]) -> tuple[Any, Any]:
-    """Complex modulus of a part-frozen polymer: the logarithms of G' and of G'' mix by the solid fraction.
-
-    Lichtenecker's rule, assumed: between the pure phases it is right in order of magnitude only.
-    """
-    storage = np.exp(fraction * np.log(solid[0]) + (1.0 - fraction) * np.log(melt[0]))
-    loss = np.exp(fraction * np.log(solid[1]) + (1.0 - fraction) * np.log(melt[1]))
-    return storage, loss
+SOLID_MODES = ((1e10, 0.83776), (10.0, 0.07414), (1.0, 0.06814), (0.1, 0.07545), (0.01, 0.07776), (0.001, 0.10444))
+"""The frozen polymer's spectrum: (relaxation time [s], modulus over the storage modulus at 1 Hz); assumed."""
 
 
 class Rheology(NamedTuple):
@@ -139,9 +133,20 @@ class Rheology(NamedTuple):
     melt_reference: Any
 
 
+def spectrum(temperature_kelvin: Any, fraction: Any, rheology: Rheology) -> list[tuple[Any, Any]]:
+    """Relaxation spectrum (time [s], modulus [Pa]): paired modes of solid and melt mix by their logarithms."""
+    shift = arrhenius_shift(temperature_kelvin, rheology.melt_reference, rheology.activation_energy)
+    solid = solid_shear_modulus(temperature_kelvin, rheology.solid)
+    molten = 1.0 - fraction
+    return [
+        (
+            np.exp(fraction * np.log(solid_time) + molten * np.log(shift * time)),
+            np.exp(fraction * np.log(solid * share) + molten * np.log(modulus)),
+        )
+        for (solid_time, share), (time, modulus) in zip(SOLID_MODES, rheology.modes, strict=True)
+    ]
+
+
 def moduli(temperature_kelvin: Any, fraction: Any, angular_frequency: Any, rheology: Rheology) -> tuple[Any, Any]:
     """Storage and loss shear modulus [Pa] at a temperature, a solid fraction and an angular frequency."""
-    storage = solid_shear_modulus(temperature_kelvin, rheology.solid)
-    shift = arrhenius_shift(temperature_kelvin, rheology.melt_reference, rheology.activation_energy)
-    melt = maxwell_moduli(angular_frequency * shift, rheology.modes)
-    return mix(fraction, (storage, rheology.solid.loss_factor * storage), melt)
+    return maxwell_moduli(angular_frequency, spectrum(temperature_kelvin, fraction, rheology))
