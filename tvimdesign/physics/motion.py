@@ -36,8 +36,10 @@ def layer_angle(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes)
 
 
 def branch_torque(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
-    """Torque the branch takes [N*m], S (theta - phi)."""
-    return joint.structure_stiffness * (angle - layer_angle(angle, internal, joint, modes))
+    """Torque the branch takes [N*m], S (theta - phi) = S/(S + sum k_m) sum k_m (theta - q_m), which does not cancel."""
+    pull = sum(stiffness * (angle - inner) for (_, stiffness), inner in zip(modes, internal, strict=True))
+    total = sum(stiffness for _, stiffness in modes)
+    return joint.structure_stiffness / (joint.structure_stiffness + total) * pull
 
 
 def module_torque(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
@@ -67,7 +69,7 @@ def energy_terms(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, 
     return [
         (joint.inertia, speed),
         (joint.spring_stiffness, angle),
-        (joint.structure_stiffness, angle - phi),
+        (joint.structure_stiffness, branch_torque(angle, internal, joint, modes) / joint.structure_stiffness),
         *elastic,
     ]
 

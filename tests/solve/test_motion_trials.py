@@ -1,0 +1,147 @@
+"""The three motion tests on the paper's module: what their findings say, against rows and hand calculation."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tvimdesign.solve import motion
+from tvimdesign.solve.rig import Rig, rig_of
+from tvimdesign.solve.switch_load import SliceHistory
+from tvimdesign.solve.trial import Trial
+from tvimdesign.study import read_study
+
+STUDY = Path(__file__).parents[2] / "studies" / "paper_as_published.yaml"
+POINTS = ("cold", "melting", "hot")
+
+
+@pytest.fixture(scope="module")
+def rig() -> Rig:
+    return rig_of(read_study(STUDY))
+
+
+@pytest.fixture(scope="module")
+def release(rig: Rig) -> Trial:
+    return motion.release(rig)
+
+
+@pytest.fixture(scope="module")
+def sine(rig: Rig) -> Trial:
+    return motion.sine(rig)
+
+
+@pytest.fixture(scope="module")
+def step(rig: Rig) -> Trial:
+    times = np.linspace(0.0, 40.0, 81)
+    heat = np.clip(times / 20.0, 0.0, 1.0)
+    temperatures = np.array([303.15 + 70.0 * heat, 303.15 + 65.0 * heat])
+    fractions = np.array([1.0 - np.clip((heat - 0.4) / 0.3, 0.0, 1.0)] * 2)
+    return motion.step(rig, history=SliceHistory(times, temperatures, fractions))
+
+
+def value(trial: Trial, name: str) -> float:
+    return next(finding.value for finding in trial.findings if finding.name == name)
+
+
+@pytest.mark.parametrize("kind", ["release", "sine", "step"])
+def test_every_line_is_drawn_from_columns_that_exist(kind: str, request: pytest.FixtureRequest) -> None:
+    trial: Trial = request.getfixturevalue(kind)
+    sheets = {sheet.name: sheet for sheet in trial.sheets}
+    assert len(sheets) == len(trial.sheets)
+    assert len(trial.panels) == 3
+    for sheet in trial.sheets:
+        assert len({len(column.values) for column in sheet.columns}) == 1
+        assert all(np.all(np.isfinite(column.values)) for column in sheet.columns)
+    for line in (line for panel in trial.panels for line in panel.lines):
+        assert len(sheets[line.sheet].column(line.x).values) == len(sheets[line.sheet].column(line.y).values)
+
+
+@pytest.mark.parametrize("kind", ["release", "sine", "step"])
+def test_findings_inside_the_melting_range_are_intervals_and_elsewhere_numbers(
+    kind: str, request: pytest.FixtureRequest
+) -> None:
+    trial: Trial = request.getfixturevalue(kind)
+    for finding in trial.findings:
+        if finding.name.endswith("@melting"):
+            assert finding.low is not None
+            assert finding.high is not None
+            assert finding.low <= finding.value <= finding.high
+        else:
+            assert finding.low is None
+            assert finding.high is None
+    for end in ("nominal", "low", "high"):
+        assert any(sheet.name.endswith(f"_melting_{end}") for sheet in trial.sheets)
+
+
+def test_hot_link_creeps_back_and_cold_link_rings(rig: Rig, release: Trial) -> None:
+    assert value(release, "ringing_frequency@hot") == 0.0
+    # Three time constants of the melt's viscosity over the springs, a little more for the melt's own memory.
+    viscosity = rig.given["pcl_grade"].value("zero_shear_viscosity")
+    creep = viscosity * rig.value("layer_polar_moment") / rig.value("pcl_thickness") / rig.value("spring_stiffness")
+    assert value(release, "settling_time@hot") == pytest.approx(np.log(20.0) * creep, rel=0.02)
+    # Frozen, the layer is rigid beside the structure.
+    stiff = rig.value("spring_stiffness") + rig.value("structure_stiffness")
+    expected = np.sqrt(stiff / rig.value("moving_inertia")) / (2.0 * np.pi)
+    assert value(release, "ringing_frequency@cold") == pytest.approx(expected, rel=0.01)
+
+
+def test_release_gives_back_what_holding_put_in_and_makes_no_energy(release: Trial) -> None:
+    for sheet in release.sheets:
+        energy = sheet.column("stored_energy").values
+        assert np.max(np.diff(energy)) <= 1e-9 * energy[0]
+    # The hot layer has relaxed: 0.1 rad on springs of 5.609 N*m/rad is 28.05 mJ.
+    assert value(release, "energy_dissipated@hot") == pytest.approx(28.05e-3, rel=1e-3)
+    assert value(release, "held_torque@hot") == pytest.approx(0.5609, rel=1e-3)
+    hot = next(sheet for sheet in release.sheets if sheet.name == "release_hot")
+    # The link is at rest before and after, so the module does no net work on it: the whole loop has no area.
+    loop = np.trapezoid(hot.column("torque").values, hot.column("angle").values)
+    assert loop == pytest.approx(0.0, abs=1e-3 * 28.05e-3)
+
+
+def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(rig: Rig, release: Trial) -> None:
+    hot = next(sheet for sheet in release.sheets if sheet.name == "release_hot")
+    times, simple = hot.column("time").values, hot.column("angle_kelvin_voigt").values
+    stiffness, damping = rig.value("joint_stiffness@hot"), rig.value("joint_damping@hot")
+    slow = max(np.roots([rig.value("moving_inertia"), damping, stiffness]).real)
+    middle = (times > 0.2) & (times < 2.0)
+    assert np.gradient(np.log(simple), times)[middle] == pytest.approx(slow, rel=1e-2)
+    assert 0.1 < value(release, "kelvin_voigt_difference@hot") < 1.0
+    bare = motion.release(rig, kelvin_voigt=False)
+    assert not any("kelvin" in finding.name for finding in bare.findings)
+    assert not any("kelvin" in column.name for sheet in bare.sheets for column in sheet.columns)
+
+
+def test_frozen_joint_that_would_break_is_said(rig: Rig, release: Trial) -> None:
+    assert value(release, "held_torque@cold") > rig.value("holding_torque")
+    assert any("bears" in note and "cold" in note for note in release.notes)
+    assert not any("bears" in note for note in motion.release(rig, angle=1e-3).notes)
+
+
+@pytest.mark.parametrize("point", POINTS)
+def test_sine_in_time_agrees_with_the_rows_within_one_percent(rig: Rig, sine: Trial, point: str) -> None:
+    worst = next(finding for finding in sine.findings if finding.name == f"frequency_domain_difference@{point}")
+    assert max(worst.value, worst.high or 0.0) < 1e-2
+    stiffness, damping = rig.value(f"joint_stiffness@{point}"), rig.value(f"joint_damping@{point}")
+    assert value(sine, f"stiffness@{point}") == pytest.approx(stiffness, rel=1e-2)
+    assert value(sine, f"damping@{point}") == pytest.approx(damping, rel=1e-2)
+    # A cycle's heat is pi b omega theta^2.
+    heat = np.pi * damping * 2.0 * np.pi * rig.value(f"frequency@{point}") * rig.value("stroke") ** 2
+    assert value(sine, f"cycle_energy@{point}") == pytest.approx(heat, rel=1e-2)
+
+
+def test_step_of_angle_relaxes_to_the_springs_when_hot_and_hardly_when_cold(rig: Rig, step: Trial) -> None:
+    springs = rig.value("spring_stiffness") * rig.value("stroke")
+    assert value(step, "step_final_torque@hot") == pytest.approx(springs, rel=1e-3)
+    assert value(step, "step_final_torque@cold") > 0.95 * value(step, "step_peak_torque@cold")
+    assert value(step, "step_peak_torque@hot") > 10.0 * springs
+
+
+def test_loaded_link_starts_on_the_frozen_layer_and_ends_on_its_springs(rig: Rig, step: Trial) -> None:
+    load = rig.value("spring_stiffness") * rig.value("stroke")
+    assert value(step, "loaded_angle_start") == pytest.approx(load / rig.value("joint_stiffness@cold"), rel=0.01)
+    assert value(step, "loaded_angle_end") == pytest.approx(rig.value("stroke"), rel=1e-3)
+    assert abs(value(step, "loaded_layer_share")) < 1e-3
+    # The load did load times way of work; half of it stays in the springs.
+    assert value(step, "loaded_energy_dissipated") == pytest.approx(0.5 * load * rig.value("stroke"), rel=0.02)
+    # It melts from 8 to 14 s, and creeps as it does.
+    assert 8.0 < value(step, "loaded_half_way_time") < 16.0
