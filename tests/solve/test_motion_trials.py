@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tvimdesign.solve import motion
+from tvimdesign.solve.bench import finding
 from tvimdesign.solve.rig import Rig, rig_of
 from tvimdesign.solve.switch_load import SliceHistory
 from tvimdesign.solve.trial import Trial
@@ -39,6 +40,11 @@ def step(rig: Rig) -> Trial:
     return motion.step(rig, history=SliceHistory(times, temperatures, fractions))
 
 
+def test_interval_of_a_finding_spans_all_histories() -> None:
+    found = finding("x@melting", "1", "a test", [2.0, 1.0, 5.0])
+    assert (found.value, found.low, found.high) == (2.0, 1.0, 5.0)
+
+
 def value(trial: Trial, name: str) -> float:
     return next(finding.value for finding in trial.findings if finding.name == name)
 
@@ -61,14 +67,14 @@ def test_findings_inside_the_melting_range_are_intervals_and_elsewhere_numbers(
     kind: str, request: pytest.FixtureRequest
 ) -> None:
     trial: Trial = request.getfixturevalue(kind)
-    for finding in trial.findings:
-        if finding.name.endswith("@melting"):
-            assert finding.low is not None
-            assert finding.high is not None
-            assert finding.low <= finding.value <= finding.high
+    for one in trial.findings:
+        if one.name.endswith("@melting"):
+            assert one.low is not None
+            assert one.high is not None
+            assert one.low <= one.value <= one.high
         else:
-            assert finding.low is None
-            assert finding.high is None
+            assert one.low is None
+            assert one.high is None
     for end in ("nominal", "low", "high"):
         assert any(sheet.name.endswith(f"_melting_{end}") for sheet in trial.sheets)
 
@@ -83,6 +89,9 @@ def test_hot_link_creeps_back_and_cold_link_rings(rig: Rig, release: Trial) -> N
     stiff = rig.value("spring_stiffness") + rig.value("structure_stiffness")
     expected = np.sqrt(stiff / rig.value("moving_inertia")) / (2.0 * np.pi)
     assert value(release, "ringing_frequency@cold") == pytest.approx(expected, rel=0.01)
+    # A lightly damped swing fades as exp(-zeta omega t): ln 20/(zeta omega) to 5 %.
+    decay = value(release, "ringing_damping_ratio@cold") * 2.0 * np.pi * value(release, "ringing_frequency@cold")
+    assert value(release, "settling_time@cold") == pytest.approx(np.log(20.0) / decay, rel=0.01)
 
 
 def test_release_gives_back_what_holding_put_in_and_makes_no_energy(release: Trial) -> None:
@@ -105,7 +114,11 @@ def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(rig: 
     slow = max(np.roots([rig.value("moving_inertia"), damping, stiffness]).real)
     middle = (times > 0.2) & (times < 2.0)
     assert np.gradient(np.log(simple), times)[middle] == pytest.approx(slow, rel=1e-2)
-    assert 0.1 < value(release, "kelvin_voigt_difference@hot") < 1.0
+    assert value(release, "kelvin_voigt_settling_time@hot") == pytest.approx(-np.log(20.0) / slow, rel=1e-2)
+    # Both creep as one exponential: the square of their difference has an integral known in closed form.
+    rate, other = np.log(20.0) / value(release, "settling_time@hot"), -slow
+    apart = np.sqrt((0.5 / rate + 0.5 / other - 2.0 / (rate + other)) * 2.0 * rate)
+    assert value(release, "kelvin_voigt_difference@hot") == pytest.approx(apart, rel=0.02)
     bare = motion.release(rig, kelvin_voigt=False)
     assert not any("kelvin" in finding.name for finding in bare.findings)
     assert not any("kelvin" in column.name for sheet in bare.sheets for column in sheet.columns)
@@ -145,3 +158,7 @@ def test_loaded_link_starts_on_the_frozen_layer_and_ends_on_its_springs(rig: Rig
     assert value(step, "loaded_energy_dissipated") == pytest.approx(0.5 * load * rig.value("stroke"), rel=0.02)
     # It melts from 8 to 14 s, and creeps as it does.
     assert 8.0 < value(step, "loaded_half_way_time") < 16.0
+    loaded = next(sheet for sheet in step.sheets if sheet.name == "step_of_impedance")
+    angle = loaded.column("angle").values
+    half = np.interp(value(step, "loaded_half_way_time"), loaded.column("time").values, angle)
+    assert half == pytest.approx(0.5 * (angle[0] + angle[-1]), rel=1e-3)

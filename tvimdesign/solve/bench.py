@@ -18,7 +18,8 @@ LINEAR = (
 )
 HISTORY = (
     "Inside the melting range the layer's history decides: low is cooled from the melt and still liquid, nominal is "
-    "the equilibrium on heating, high is heated with the record's highest melting range."
+    "the equilibrium on heating, high is heated with the record's highest melting range; "
+    "a finding's ends are the least and the most of these three."
 )
 
 

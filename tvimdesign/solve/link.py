@@ -138,8 +138,17 @@ class Swings:
 def swings(joint: motion.Joint, modes: motion.Modes, angle: float, internal: Array) -> Swings:
     """Take the release of a link at rest apart into its exponentials."""
     matrix = matrix_of(lambda a, w, *q: motion.rates(a, w, q, 0.0, joint, modes), 2 + len(modes))
+    return _apart(matrix, np.concatenate([[angle, 0.0], internal]))
+
+
+def kelvin_voigt_swings(joint: motion.Joint, damping: float, stiffness: float, angle: float) -> Swings:
+    """The same with one spring and one dashpot."""
+    matrix = matrix_of(lambda a, w: motion.kelvin_voigt_rates(a, w, joint.inertia, damping, stiffness), 2)
+    return _apart(matrix, np.array([angle, 0.0]))
+
+
+def _apart(matrix: Array, start: Array) -> Swings:
     values, vectors = np.linalg.eig(matrix)
-    start = np.concatenate([[angle, 0.0], internal])
     return Swings(values.astype(complex), np.linalg.solve(vectors, start.astype(complex)) * vectors[0])
 
 

@@ -19,6 +19,17 @@ SETTLED = 0.05  # share of the angle within which the link counts as back
 
 
 @dataclass(frozen=True)
+class Simple:
+    """The same release with one spring and one dashpot (Kelvin-Voigt), at the same times."""
+
+    angle: Array
+    torque: Array
+    settling: float
+    difference: float
+    """Root mean square over time of the angle's difference from the full model's, over that of its angle."""
+
+
+@dataclass(frozen=True)
 class Released:
     """One release with what is read off it."""
 
@@ -27,10 +38,7 @@ class Released:
     frequency: float
     damping_ratio: float
     settling: float
-    simple: tuple[Array, Array] | None
-    """Angle [rad] and torque [N*m] of the Kelvin-Voigt model at the same times."""
-    difference: float | None
-    """Root mean square of the angle's difference from the Kelvin-Voigt model's, over that of the angle."""
+    simple: Simple | None
 
 
 def release(rig: Rig, angle: float = ANGLE, hold: float = HOLD, kelvin_voigt: bool = True) -> Trial:
@@ -70,14 +78,17 @@ def _released(rig: Rig, case: Case, angle: float, hold: float, kelvin_voigt: boo
     settling = link.settling_time(moved.times, moved.angle, SETTLED)
     if not np.isfinite(settling):
         settling = swings.fading_time(SETTLED * abs(angle))
-    if not kelvin_voigt:
-        return Released(case, moved, *swings.ringing(), settling, None, None)
-    simple = case.rows(rig, ("joint_damping", "joint_stiffness"))
-    other = link.kelvin_voigt(
-        case.joint, float(simple["joint_damping"]), float(simple["joint_stiffness"]), angle, moved
-    )
-    apart = np.trapezoid((moved.angle - other[0]) ** 2, moved.times) / np.trapezoid(moved.angle**2, moved.times)
-    return Released(case, moved, *swings.ringing(), settling, other, float(np.sqrt(apart)))
+    simple = _simple(rig, case, angle, moved) if kelvin_voigt else None
+    return Released(case, moved, *swings.ringing(), settling, simple)
+
+
+def _simple(rig: Rig, case: Case, angle: float, moved: Motion) -> Simple:
+    rows = case.rows(rig, ("joint_damping", "joint_stiffness"))
+    damping, stiffness = float(rows["joint_damping"]), float(rows["joint_stiffness"])
+    other, torque = link.kelvin_voigt(case.joint, damping, stiffness, angle, moved)
+    apart = np.trapezoid((moved.angle - other) ** 2, moved.times) / np.trapezoid(moved.angle**2, moved.times)
+    swings = link.kelvin_voigt_swings(case.joint, damping, stiffness, angle)
+    return Simple(other, torque, swings.fading_time(SETTLED * abs(angle)), float(np.sqrt(apart)))
 
 
 def _sheet(one: Released) -> Sheet:
@@ -90,9 +101,12 @@ def _sheet(one: Released) -> Sheet:
         Column("stored_energy", "J", moved.energy),
     ]
     if one.simple:
-        angle, torque = one.simple
-        columns += [Column("angle_kelvin_voigt", "rad", angle), Column("torque_kelvin_voigt", "N*m", torque)]
-        columns += [Column("torque_share_kelvin_voigt", "1", torque / abs(torque[0]))]
+        torque = one.simple.torque
+        columns += [
+            Column("angle_kelvin_voigt", "rad", one.simple.angle),
+            Column("torque_kelvin_voigt", "N*m", torque),
+            Column("torque_share_kelvin_voigt", "1", torque / abs(torque[0])),
+        ]
     return Sheet(f"release_{one.case.name}", tuple(columns))
 
 
@@ -127,10 +141,14 @@ def _findings(rig: Rig, found: Sequence[Released]) -> list[Finding]:
             ("energy_gain", "1", "Largest growth of the stored energy over its start; rounding",
              [max(0.0, float(np.max(np.diff(energy)) / energy[0])) for energy in energies]),
         ]  # fmt: skip
-        apart = [one.difference for one in here if one.difference is not None]
-        if apart:
-            rows.append(("kelvin_voigt_difference", "1", "Angle of the Kelvin-Voigt model against the full one, rms"
-                         " over rms; near 1 and above it says nothing", apart))  # fmt: skip
+        simple = [one.simple for one in here if one.simple]
+        if simple:
+            rows += [
+                ("kelvin_voigt_settling_time", "s", "The same time in the Kelvin-Voigt model",
+                 [one.settling for one in simple]),
+                ("kelvin_voigt_difference", "1", "Its angle against the full model's, rms over rms; near 1 and above it"
+                 " says nothing", [one.difference for one in simple]),
+            ]  # fmt: skip
         numbers += [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
     return numbers
 
