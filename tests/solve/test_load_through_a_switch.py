@@ -9,9 +9,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
 from tvimdesign.errors import InputError
 from tvimdesign.physics import slices
-from tvimdesign.solve.rig import rig_of
+from tvimdesign.solve.rig import rig_for
 from tvimdesign.solve.switch_load import Carried, Changing, SliceHistory, carry, changing, slice_histories, support_of
 from tvimdesign.study import read_study_text
 
@@ -137,18 +139,20 @@ def test_freezing_under_load_leaves_a_layer_that_does_not_relax_as_it_is() -> No
 
 
 def test_module_heated_under_load_lets_go_before_the_switch_ends() -> None:
-    rig = rig_of(read_study_text("mode: shear\n", "a test"))
+    rig = rig_for(read_study_text("mode: shear\n", "a test"), Catalog(), table_for("shear"))
     history = slice_histories(rig)
     assert history.temperatures.shape == (rig.study.solver.cells, len(history.times))
-    assert history.temperatures[:, 0] == pytest.approx(rig.value("ambient_temperature"), abs=0.01)
+    assert history.temperatures[:, 0] == pytest.approx(rig.row("ambient_temperature"), abs=0.01)
     # It ends as the far face reaches the target, half a slice beyond the middle of the last.
-    last, target = history.temperatures[-2:, -1], rig.value("target_temperature")
+    last, target = history.temperatures[-2:, -1], rig.row("target_temperature")
     assert last[1] - target == pytest.approx(0.5 * (last[0] - last[1]), rel=0.3)
     assert history.fractions[:, 0] == pytest.approx(1.0, abs=1e-3)
     assert history.fractions[:, -1] == pytest.approx(0.0, abs=1e-2)
-    load = 0.1 * rig.value("spring_stiffness")
+    load = 0.1 * rig.row("spring_stiffness")
     carried = carry(changing(rig, history), support_of(rig), load, history.times)
-    solid = rig.rows(["joint_stiffness@cold"], **{"temperature@cold": rig.value("ambient_temperature")})
+    solid = rig.table.evaluate(
+        {**rig.values, "temperature@cold": rig.row("ambient_temperature")}, ["joint_stiffness@cold"]
+    )
     assert carried.angle[0] == pytest.approx(load / solid["joint_stiffness@cold"], rel=5e-3)
     assert carried.angle[-1] == pytest.approx(0.1, rel=1e-3)
 

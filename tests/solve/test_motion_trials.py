@@ -5,12 +5,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
 from tvimdesign.solve import motion
-from tvimdesign.solve.bench import finding
-from tvimdesign.solve.rig import Rig, rig_of
+from tvimdesign.solve.bench import finding, with_paper_points
+from tvimdesign.solve.history import fractions_at
+from tvimdesign.solve.rig import Rig, rig_for
 from tvimdesign.solve.switch_load import SliceHistory
 from tvimdesign.solve.trial import Trial
-from tvimdesign.study import read_study
+from tvimdesign.study import read_study, read_study_text
 
 STUDY = Path(__file__).parents[2] / "studies" / "paper_as_published.yaml"
 POINTS = ("cold", "melting", "hot")
@@ -18,7 +21,7 @@ POINTS = ("cold", "melting", "hot")
 
 @pytest.fixture(scope="module")
 def rig() -> Rig:
-    return rig_of(read_study(STUDY))
+    return rig_for(read_study(STUDY), Catalog(), table_for("shear"))
 
 
 @pytest.fixture(scope="module")
@@ -82,12 +85,12 @@ def test_findings_inside_the_melting_range_are_intervals_and_elsewhere_numbers(
 def test_hot_link_creeps_back_and_cold_link_rings(rig: Rig, release: Trial) -> None:
     assert value(release, "ringing_frequency@hot") == 0.0
     # Three time constants of the melt's viscosity over the springs, a little more for the melt's own memory.
-    viscosity = rig.given["pcl_grade"].value("zero_shear_viscosity")
-    creep = viscosity * rig.value("layer_polar_moment") / rig.value("pcl_thickness") / rig.value("spring_stiffness")
+    viscosity = rig.values["pcl_grade"].value("zero_shear_viscosity")
+    creep = viscosity * rig.row("layer_polar_moment") / rig.row("pcl_thickness") / rig.row("spring_stiffness")
     assert value(release, "settling_time@hot") == pytest.approx(np.log(20.0) * creep, rel=0.02)
     # Frozen, the layer is rigid beside the structure.
-    stiff = rig.value("spring_stiffness") + rig.value("structure_stiffness")
-    expected = np.sqrt(stiff / rig.value("moving_inertia")) / (2.0 * np.pi)
+    stiff = rig.row("spring_stiffness") + rig.row("structure_stiffness")
+    expected = np.sqrt(stiff / rig.row("moving_inertia")) / (2.0 * np.pi)
     assert value(release, "ringing_frequency@cold") == pytest.approx(expected, rel=0.01)
     # A lightly damped swing fades as exp(-zeta omega t): ln 20/(zeta omega) to 5 %.
     decay = value(release, "ringing_damping_ratio@cold") * 2.0 * np.pi * value(release, "ringing_frequency@cold")
@@ -110,8 +113,8 @@ def test_release_gives_back_what_holding_put_in_and_makes_no_energy(release: Tri
 def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(rig: Rig, release: Trial) -> None:
     hot = next(sheet for sheet in release.sheets if sheet.name == "release_hot")
     times, simple = hot.column("time").values, hot.column("angle_kelvin_voigt").values
-    stiffness, damping = rig.value("joint_stiffness@hot"), rig.value("joint_damping@hot")
-    slow = max(np.roots([rig.value("moving_inertia"), damping, stiffness]).real)
+    stiffness, damping = rig.row("joint_stiffness@hot"), rig.row("joint_damping@hot")
+    slow = max(np.roots([rig.row("moving_inertia"), damping, stiffness]).real)
     middle = (times > 0.2) & (times < 2.0)
     assert np.gradient(np.log(simple), times)[middle] == pytest.approx(slow, rel=1e-2)
     assert value(release, "kelvin_voigt_settling_time@hot") == pytest.approx(-np.log(20.0) / slow, rel=1e-2)
@@ -125,7 +128,7 @@ def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(rig: 
 
 
 def test_frozen_joint_that_would_break_is_said(rig: Rig, release: Trial) -> None:
-    assert value(release, "held_torque@cold") > rig.value("holding_torque")
+    assert value(release, "held_torque@cold") > rig.row("holding_torque")
     assert any("bears" in note and "cold" in note for note in release.notes)
     assert not any("bears" in note for note in motion.release(rig, angle=1e-3).notes)
 
@@ -134,31 +137,56 @@ def test_frozen_joint_that_would_break_is_said(rig: Rig, release: Trial) -> None
 def test_sine_in_time_agrees_with_the_rows_within_one_percent(rig: Rig, sine: Trial, point: str) -> None:
     worst = next(finding for finding in sine.findings if finding.name == f"frequency_domain_difference@{point}")
     assert max(worst.value, worst.high or 0.0) < 1e-2
-    stiffness, damping = rig.value(f"joint_stiffness@{point}"), rig.value(f"joint_damping@{point}")
+    stiffness, damping = rig.row(f"joint_stiffness@{point}"), rig.row(f"joint_damping@{point}")
     assert value(sine, f"stiffness@{point}") == pytest.approx(stiffness, rel=1e-2)
     assert value(sine, f"damping@{point}") == pytest.approx(damping, rel=1e-2)
     # A cycle's heat is pi b omega theta^2.
-    heat = np.pi * damping * 2.0 * np.pi * rig.value(f"frequency@{point}") * rig.value("stroke") ** 2
+    heat = np.pi * damping * 2.0 * np.pi * rig.row(f"frequency@{point}") * rig.row("stroke") ** 2
     assert value(sine, f"cycle_energy@{point}") == pytest.approx(heat, rel=1e-2)
 
 
 def test_step_of_angle_relaxes_to_the_springs_when_hot_and_hardly_when_cold(rig: Rig, step: Trial) -> None:
-    springs = rig.value("spring_stiffness") * rig.value("stroke")
+    springs = rig.row("spring_stiffness") * rig.row("stroke")
     assert value(step, "step_final_torque@hot") == pytest.approx(springs, rel=1e-3)
     assert value(step, "step_final_torque@cold") > 0.95 * value(step, "step_peak_torque@cold")
     assert value(step, "step_peak_torque@hot") > 10.0 * springs
 
 
 def test_loaded_link_starts_on_the_frozen_layer_and_ends_on_its_springs(rig: Rig, step: Trial) -> None:
-    load = rig.value("spring_stiffness") * rig.value("stroke")
-    assert value(step, "loaded_angle_start") == pytest.approx(load / rig.value("joint_stiffness@cold"), rel=0.01)
-    assert value(step, "loaded_angle_end") == pytest.approx(rig.value("stroke"), rel=1e-3)
+    load = rig.row("spring_stiffness") * rig.row("stroke")
+    assert value(step, "loaded_angle_start") == pytest.approx(load / rig.row("joint_stiffness@cold"), rel=0.01)
+    assert value(step, "loaded_angle_end") == pytest.approx(rig.row("stroke"), rel=1e-3)
     assert abs(value(step, "loaded_layer_share")) < 1e-3
     # The load did load times way of work; half of it stays in the springs.
-    assert value(step, "loaded_energy_dissipated") == pytest.approx(0.5 * load * rig.value("stroke"), rel=0.02)
+    assert value(step, "loaded_energy_dissipated") == pytest.approx(0.5 * load * rig.row("stroke"), rel=0.02)
     # It melts from 8 to 14 s, and creeps as it does.
     assert 8.0 < value(step, "loaded_half_way_time") < 16.0
     loaded = next(sheet for sheet in step.sheets if sheet.name == "step_of_impedance")
     angle = loaded.column("angle").values
     half = np.interp(value(step, "loaded_half_way_time"), loaded.column("time").values, angle)
     assert half == pytest.approx(0.5 * (angle[0] + angle[-1]), rel=1e-3)
+
+
+def test_damping_interval_holds_the_peak_between_the_histories(rig: Rig, sine: Trial) -> None:
+    # Neither the least nor the most frozen layer damps most: the interval reaches to what stands between them.
+    found = next(one for one in sine.findings if one.name == "damping@melting")
+    low, _, high = fractions_at(rig, rig.row("temperature@melting"))
+    between = [
+        rig.table.evaluate({**rig.values, "solid_fraction@melting": fraction}, ["joint_damping@melting"])
+        for fraction in np.linspace(low, high, 41)
+    ]
+    highest = max(float(row["joint_damping@melting"]) for row in between)
+    assert found.high == pytest.approx(highest, rel=0.2)
+    assert found.high <= highest * 1.01
+
+
+def test_study_without_points_is_tested_at_the_papers_three_temperatures() -> None:
+    def bench(text: str) -> Rig:
+        return with_paper_points(rig_for(read_study_text(text, "a test"), Catalog(), table_for("shear")))
+
+    rig = bench("mode: shear\n")
+    assert rig.points == ("cold", "melting", "hot")
+    assert [rig.row(f"temperature@{point}") for point in rig.points] == pytest.approx([303.15, 333.15, 373.15])
+    assert rig.row("joint_stiffness@melting") > rig.row("joint_stiffness@hot")
+    own = "mode: shear\noperating_points:\n  hot: {temperature: 90 degC, frequency: 2 Hz}\n"
+    assert set(bench(own).points) == {"cold", "hot"}

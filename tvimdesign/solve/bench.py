@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
+
+import numpy as np
 
 from tvimdesign.physics import motion, polymer
 from tvimdesign.physics.polymer import ZERO_CELSIUS
-from tvimdesign.solve.history import History, histories_at
+from tvimdesign.solve.history import fractions_at
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.trial import Finding
+from tvimdesign.study.model import STANDARD_POINTS
 
 LINEAR = (
     "The layer is linear at every strain: it neither softens with strain nor slips, tears or yields; the structure is "
@@ -19,8 +22,22 @@ LINEAR = (
 HISTORY = (
     "Inside the melting range the layer's history decides: low is cooled from the melt and still liquid, nominal is "
     "the equilibrium on heating, high is heated with the record's highest melting range; "
-    "a finding's ends are the least and the most of these three."
+    "a finding's ends are the least and the most between low and high."
 )
+MELTING_POINT = {"temperature": 333.15, "frequency": 1.0}
+"""The paper's third temperature, 60 degC, which joins cold and hot where a study names no points of its own."""
+BETWEEN = 3
+"""Solid fractions between the least and the most that are tried for a finding's interval, and not shown."""
+
+
+@dataclass(frozen=True)
+class History:
+    """One way to have come to a temperature, and the solid fraction it leaves; not shown, it counts in intervals only."""
+
+    name: str
+    label: str
+    fraction: float
+    shown: bool = True
 
 
 @dataclass(frozen=True)
@@ -46,24 +63,47 @@ class Case:
 
     def rows(self, rig: Rig, names: Sequence[str]) -> dict[str, Any]:
         """Rows of the table at this point, as this history leaves it, by plain name."""
-        found = rig.rows([f"{name}@{self.point}" for name in names],
-                         **{f"solid_fraction@{self.point}": self.history.fraction})  # fmt: skip
+        values = {**rig.values, f"solid_fraction@{self.point}": self.history.fraction}
+        found = rig.table.evaluate(values, [f"{name}@{self.point}" for name in names])
         return {name: found[f"{name}@{self.point}"] for name in names}
 
 
 def joint_of(rig: Rig) -> motion.Joint:
     """Inertia, springs and structure of the module on the bench."""
-    return motion.Joint(*(rig.value(name) for name in ("moving_inertia", "spring_stiffness", "structure_stiffness")))
+    return motion.Joint(*(rig.row(name) for name in ("moving_inertia", "spring_stiffness", "structure_stiffness")))
+
+
+def with_paper_points(rig: Rig) -> Rig:
+    """Return the rig, with the paper's third temperature where the study has only the standard points."""
+    if dict(rig.study.operating_points) != STANDARD_POINTS:
+        return rig
+    cold, hot = STANDARD_POINTS["cold"], STANDARD_POINTS["hot"]
+    study = rig.study.model_copy(update={"operating_points": {"cold": cold, "melting": MELTING_POINT, "hot": hot}})
+    added = {f"{name}@melting": value for name, value in MELTING_POINT.items()}
+    return replace(rig, study=study, values={**rig.values, **added})
+
+
+def histories_at(rig: Rig, temperature: float) -> tuple[History, ...]:
+    """Return the ways to have come to a temperature [K], nominal first; one where they are all the same."""
+    low, nominal, high = fractions_at(rig, temperature)
+    if low == high:
+        return (History("", "", nominal),)
+    return (
+        History("nominal", "heated, equilibrium", nominal),
+        History("low", "cooled from the melt", low),
+        History("high", "heated, melting late", high),
+        *(History("", "", float(x), shown=False) for x in np.linspace(low, high, BETWEEN + 2)[1:-1]),
+    )
 
 
 def cases(rig: Rig) -> list[Case]:
     """The joint at every operating point, once for each history that matters there, the nominal one first."""
     joint = joint_of(rig)
-    rheology, moment, thickness = (rig.value(n) for n in ("pcl_rheology", "layer_polar_moment", "pcl_thickness"))
+    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "layer_polar_moment", "pcl_thickness"))
     found = []
     for point in rig.points:
-        temperature = float(rig.value(f"temperature@{point}"))
-        for history in histories_at(rig.given, rig.table, temperature):
+        temperature = float(rig.row(f"temperature@{point}"))
+        for history in histories_at(rig, temperature):
             spectrum = polymer.spectrum(temperature, history.fraction, rheology)
             modes = [(float(time), float(k)) for time, k in motion.layer_modes(spectrum, moment, thickness)]
             found.append(Case(point, temperature, history, joint, modes))

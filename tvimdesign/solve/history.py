@@ -1,51 +1,54 @@
-"""How much of the layer is frozen at a temperature: inside the melting range its history decides, so an interval."""
+"""How much of the layer is frozen at a temperature: one number outside melting, an interval inside it.
+
+Inside the melting range the solid fraction depends on what came before. Cooled from the melt the layer is still liquid;
+heated it follows the equilibrium curve, which the record knows to some kelvin only.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from typing import NamedTuple
 
-from tvimdesign.device import Table
 from tvimdesign.physics import polymer
+from tvimdesign.solve.rig import Rig
 
 
-@dataclass(frozen=True)
-class History:
-    """One way to have come to a temperature: `name` for sheets, `label` for people, the solid fraction it leaves."""
+class Fractions(NamedTuple):
+    """Solid fractions [1] at one temperature."""
 
-    name: str
-    label: str
-    fraction: float
+    low: float
+    """Cooled from the melt, still liquid."""
+    nominal: float
+    """Heated, on the equilibrium curve."""
+    high: float
+    """Heated, melting as late as the record allows."""
 
 
-def fractions_at(given: Mapping[str, Any], table: Table, temperature: float) -> tuple[float, float, float]:
-    """Return the solid fraction at a temperature [K]: least, on the equilibrium curve on heating, most.
+def melting_range(rig: Rig) -> tuple[float, float]:
+    """Temperatures [K] between which the solid fraction depends on history: earliest start and latest end."""
+    melting: polymer.Melting = rig.row("pcl_melting")
+    return melting.start + _off(rig, "melting_start")[0], melting.end + _off(rig, "melting_end")[1]
 
-    Least: cooled from the melt and not yet freezing, 0. Most: heated to it, with the highest start and end of melting
-    the record deems possible. Outside the range from the lowest start to the highest end the three are one.
-    """
-    melting: polymer.Melting = table.evaluate(given, ["pcl_melting"])["pcl_melting"]
-    start, end = (given["pcl_grade"].entry(name) for name in ("melting_start", "melting_end"))
-    first = min(value for value in (start.low, melting.start) if value is not None)
+
+def fractions_at(rig: Rig, temperature: float) -> Fractions:
+    """Least, nominal and largest solid fraction at a temperature [K]; outside the melting range all are the same."""
+    melting: polymer.Melting = rig.row("pcl_melting")
+    nominal = _on_heating(temperature, melting)
+    first, last = melting_range(rig)
+    if not first <= temperature <= last:
+        return Fractions(nominal, nominal, nominal)
     late = melting._replace(
-        start=max(value for value in (start.high, melting.start) if value is not None),
-        end=max(value for value in (end.high, melting.end) if value is not None),
+        start=melting.start + _off(rig, "melting_start")[1], end=melting.end + _off(rig, "melting_end")[1]
     )
-    nominal, most = (
-        float(polymer.solid_fraction(polymer.enthalpy(temperature, curve), curve)) for curve in (melting, late)
-    )
-    return (0.0, nominal, most) if first < temperature < late.end else (nominal, nominal, nominal)
+    return Fractions(0.0, nominal, max(nominal, _on_heating(temperature, late)))
 
 
-def histories_at(given: Mapping[str, Any], table: Table, temperature: float) -> tuple[History, ...]:
-    """Return the ways to have come to a temperature [K]: nominal first; low and high where they differ from it."""
-    low, nominal, high = fractions_at(given, table, temperature)
-    equilibrium = History("", "", nominal)
-    if low == high:
-        return (equilibrium,)
-    return (
-        History("nominal", "heated, equilibrium", nominal),
-        History("low", "cooled from the melt", low),
-        History("high", "heated, melting late", high),
-    )
+def _on_heating(temperature: float, melting: polymer.Melting) -> float:
+    return float(polymer.solid_fraction(polymer.enthalpy(temperature, melting), melting))
+
+
+def _off(rig: Rig, field: str) -> tuple[float, float]:
+    """How far [K] the record's range reaches below and above its value; a study's own value is taken to be as sure."""
+    entry = rig.values["pcl_grade"].entry(field)
+    low = entry.value if entry.low is None else entry.low
+    high = entry.value if entry.high is None else entry.high
+    return low - entry.value, high - entry.value

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tvimdesign.solve import link
-from tvimdesign.solve.bench import Case, cases, finding, notes_for
+from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
 from tvimdesign.solve.link import Array, Motion
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
@@ -47,18 +47,20 @@ def release(rig: Rig, angle: float = ANGLE, hold: float = HOLD, kelvin_voigt: bo
     Gives angle and torque over time and the torque-angle loop at every operating point; with `kelvin_voigt` also those
     of one spring and one dashpot, stiffness and damping as at the point's frequency.
     """
+    rig = with_paper_points(rig)
     found = [_released(rig, case, angle, hold, kelvin_voigt) for case in cases(rig)]
+    shown = [one for one in found if one.case.history.shown]
     x, y = "angle", "torque_share"
     return Trial(
         test="release",
         title=f"Released from {angle:g} rad",
-        sheets=tuple(_sheet(one) for one in found),
+        sheets=tuple(_sheet(one) for one in shown),
         panels=(
-            Panel("Angle", "time after release, s", "angle, rad", _lines(found, "time", x), log_x=True),
+            Panel("Angle", "time after release, s", "angle, rad", _lines(shown, "time", x), log_x=True),
             Panel(
-                "Torque", "time after release, s", "torque over that at release", _lines(found, "time", y), log_x=True
+                "Torque", "time after release, s", "torque over that at release", _lines(shown, "time", y), log_x=True
             ),
-            Panel("Torque over angle", "angle, rad", "torque over that at release", _lines(found, x, y)),
+            Panel("Torque over angle", "angle, rad", "torque over that at release", _lines(shown, x, y)),
         ),
         findings=tuple(_findings(rig, found)),
         notes=(
@@ -154,7 +156,7 @@ def _findings(rig: Rig, found: Sequence[Released]) -> list[Finding]:
 
 
 def _overload(rig: Rig, found: Sequence[Released]) -> list[str]:
-    most = float(rig.value("holding_torque"))
+    most = float(rig.row("holding_torque"))
     beyond = dict.fromkeys(one.case.point for one in found if abs(one.motion.torque[0]) > most)
     if not beyond:
         return []

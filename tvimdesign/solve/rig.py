@@ -1,53 +1,35 @@
-"""What a virtual test is done on: a study's module with its numbers, at the temperatures that are tested."""
+"""What a virtual test is given: a study, resolved, and the table its rows are evaluated with."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.study import Study, given
-from tvimdesign.study.model import STANDARD_POINTS
-
-MELTING_POINT = {"temperature": 333.15, "frequency": 1.0}
-"""The paper's third temperature, 60 degC, which joins cold and hot where a study names no points of its own."""
 
 
 @dataclass(frozen=True)
 class Rig:
-    """A module on the bench. `given` holds every input and record by full name, as `Table.evaluate` wants them."""
+    """A module on the bench. `values` holds every input in SI by full name, and every choice as record or word."""
 
     study: Study
     catalog: Catalog
     table: Table
-    given: dict[str, Any]
-    points: tuple[str, ...]
+    values: Mapping[str, Any]
 
-    def rows(self, names: Iterable[str], **changes: Any) -> dict[str, Any]:
-        """Return the rows of those full names in SI, with other values of some rows where `changes` says so."""
-        return self.table.evaluate({**self.given, **changes}, names)
+    @property
+    def points(self) -> tuple[str, ...]:
+        """Names of the operating points."""
+        return tuple(self.study.operating_points)
 
-    def value(self, name: str) -> Any:
-        """Return one row in SI."""
-        return self.rows([name])[name]
-
-
-def rig_of(study: Study, catalog: Catalog | None = None, design: dict[str, float] | None = None) -> Rig:
-    """Put a study's module on the bench: at its start, or at the inputs of a `design`, by full name in SI.
-
-    A study that names no operating points is tested at the paper's three temperatures.
-    """
-    points = dict(study.operating_points)
-    if points == STANDARD_POINTS:
-        points = {"cold": points["cold"], "melting": MELTING_POINT, "hot": points["hot"]}
-    study = study.model_copy(update={"operating_points": points})
-    catalog, table = catalog or _catalog(study), table_for(study.mode)
-    values = {**given(study, catalog, table), **(design or {})}
-    return Rig(study, catalog, table, values, tuple(points))
+    def row(self, name: str) -> Any:
+        """Value of one row by full name; hidden rows too."""
+        return self.table.evaluate(self.values, [name])[name]
 
 
-def _catalog(study: Study) -> Catalog:
-    return Catalog(Path(study.catalog_folder) if study.catalog_folder else None)
+def rig_for(study: Study, catalog: Catalog, table: Table) -> Rig:
+    """Resolve a study for testing; what it varies stands at its start. Raises InputError for what has no value."""
+    return Rig(study, catalog, table, given(study, catalog, table))

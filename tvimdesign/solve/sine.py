@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tvimdesign.solve import link
-from tvimdesign.solve.bench import Case, cases, finding, notes_for
+from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
 from tvimdesign.solve.link import Array, Motion
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
@@ -33,17 +33,19 @@ class Swung:
 
 def sine(rig: Rig, periods: int = PERIODS) -> Trial:
     """Turn the link as a sine of the stroke's amplitude at each point's frequency, from rest."""
+    rig = with_paper_points(rig)
     found = [_swung(rig, case, periods) for case in cases(rig)]
+    shown = [one for one in found if one.case.history.shown]
     frequencies = ", ".join(f"{one.frequency:g} Hz" for one in {one.case.point: one for one in found}.values())
     return Trial(
         test="sine",
-        title=f"Turned as a sine of {float(rig.value('stroke')):g} rad ({frequencies})",
-        sheets=tuple(sheet for one in found for sheet in _sheets(one)),
+        title=f"Turned as a sine of {float(rig.row('stroke')):g} rad ({frequencies})",
+        sheets=tuple(sheet for one in shown for sheet in _sheets(one)),
         panels=(
-            Panel("Angle", "time, s", "angle, rad", _lines(found, "", "time", "angle")),
-            Panel("Torque", "time, s", "torque over its highest", _lines(found, "", "time", "torque_share")),
+            Panel("Angle", "time, s", "angle, rad", _lines(shown, "", "time", "angle")),
+            Panel("Torque", "time, s", "torque over its highest", _lines(shown, "", "time", "torque_share")),
             Panel("Torque over angle", "angle, rad", "torque over its highest",
-                  _lines(found, "_loop", "angle", "torque_share")),
+                  _lines(shown, "_loop", "angle", "torque_share")),
         ),
         findings=tuple(_findings(rig, found)),
         notes=(
@@ -55,8 +57,8 @@ def sine(rig: Rig, periods: int = PERIODS) -> Trial:
 
 
 def _swung(rig: Rig, case: Case, periods: int) -> Swung:
-    frequency = float(rig.value(f"frequency@{case.point}"))
-    moved = link.swung(case.joint, case.modes, float(rig.value("stroke")), frequency, periods, SAMPLES)
+    frequency = float(rig.row(f"frequency@{case.point}"))
+    moved = link.swung(case.joint, case.modes, float(rig.row("stroke")), frequency, periods, SAMPLES)
     complex_stiffness = complex_stiffness_of(moved, frequency, SAMPLES)
     rows = case.rows(rig, ("joint_stiffness", "joint_damping"))
     omega = 2.0 * np.pi * frequency

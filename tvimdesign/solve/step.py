@@ -8,7 +8,7 @@ import numpy as np
 
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.solve import link
-from tvimdesign.solve.bench import Case, cases, finding, notes_for
+from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
 from tvimdesign.solve.linear import doubling
 from tvimdesign.solve.link import Motion
 from tvimdesign.solve.rig import Rig
@@ -27,17 +27,19 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
     The load [N*m] is the one that turns the joint by its stroke on its springs alone, if none is given; the layer goes
     through one heating switch, or through the given history.
     """
+    rig = with_paper_points(rig)
     found = [(case, _turned(rig, case, rise)) for case in cases(rig)]
+    shown = [(case, moved) for case, moved in found if case.history.shown]
     history = history or slice_histories(rig)
-    weight = float(rig.value("spring_stiffness") * rig.value("stroke")) if load is None else load
+    weight = float(rig.row("spring_stiffness") * rig.row("stroke")) if load is None else load
     carried = carry(changing(rig, history), support_of(rig), weight, history.times)
     return Trial(
         test="step",
         title=f"Steps: of the angle, and of the impedance under {weight:.3g} N·m",
-        sheets=(*(_sheet(case, moved) for case, moved in found), _loaded_sheet(carried, history)),
+        sheets=(*(_sheet(case, moved) for case, moved in shown), _loaded_sheet(carried, history)),
         panels=(
             Panel("Step of the angle", "time, s", "torque, N·m", log_x=True, log_y=True, lines=tuple(
-                Line(f"step_{case.name}", "time", "holding_torque", case.label) for case, _ in found)),
+                Line(f"step_{case.name}", "time", "holding_torque", case.label) for case, _ in shown)),
             Panel("Layer during the switch", "time, s", "temperature, °C", lines=tuple(
                 Line(LOADED, "time", f"{place}_slice", f"{place} slice") for place in ("near", "middle", "far"))),
             Panel("Angle under load", "time, s", "angle, rad", lines=(Line(LOADED, "time", "angle", "link"),)),
@@ -56,7 +58,7 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
 
 def _turned(rig: Rig, case: Case, rise: float) -> Motion:
     stretches = doubling(min(FIRST_STEP, rise), WATCHED)
-    return link.turned(case.joint, case.modes, float(rig.value("stroke")), rise, stretches)
+    return link.turned(case.joint, case.modes, float(rig.row("stroke")), rise, stretches)
 
 
 def _sheet(case: Case, moved: Motion) -> Sheet:

@@ -15,7 +15,7 @@ from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.simulate import Simulator
 
 Array = NDArray[np.float64]
-TOLERANCE = 1e-7
+TOLERANCE = 1e-6
 FIRST_CELL = 3  # in `Model.temperatures`, after cold side, hot side and near face
 
 
@@ -52,12 +52,12 @@ class Carried:
 
 def slice_histories(rig: Rig) -> SliceHistory:
     """Temperatures and solid fractions of the layer's cells over one heating switch."""
-    model = Model(rig.table, rig.given, rig.points, rig.study.solver.cells)
+    model = Model(rig.table, rig.values, rig.points, rig.study.solver.cells)
     trajectory = Simulator(model).run(model.start).trajectory
     count = len(trajectory.times)
     stack = np.asarray(model.temperatures.map(count)(trajectory.states, np.repeat(model.start[:, None], count, axis=1)))
     cells = stack[FIRST_CELL : FIRST_CELL + model.cells]
-    melting = rig.value("pcl_melting")
+    melting = rig.row("pcl_melting")
     fractions = np.asarray(polymer.solid_fraction(polymer.enthalpy(cells, melting), melting))
     return SliceHistory(trajectory.times, cells, fractions)
 
@@ -80,7 +80,7 @@ class Changing:
 
 def changing(rig: Rig, history: SliceHistory) -> Changing:
     """The slices of a module's layer over a history, all of one thickness."""
-    rheology, moment, thickness = (rig.value(n) for n in ("pcl_rheology", "layer_polar_moment", "pcl_thickness"))
+    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "layer_polar_moment", "pcl_thickness"))
     spectrum = polymer.spectrum(history.temperatures, history.fractions, rheology)
     modes = motion.layer_modes(spectrum, moment, thickness / len(history.temperatures))
     both = [[time for time, _ in modes], [stiffness for _, stiffness in modes]]
