@@ -32,7 +32,7 @@ BETWEEN = 3
 
 @dataclass(frozen=True)
 class History:
-    """One way to have come to a temperature, and the solid fraction it leaves; not shown, it counts in intervals only."""
+    """One way to have come to a temperature, with its solid fraction; not shown, it counts in intervals only."""
 
     name: str
     label: str
