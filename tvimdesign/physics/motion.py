@@ -1,0 +1,95 @@
+"""The link on its springs and on a viscoelastic layer behind a flexible structure, with the layer's internal states.
+
+I theta'' + K_s theta + M = T, with M the torque of the branch: the structure's stiffness S in series with the layer, a
+generalised Maxwell body of modes (relaxation time tau_m, stiffness k_m). phi is the angle across the layer, q_m that
+of mode m's dashpot: M = S (theta - phi) = sum k_m (phi - q_m), q_m' = (phi - q_m)/tau_m.
+Source: Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 1 and 3 (Maxwell elements and their internal states).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+Modes = Sequence[tuple[Any, Any]]
+"""(relaxation time [s], stiffness [N*m/rad]) of each Maxwell element of the layer."""
+
+
+class Joint(NamedTuple):
+    """What does not depend on the polymer: inertia [kg*m^2], springs and series structure [N*m/rad]."""
+
+    inertia: Any
+    spring_stiffness: Any
+    structure_stiffness: Any
+
+
+def layer_modes(spectrum: Modes, polar_moment: Any, thickness: Any) -> list[tuple[Any, Any]]:
+    """Modes of a layer: k_m = G_m J/t [N*m/rad] from a spectrum of (relaxation time [s], modulus [Pa])."""
+    return [(time, modulus * polar_moment / thickness) for time, modulus in spectrum]
+
+
+def layer_angle(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
+    """Angle across the layer [rad], phi = (S theta + sum k_m q_m)/(S + sum k_m)."""
+    pull = sum(stiffness * inner for (_, stiffness), inner in zip(modes, internal, strict=True))
+    total = sum(stiffness for _, stiffness in modes)
+    return (joint.structure_stiffness * angle + pull) / (joint.structure_stiffness + total)
+
+
+def branch_torque(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
+    """Torque the branch takes [N*m], S (theta - phi) = S/(S + sum k_m) sum k_m (theta - q_m), which does not cancel."""
+    pull = sum(stiffness * (angle - inner) for (_, stiffness), inner in zip(modes, internal, strict=True))
+    total = sum(stiffness for _, stiffness in modes)
+    return joint.structure_stiffness / (joint.structure_stiffness + total) * pull
+
+
+def module_torque(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
+    """Torque of the module on the link [N*m], -(K_s theta + M): it drives a deflected link back."""
+    return -(joint.spring_stiffness * angle + branch_torque(angle, internal, joint, modes))
+
+
+def internal_rates(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> list[Any]:
+    """Rates of the internal angles [rad/s], (phi - q_m)/tau_m."""
+    phi = layer_angle(angle, internal, joint, modes)
+    return [(phi - inner) / time for (time, _), inner in zip(modes, internal, strict=True)]
+
+
+def rates(angle: Any, speed: Any, internal: Sequence[Any], external: Any, joint: Joint, modes: Modes) -> list[Any]:
+    """Rates of angle, speed and internal angles under an external torque [N*m]."""
+    torque = external + module_torque(angle, internal, joint, modes)
+    return [speed, torque / joint.inertia, *internal_rates(angle, internal, joint, modes)]
+
+
+def energy_terms(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> list[tuple[Any, Any]]:
+    """What stores energy, as pairs (stiffness or inertia c, deflection or speed d) that hold c d^2/2 each [J].
+
+    Link, springs, structure, then each mode's elastic angle phi - q_m.
+    """
+    phi = layer_angle(angle, internal, joint, modes)
+    elastic = [(stiffness, phi - inner) for (_, stiffness), inner in zip(modes, internal, strict=True)]
+    return [
+        (joint.inertia, speed),
+        (joint.spring_stiffness, angle),
+        (joint.structure_stiffness, branch_torque(angle, internal, joint, modes) / joint.structure_stiffness),
+        *elastic,
+    ]
+
+
+def stored_energy(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
+    """Kinetic and elastic energy [J], sum of c d^2/2; at rest from outside it falls by `dissipation`."""
+    return 0.5 * sum(c * d**2 for c, d in energy_terms(angle, speed, internal, joint, modes))
+
+
+def dissipation(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
+    """Heat made in the layer's dashpots [W], sum k_m (phi - q_m)^2/tau_m; never negative."""
+    phi = layer_angle(angle, internal, joint, modes)
+    return sum(k * (phi - inner) ** 2 / time for (time, k), inner in zip(modes, internal, strict=True))
+
+
+def kelvin_voigt_rates(angle: Any, speed: Any, inertia: Any, damping: Any, stiffness: Any) -> list[Any]:
+    """Rates of angle and speed of I theta'' + b theta' + K theta = 0 (textbook, one degree of freedom)."""
+    return [speed, -(damping * speed + stiffness * angle) / inertia]
+
+
+def kelvin_voigt_torque(angle: Any, speed: Any, damping: Any, stiffness: Any) -> Any:
+    """Torque of a spring and a dashpot side by side on the link [N*m], -(b theta' + K theta)."""
+    return -(damping * speed + stiffness * angle)

@@ -1,0 +1,164 @@
+"""The perturbation test: the link held off its rest and let go, at each temperature."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tvimdesign.solve import link
+from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
+from tvimdesign.solve.link import Array, Motion
+from tvimdesign.solve.rig import Rig
+from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
+
+ANGLE = 0.1  # rad, the paper's perturbation
+HOLD = 10.0  # s; the melt's longest relaxation time is a tenth of a second at most
+SETTLED = 0.05  # share of the angle within which the link counts as back
+
+
+@dataclass(frozen=True)
+class Simple:
+    """The same release with one spring and one dashpot (Kelvin-Voigt), at the same times."""
+
+    angle: Array
+    torque: Array
+    settling: float
+    difference: float
+    """Root mean square over time of the angle's difference from the full model's, over that of its angle."""
+
+
+@dataclass(frozen=True)
+class Released:
+    """One release with what is read off it."""
+
+    case: Case
+    motion: Motion
+    frequency: float
+    damping_ratio: float
+    settling: float
+    simple: Simple | None
+
+
+def release(rig: Rig, angle: float = ANGLE, hold: float = HOLD, kelvin_voigt: bool = True) -> Trial:
+    """Hold the link at an angle [rad] for `hold` seconds, let go, and follow it.
+
+    Gives angle and torque over time and the torque-angle loop at every operating point; with `kelvin_voigt` also those
+    of one spring and one dashpot, stiffness and damping as at the point's frequency.
+    """
+    rig = with_paper_points(rig)
+    found = [_released(rig, case, angle, hold, kelvin_voigt) for case in cases(rig)]
+    shown = [one for one in found if one.case.history.shown]
+    x, y = "angle", "torque_share"
+    return Trial(
+        test="release",
+        title=f"Released from {angle:g} rad",
+        sheets=tuple(_sheet(one) for one in shown),
+        panels=(
+            Panel("Angle", "time after release, s", "angle, rad", _lines(shown, "time", x), log_x=True),
+            Panel(
+                "Torque", "time after release, s", "torque over that at release", _lines(shown, "time", y), log_x=True
+            ),
+            Panel("Torque over angle", "angle, rad", "torque over that at release", _lines(shown, x, y)),
+        ),
+        findings=tuple(_findings(rig, found)),
+        notes=(
+            f"The layer was free of strain, was turned to {angle:g} rad at once and held there for {hold:g} s: the "
+            "melt has relaxed by then, a frozen layer has only begun to.",
+            "Torque is that of the module on the link.",
+            *notes_for([one.case for one in found]),
+            *_overload(rig, found),
+        ),
+    )
+
+
+def _released(rig: Rig, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
+    internal = link.held(case.joint, case.modes, angle, hold)
+    moved = link.released(case.joint, case.modes, angle, internal)
+    swings = link.swings(case.joint, case.modes, angle, internal)
+    settling = link.settling_time(moved.times, moved.angle, SETTLED)
+    if not np.isfinite(settling):
+        settling = swings.fading_time(SETTLED * abs(angle))
+    simple = _simple(rig, case, angle, moved) if kelvin_voigt else None
+    return Released(case, moved, *swings.ringing(), settling, simple)
+
+
+def _simple(rig: Rig, case: Case, angle: float, moved: Motion) -> Simple:
+    rows = case.rows(rig, ("joint_damping", "joint_stiffness"))
+    damping, stiffness = float(rows["joint_damping"]), float(rows["joint_stiffness"])
+    other, torque = link.kelvin_voigt(case.joint, damping, stiffness, angle, moved)
+    apart = np.trapezoid((moved.angle - other) ** 2, moved.times) / np.trapezoid(moved.angle**2, moved.times)
+    swings = link.kelvin_voigt_swings(case.joint, damping, stiffness, angle)
+    return Simple(other, torque, swings.fading_time(SETTLED * abs(angle)), float(np.sqrt(apart)))
+
+
+def _sheet(one: Released) -> Sheet:
+    moved = one.motion
+    columns = [
+        Column("time", "s", moved.times),
+        Column("angle", "rad", moved.angle),
+        Column("torque", "N*m", moved.torque),
+        Column("torque_share", "1", moved.torque / abs(moved.torque[0])),
+        Column("stored_energy", "J", moved.energy),
+    ]
+    if one.simple:
+        torque = one.simple.torque
+        columns += [
+            Column("angle_kelvin_voigt", "rad", one.simple.angle),
+            Column("torque_kelvin_voigt", "N*m", torque),
+            Column("torque_share_kelvin_voigt", "1", torque / abs(torque[0])),
+        ]
+    return Sheet(f"release_{one.case.name}", tuple(columns))
+
+
+def _lines(found: Sequence[Released], x: str, y: str) -> tuple[Line, ...]:
+    lines = []
+    for one in found:
+        sheet = f"release_{one.case.name}"
+        held = f"{abs(one.motion.torque[0]):.3g} N·m at release"
+        lines.append(Line(sheet, x, y, f"{one.case.label} ({held})" if y == "torque_share" else one.case.label))
+        if one.simple and not one.case.history.name:
+            across = "angle_kelvin_voigt" if x == "angle" else x
+            lines.append(Line(sheet, across, f"{y}_kelvin_voigt", f"{one.case.point}, Kelvin-Voigt", dashed=True))
+    return tuple(lines)
+
+
+def _findings(rig: Rig, found: Sequence[Released]) -> list[Finding]:
+    numbers: list[Finding] = []
+    for point in rig.points:
+        here = [one for one in found if one.case.point == point]
+        energies = [one.motion.energy for one in here]
+        rows = [
+            ("held_torque", "N*m", "Torque that holds the link just before it is let go",
+             [abs(float(one.motion.torque[0])) for one in here]),
+            ("ringing_frequency", "Hz", "Frequency at which the link swings; 0 where it creeps back",
+             [one.frequency for one in here]),
+            ("ringing_damping_ratio", "1", "Damping ratio of that swing; 1 where it creeps back",
+             [one.damping_ratio for one in here]),
+            ("settling_time", "s", f"Time until the link stays within {100 * SETTLED:g} % of its angle",
+             [one.settling for one in here]),
+            ("energy_dissipated", "J", "Energy the layer turned into heat over the motion shown",
+             [float(energy[0] - energy[-1]) for energy in energies]),
+            ("energy_gain", "1", "Largest growth of the stored energy over its start; rounding",
+             [max(0.0, float(np.max(np.diff(energy)) / energy[0])) for energy in energies]),
+        ]  # fmt: skip
+        simple = [one.simple for one in here if one.simple]
+        if simple:
+            rows += [
+                ("kelvin_voigt_settling_time", "s", "The same time in the Kelvin-Voigt model",
+                 [one.settling for one in simple]),
+                ("kelvin_voigt_difference", "1", "Its angle against the full model's, rms over rms; near 1 and above it"
+                 " says nothing", [one.difference for one in simple]),
+            ]  # fmt: skip
+        numbers += [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
+    return numbers
+
+
+def _overload(rig: Rig, found: Sequence[Released]) -> list[str]:
+    most = float(rig.row("holding_torque"))
+    beyond = dict.fromkeys(one.case.point for one in found if abs(one.motion.torque[0]) > most)
+    if not beyond:
+        return []
+    return [f"At {', '.join(beyond)} the torque that holds the link is more than the {most:.3g} N·m the joint bears: "
+            "there the curves are those of a joint that does not break, to be read as shares."]  # fmt: skip

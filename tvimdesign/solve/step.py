@@ -1,0 +1,111 @@
+"""Steps: of the angle, and of the impedance itself while the link bears a load."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tvimdesign.physics.polymer import ZERO_CELSIUS
+from tvimdesign.solve import link
+from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
+from tvimdesign.solve.linear import doubling
+from tvimdesign.solve.link import Motion
+from tvimdesign.solve.rig import Rig
+from tvimdesign.solve.switch_load import Carried, SliceHistory, carry, changing, slice_histories, support_of
+from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
+
+RISE = 0.01  # s
+WATCHED = 100.0  # s
+FIRST_STEP = 1e-4  # s
+LOADED = "step_of_impedance"
+
+
+def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load: float | None = None) -> Trial:
+    """Turn the link to its stroke in `rise` seconds and watch the torque relax; then switch the layer under a load.
+
+    The load [N*m] is the one that turns the joint by its stroke on its springs alone, if none is given; the layer goes
+    through one heating switch, or through the given history.
+    """
+    rig = with_paper_points(rig)
+    found = [(case, _turned(rig, case, rise)) for case in cases(rig)]
+    shown = [(case, moved) for case, moved in found if case.history.shown]
+    history = history or slice_histories(rig)
+    weight = float(rig.row("spring_stiffness") * rig.row("stroke")) if load is None else load
+    carried = carry(changing(rig, history), support_of(rig), weight, history.times)
+    return Trial(
+        test="step",
+        title=f"Steps: of the angle, and of the impedance under {weight:.3g} N·m",
+        sheets=(*(_sheet(case, moved) for case, moved in shown), _loaded_sheet(carried, history)),
+        panels=(
+            Panel("Step of the angle", "time, s", "torque, N·m", log_x=True, log_y=True, lines=tuple(
+                Line(f"step_{case.name}", "time", "holding_torque", case.label) for case, _ in shown)),
+            Panel("Layer during the switch", "time, s", "temperature, °C", lines=tuple(
+                Line(LOADED, "time", f"{place}_slice", f"{place} slice") for place in ("near", "middle", "far"))),
+            Panel("Angle under load", "time, s", "angle, rad", lines=(Line(LOADED, "time", "angle", "link"),)),
+        ),
+        findings=(*_relaxed(rig, found), *_yielded(carried, weight)),
+        notes=(
+            f"Angle: to the stroke at a steady speed in {rise:g} s, then held for {WATCHED:g} s; the torque is what "
+            "holds the module, without the link's inertia.",
+            f"Impedance: {weight:.3g} N·m are put on the link at time 0 and stay; the link follows without inertia. "
+            "What freezes joins free of stress, what melts loses its stress.",
+            "Temperatures of the switch do not depend on the load; a heated layer melts along its nominal curve.",
+            *notes_for([case for case, _ in found]),
+        ),
+    )  # fmt: skip
+
+
+def _turned(rig: Rig, case: Case, rise: float) -> Motion:
+    stretches = doubling(min(FIRST_STEP, rise), WATCHED)
+    return link.turned(case.joint, case.modes, float(rig.row("stroke")), rise, stretches)
+
+
+def _sheet(case: Case, moved: Motion) -> Sheet:
+    return Sheet(f"step_{case.name}", (
+        Column("time", "s", moved.times), Column("angle", "rad", moved.angle),
+        Column("holding_torque", "N*m", -moved.torque),
+    ))  # fmt: skip
+
+
+def _loaded_sheet(carried: Carried, history: SliceHistory) -> Sheet:
+    celsius = history.temperatures - ZERO_CELSIUS
+    return Sheet(LOADED, (
+        Column("time", "s", carried.times),
+        Column("angle", "rad", carried.angle),
+        Column("layer_torque", "N*m", carried.layer_torque),
+        Column("near_slice", "degC", celsius[0]),
+        Column("middle_slice", "degC", celsius[len(celsius) // 2]),
+        Column("far_slice", "degC", celsius[-1]),
+        Column("mean_solid_fraction", "1", np.mean(history.fractions, axis=0)),
+        Column("stored_energy", "J", carried.energy),
+    ))  # fmt: skip
+
+
+def _relaxed(rig: Rig, found: Sequence[tuple[Case, Motion]]) -> list[Finding]:
+    numbers = []
+    for point in rig.points:
+        holding = [-moved.torque for case, moved in found if case.point == point]
+        rows = (
+            ("step_peak_torque", "N*m", "Highest torque of the step", [float(np.max(torque)) for torque in holding]),
+            ("step_final_torque", "N*m", f"Torque after {WATCHED:g} s", [float(torque[-1]) for torque in holding]),
+        )
+        numbers += [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
+    return numbers
+
+
+def _yielded(carried: Carried, load: float) -> list[Finding]:
+    first, last = float(carried.angle[0]), float(carried.angle[-1])
+    way = np.abs(carried.angle - first)
+    half = float(np.interp(0.5 * np.max(way), np.maximum.accumulate(way), carried.times))
+    spent = load * (last - first) - float(carried.energy[-1] - carried.energy[0])
+    return [
+        Finding("loaded_angle_start", first, "rad", "Angle right after the load is put on"),
+        Finding("loaded_angle_end", last, "rad", "Angle under load at the end of the switch"),
+        Finding("loaded_half_way_time", half, "s", "Time at which the link has gone half its way"),
+        Finding(
+            "loaded_layer_share", float(carried.layer_torque[-1]) / load, "1", "Share of the load the layer bears last"
+        ),
+        Finding("loaded_energy_dissipated", spent, "J", "Energy the layer turned into heat on the way"),
+        Finding("unloaded_angle", carried.unloaded_angle, "rad", "Angle right after the load is taken off at the end"),
+    ]

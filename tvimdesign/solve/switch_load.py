@@ -1,0 +1,131 @@
+"""A constant load on the link while the layer melts or freezes: slices in series, each as its temperature leaves it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.errors import InputError, SimulationError
+from tvimdesign.physics import motion, polymer, slices
+from tvimdesign.solve.bench import joint_of
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.rig import Rig
+from tvimdesign.solve.simulate import Simulator
+
+Array = NDArray[np.float64]
+TOLERANCE = 1e-6
+FIRST_CELL = 3  # in `Model.temperatures`, after cold side, hot side and near face
+
+
+@dataclass(frozen=True)
+class SliceHistory:
+    """Temperature [K] and solid fraction of each slice, one row a slice, over times [s] that rise."""
+
+    times: Array
+    temperatures: Array
+    fractions: Array
+
+    def __post_init__(self) -> None:
+        """Refuse times that do not rise, and arrays that do not fit them."""
+        if len(self.times) < 2 or not np.all(np.diff(self.times) > 0.0):
+            raise InputError("the times of a layer's history must rise, and be two at least")
+        shape = (len(self.temperatures), len(self.times))
+        if self.temperatures.shape != shape or self.fractions.shape != shape:
+            raise InputError("a layer's history wants one row of temperatures and of solid fractions a slice")
+
+
+@dataclass(frozen=True)
+class Carried:
+    """A load carried through a history: angle [rad], torque of the layer [N*m] and stored energy [J] over time."""
+
+    times: Array
+    angle: Array
+    layer_torque: Array
+    energy: Array
+    torques: Array
+    """Torque of each mode of each slice [N*m]: mode, slice, time."""
+    unloaded_angle: float
+    """Angle right after the load is taken off at the end [rad]."""
+
+
+def slice_histories(rig: Rig) -> SliceHistory:
+    """Temperatures and solid fractions of the layer's cells over one heating switch."""
+    model = Model(rig.table, rig.values, rig.points, rig.study.solver.cells)
+    trajectory = Simulator(model).run(model.start).trajectory
+    count = len(trajectory.times)
+    stack = np.asarray(model.temperatures.map(count)(trajectory.states, np.repeat(model.start[:, None], count, axis=1)))
+    cells = stack[FIRST_CELL : FIRST_CELL + model.cells]
+    melting = rig.row("pcl_melting")
+    fractions = np.asarray(polymer.solid_fraction(polymer.enthalpy(cells, melting), melting))
+    return SliceHistory(trajectory.times, cells, fractions)
+
+
+class Changing:
+    """Stiffness and relaxation time of every mode of every slice over a history, smooth between its times."""
+
+    def __init__(self, logarithms: Array, times: Array) -> None:
+        """`logarithms` of (relaxation time, stiffness): what, mode, slice, time."""
+        from scipy.interpolate import PchipInterpolator
+
+        self._curves = PchipInterpolator(times, logarithms, axis=-1)
+        self._slopes = self._curves.derivative()
+
+    def at(self, time: float) -> slices.Slices:
+        """The slices at one time."""
+        relaxation_times, stiffnesses = np.exp(self._curves(time))
+        return slices.Slices(list(relaxation_times), list(stiffnesses), list(self._slopes(time)[1]))
+
+
+def changing(rig: Rig, history: SliceHistory) -> Changing:
+    """The slices of a module's layer over a history, all of one thickness."""
+    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "layer_polar_moment", "pcl_thickness"))
+    spectrum = polymer.spectrum(history.temperatures, history.fractions, rheology)
+    modes = motion.layer_modes(spectrum, moment, thickness / len(history.temperatures))
+    both = [[time for time, _ in modes], [stiffness for _, stiffness in modes]]
+    return Changing(np.log(np.array(both)), history.times)
+
+
+def carry(layer: Changing, support: slices.Support, load: float, times: Array) -> Carried:
+    """Put a load [N*m] on the link of a layer free of stress and keep it there over the times; inertia left out.
+
+    Raises SimulationError where the integration fails.
+    """
+    from scipy.integrate import solve_ivp
+
+    begin = layer.at(float(times[0]))
+    angle, torques = slices.loaded_start(load, begin, support)
+    shape = np.shape(torques)
+
+    def rates(time: float, state: Array) -> Array:
+        speed, changes = slices.loaded_rates(list(state[1:].reshape(shape)), 0.0, layer.at(time), support)
+        return np.concatenate([[speed], np.ravel(changes)])
+
+    def jacobian(time: float, _: Array) -> Array:
+        now = slices.Slices(*([row[:, None] for row in field] for field in layer.at(time)))
+        inner = np.eye(1 + shape[0] * shape[1])[1:].reshape(*shape, -1)
+        speed, changes = slices.loaded_rates(list(inner), 0.0, now, support)
+        return np.concatenate([speed[None, :], np.reshape(changes, (-1, inner.shape[-1]))])
+
+    solved = solve_ivp(
+        rates, (times[0], times[-1]), np.append(angle, np.ravel(torques)), method="BDF", t_eval=times, jac=jacobian,
+        rtol=TOLERANCE, atol=TOLERANCE * 1e-2 * abs(load),
+    )  # fmt: skip
+    if not solved.success:
+        raise SimulationError(f"the loaded layer cannot be followed through its switch ({solved.message})")
+    inner = solved.y[1:].reshape(*shape, -1)
+    states = [layer.at(float(time)) for time in times]
+    energies = [
+        float(slices.stored_energy(solved.y[0, i], list(inner[..., i]), now, support)) for i, now in enumerate(states)
+    ]
+    given_back, _ = slices.loaded_start(load, states[-1], support)
+    return Carried(
+        times, solved.y[0], np.sum(inner, axis=0)[0], np.array(energies), inner, float(solved.y[0, -1] - given_back)
+    )
+
+
+def support_of(rig: Rig) -> slices.Support:
+    """Springs and structure of the module on the bench."""
+    joint = joint_of(rig)
+    return slices.Support(joint.spring_stiffness, joint.structure_stiffness)
