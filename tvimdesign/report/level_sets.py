@@ -17,7 +17,7 @@ import numpy as np
 
 from tvimdesign.report.folder import ResultsFolder
 from tvimdesign.report.ledger import from_paper, published_model
-from tvimdesign.report.plots import PlotProcess
+from tvimdesign.report.plots import Drawing, PlotProcess
 from tvimdesign.report.talk import talk, wide_console
 from tvimdesign.solve.level_set import PLACES, LevelSet, level_set
 from tvimdesign.solve.model import Model
@@ -37,7 +37,7 @@ def write_level_sets(out: Path, overwrite: bool) -> Path:
     with ResultsFolder(out, overwrite) as folder, talk() as say, PlotProcess() as drawing:
         sets = [level_set(model, name, list(values), thin, wanted, say) for name, values in AGAINST.items()]
         say("drawing")
-        drawing.begin(folder.path, {"level_sets": _figure_data(sets, model, wanted)})
+        drawing.begin(folder.path, [Drawing("level_sets", "level_sets", _figure_data(sets, model, wanted))])
         units = {one.parameter: model.table.unit(one.parameter) for one in sets}
         folder.write("level_sets.csv", _table(_line_rows(sets, units)))
         folder.write("response_times.csv", _table(_time_rows(sets, units)))

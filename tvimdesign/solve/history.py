@@ -6,13 +6,13 @@ heated it follows the equilibrium curve, which the record knows to some kelvin o
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.physics import polymer
+from tvimdesign.physics import crystallization, polymer
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.rig import Rig
 
@@ -47,6 +47,21 @@ def fractions_at(rig: Rig, temperature: float) -> Fractions:
         start=melting.start + _off(rig, "melting_start")[1], end=melting.end + _off(rig, "melting_end")[1]
     )
     return Fractions(0.0, nominal, max(nominal, _on_heating(temperature, late)))
+
+
+def frozen_on_cooling(rig: Rig, rate: float) -> Callable[[float], float]:
+    """Solid fraction [1] at a temperature [K] that a melt comes down to at a steady rate [K/s]: Nakamura's integral."""
+    kinetics: crystallization.Kinetics = rig.row("pcl_kinetics")
+    temperatures = np.linspace(kinetics.equilibrium_melting + 20.0, 240.0, 4001)
+    slowness = crystallization.rate_constant(temperatures, kinetics) / rate
+    steps = 0.5 * (slowness[1:] + slowness[:-1]) * -np.diff(temperatures)
+    extended = np.concatenate([[0.0], np.cumsum(steps)])
+
+    def fraction(temperature: float) -> float:
+        psi = np.interp(temperature, temperatures[::-1], extended[::-1])
+        return float(crystallization.solid_fraction(psi, kinetics))
+
+    return fraction
 
 
 def intervals(rig: Rig, model: Model, inputs: Array, switch: Mapping[str, float]) -> dict[str, tuple[float, float]]:

@@ -16,8 +16,9 @@ from tvimdesign.solve.drive import Drive
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.stage_model import StageModel
 
-STEPS = 200  # samples of one stretch of time
-TOLERANCE = 1e-9
+STEPS = 25  # samples of one stretch of time
+TOLERANCE = 1e-5  # with these, times of events are within 1e-4 of what they converge to
+FIRST_STRETCH = 120.0  # s; each after it is twice as long
 STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
 
 Array = NDArray[np.float64]
@@ -56,9 +57,10 @@ class Switch:
 class Simulator:
     """Simulates the working cycle of one model; each stage's integrator is built once, when it is first needed."""
 
-    def __init__(self, model: Model) -> None:
-        """Nothing is built yet."""
+    def __init__(self, model: Model, tolerance: float = TOLERANCE, steps: int = STEPS) -> None:
+        """Nothing is built yet. `tolerance` is CVODES's, `steps` divides each stretch of time."""
         self.model = model
+        self.tolerance, self.steps = tolerance, steps
         self._stages: dict[str, _StageSimulator] = {}
 
     def run(
@@ -103,78 +105,91 @@ class Simulator:
 
     def _stage(self, name: str) -> _StageSimulator:
         if name not in self._stages:
-            self._stages[name] = _StageSimulator(self.model, self.model.stages[name])
+            self._stages[name] = _StageSimulator(self.model, self.model.stages[name], self.tolerance, self.steps)
         return self._stages[name]
+
+
+@dataclass
+class _Found:
+    """What the simulation of a stage has come to so far."""
+
+    times: dict[str, float]
+    """Of every event; infinite where it has not happened."""
+    end: Array | None = None
+    """State, integrals last, at the event that ends the stage."""
 
 
 class _StageSimulator:
     """Simulates one stage. Time is scaled by the length of a stretch; integrals ride along as states."""
 
-    def __init__(self, model: Model, stage: StageModel) -> None:
+    def __init__(self, model: Model, stage: StageModel, tolerance: float, steps: int) -> None:
         self.model = model
         self.stage = stage
+        self._shares = np.linspace(0.0, 1.0, steps + 1)
         self._integrals = [row.name for row in stage.paths if row.reduce == "integral"]
+        self._events = [row.name for row in stage.events]
+        self._watched = stage.watch([*self._events, *(row.name for row in stage.paths)])
+        self._of_stretch = self._watched.map(steps + 1)
         state = ca.SX.sym("state", stage.state_size)
         extra = ca.SX.sym("integrals", len(self._integrals))
-        inputs = ca.SX.sym("inputs", len(model.names))
         length, first, last, time = (ca.SX.sym(name) for name in ("length", "first", "last", "time"))
         drive = first + (last - first) * time
-        paths = stage.watch(self._integrals)(state, drive, inputs)
+        self._constants, varying = stage.per_stage(self._rates)
+        constants = ca.SX.sym("constants", self._constants.size1_out(0))
         self._integrator = ca.integrator(
             stage.stage.name,
             "cvodes",
             {
                 "x": ca.vertcat(state, extra),
-                "p": ca.vertcat(inputs, length, first, last),
+                "p": ca.vertcat(constants, length, first, last),
                 "t": time,
-                "ode": length * ca.vertcat(stage.rates(state, drive, inputs), paths),
+                "ode": length * varying(state, drive, constants),
             },
             0.0,
-            np.linspace(0.0, 1.0, STEPS + 1)[1:],
+            self._shares[1:],
             {
-                "reltol": TOLERANCE,
-                "abstol": TOLERANCE * 1e-2,
+                "reltol": tolerance,
+                "abstol": tolerance * 1e-2,
                 "max_num_steps": 100_000,
                 # A stage that cannot be simulated raises; what CVODES and CasADi say meanwhile is not for people.
                 "show_eval_warnings": False,
                 "disable_internal_warnings": True,
             },
         )
-        self._events = [row.name for row in stage.events]
-        self._watched = stage.watch([row.name for row in (*stage.events, *stage.paths)])
-        self._of_stretch = self._watched.map(STEPS + 1)
+
+    def _rates(self, state: Any, drive: Any, inputs: Any) -> Any:
+        """Rates of the state and of the integrals."""
+        return ca.vertcat(
+            self.stage.rates(state, drive, inputs), self.stage.watch(self._integrals)(state, drive, inputs)
+        )
 
     def run(self, inputs: Array, drive: Drive, before: Array | None) -> tuple[dict[str, float], Trajectory]:
         """Simulate until every event has happened, nothing changes any more, or the horizon is over."""
-        found = dict.fromkeys(self._events, np.inf)
+        found = _Found(dict.fromkeys(self._events, np.inf))
         horizon = float(inputs[self.model.index["horizon"]])
         start = self.stage.initial(inputs) if before is None else self.stage.begin(before, inputs)
         begin = np.append(np.asarray(start).ravel(), np.zeros(len(self._integrals)))
-        time, length = 0.0, min(60.0, horizon)
-        times, states = [np.array([0.0])], [begin[:, None]]
-        while time < horizon and not all(np.isfinite(found[name]) for name in self._events):
+        constants = np.asarray(self._constants(inputs)).ravel()
+        time, length = 0.0, min(FIRST_STRETCH, horizon)
+        pieces: list[tuple[Array, Array, Array]] = []
+        while time < horizon and not all(np.isfinite(moment) for moment in found.times.values()):
             length = min(length, drive.next_corner(time) - time, horizon - time)
-            currents = drive.at(time + length * np.linspace(0.0, 1.0, STEPS + 1))
-            stretch = self._stretch(begin, inputs, length, currents)
-            gaps = self._gaps(stretch, inputs, currents)
-            for name, gap in zip(self._events, gaps, strict=True):
-                if not np.isfinite(found[name]) and np.any(gap >= 0.0):
-                    found[name] = time + self._crossing(
-                        stretch, inputs, length, currents, self._events.index(name), gap
-                    )
-            times.append(time + length * np.linspace(0.0, 1.0, STEPS + 1)[1:])
-            states.append(stretch[:, 1:])
+            currents = drive.at(time + length * self._shares)
+            stretch = self._stretch(begin, constants, length, currents)
+            watched = self._watch(stretch, inputs, currents)
+            self._look(found, (time, length, currents), stretch, watched, inputs)
+            pieces.append((time + length * self._shares, stretch, watched))
             begin, time = stretch[:, -1], time + length
             rate = np.asarray(self.stage.rates(begin[: self.stage.state_size], currents[-1], inputs)).ravel()
             constant = np.isinf(drive.next_corner(time))
             if constant and np.max(np.abs(rate)) * (horizon - time) < STALLED:
                 break
             length = 2.0 * length if constant else np.inf
-        return self._summary(found, np.concatenate(times), np.concatenate(states, axis=1), inputs, drive)
+        return self._summary(found, pieces, inputs, drive)
 
-    def _stretch(self, begin: Array, inputs: Array, length: float, currents: Array) -> Array:
-        """States at STEPS + 1 equally spaced times from `begin` over `length` seconds; the current runs straight."""
-        parameters = np.append(inputs, [length, currents[0], currents[-1]])
+    def _stretch(self, begin: Array, constants: Array, length: float, currents: Array) -> Array:
+        """States at equally spaced times from `begin` over `length` seconds; the current runs straight."""
+        parameters = np.append(constants, [length, currents[0], currents[-1]])
         try:
             after = np.asarray(self._integrator(x0=begin, p=parameters)["xf"])
         except RuntimeError as error:
@@ -184,41 +199,66 @@ class _StageSimulator:
             ) from error
         return np.column_stack([begin, after])
 
-    def _gaps(self, stretch: Array, inputs: Array, currents: Array) -> Array:
+    def _watch(self, stretch: Array, inputs: Array, currents: Array) -> Array:
         columns = np.repeat(inputs[:, None], stretch.shape[1], axis=1)
-        watched = np.asarray(self._of_stretch(stretch[: self.stage.state_size], currents[None, :], columns))
-        return watched[: len(self._events)]
+        return np.asarray(self._of_stretch(stretch[: self.stage.state_size], currents[None, :], columns))
 
-    def _crossing(self, stretch: Array, inputs: Array, length: float, currents: Array, event: int, gap: Array) -> float:
-        """Time within the stretch at which an event's gap passes zero; looked at closely once, then linear."""
+    def _look(
+        self, found: _Found, when: tuple[float, float, Array], stretch: Array, watched: Array, inputs: Array
+    ) -> None:
+        """Note the events that happen within a stretch. Those that wait for the same thing are looked at once."""
+        time = when[0]
+        seen: list[tuple[Array, float, Array]] = []
+        for i, name in enumerate(self._events):
+            if np.isfinite(found.times[name]) or not np.any(watched[i] >= 0.0):
+                continue
+            same = [known[1:] for known in seen if np.array_equal(known[0], watched[i])]
+            share, state = same[0] if same else self._crossing(stretch, inputs, when, i, watched[i])
+            seen.append((watched[i], share, state))
+            found.times[name] = time + share
+            if name == self.stage.stage.ends:
+                found.end = state
+
+    def _crossing(
+        self, stretch: Array, inputs: Array, when: tuple[float, float, Array], event: int, gap: Array
+    ) -> tuple[float, Array]:
+        """Time within a stretch at which a gap passes zero, and the state there: looked at once more, then linear."""
+        _, length, currents = when
         if gap[0] >= 0.0:
-            return 0.0
+            return 0.0, stretch[:, 0]
         first = int(np.argmax(gap >= 0.0))
-        step = length / STEPS
-        within = np.linspace(currents[first - 1], currents[first], STEPS + 1)
-        close = self._gaps(self._stretch(stretch[:, first - 1], inputs, step, within), inputs, within)[event]
-        last = max(int(np.argmax(close >= 0.0)), 1)
-        share = last - 1 + close[last - 1] / (close[last - 1] - close[last])
-        return float((first - 1) * step + share * step / STEPS)
+        steps = len(self._shares) - 1
+        within = np.linspace(currents[first - 1], currents[first], steps + 1)
+        constants = np.asarray(self._constants(inputs)).ravel()
+        close = self._stretch(stretch[:, first - 1], constants, length / steps, within)
+        near = self._watch(close, inputs, within)[event]
+        last = max(int(np.argmax(near >= 0.0)), 1)
+        part = near[last - 1] / (near[last - 1] - near[last])
+        share = (first - 1 + (last - 1 + part) / steps) / steps
+        return float(share * length), close[:, last - 1] + part * (close[:, last] - close[:, last - 1])
 
     def _summary(
-        self, found: dict[str, float], times: Array, states: Array, inputs: Array, drive: Drive
+        self, found: _Found, pieces: list[tuple[Array, Array, Array]], inputs: Array, drive: Drive
     ) -> tuple[dict[str, float], Trajectory]:
-        end = min(found[self.stage.stage.ends], times[-1])
-        keep = times < end
-        last = np.array([[np.interp(end, times, row)] for row in states])
-        times, states = np.append(times[keep], end), np.column_stack([states[:, keep], last])
+        """Values of the stage's events and paths, and its trajectory up to the event that ends it."""
+        # The last sample of a stretch is the first of the next.
+        times = np.concatenate([pieces[0][0][:1], *(piece[0][1:] for piece in pieces)])
+        states, watched = (
+            np.concatenate([pieces[0][k][:, :1], *(piece[k][:, 1:] for piece in pieces)], axis=1) for k in (1, 2)
+        )
+        if found.end is not None:
+            end = found.times[self.stage.stage.ends]
+            keep = times < end
+            now = self._watched(found.end[: self.stage.state_size], drive.at(np.array([end])), inputs)
+            times = np.append(times[keep], end)
+            states = np.column_stack([states[:, keep], found.end])
+            watched = np.column_stack([watched[:, keep], np.asarray(now).ravel()])
         size = self.stage.state_size
-        trajectory = Trajectory(times=times, states=states[:size], currents=drive.at(times))
-        values: dict[str, Any] = {name: float(time) for name, time in found.items()}
-        columns = np.repeat(inputs[:, None], len(times), axis=1)
-        watched = np.asarray(self._watched.map(len(times))(trajectory.states, trajectory.currents[None, :], columns))[
-            len(self._events) :
-        ]
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
-        for row, sampled in zip(self.stage.paths, watched, strict=True):
+        values = dict(found.times)
+        for row, sampled in zip(self.stage.paths, watched[len(self._events) :], strict=True):
             values[row.name] = float(integrals.get(row.name, np.max(sampled)))
-        return values, trajectory
+        return values, Trajectory(times=times, states=states[:size], currents=drive.at(times))
 
     @cached_property
     def _balance(self) -> Any:

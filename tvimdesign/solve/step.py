@@ -25,7 +25,7 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
     """Turn the link to its stroke in `rise` seconds and watch the torque relax; then switch the layer under a load.
 
     The load [N*m] is the one that turns the joint by its stroke on its springs alone, if none is given; the layer goes
-    through one heating switch, or through the given history.
+    through the working cycle, softening and stiffening, or through the given history.
     """
     rig = with_paper_points(rig)
     found = [(case, _turned(rig, case, rise)) for case in cases(rig)]
@@ -40,7 +40,7 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
         panels=(
             Panel("Step of the angle", "time, s", "torque, N·m", log_x=True, log_y=True, lines=tuple(
                 Line(f"step_{case.name}", "time", "holding_torque", case.label) for case, _ in shown)),
-            Panel("Layer during the switch", "time, s", "temperature, °C", lines=tuple(
+            Panel("Layer over the cycle", "time, s", "temperature, °C", lines=tuple(
                 Line(LOADED, "time", f"{place}_slice", f"{place} slice") for place in ("near", "middle", "far"))),
             Panel("Angle under load", "time, s", "angle, rad", lines=(Line(LOADED, "time", "angle", "link"),)),
         ),
@@ -50,7 +50,8 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
             "holds the module, without the link's inertia.",
             f"Impedance: {weight:.3g} N·m are put on the link at time 0 and stay; the link follows without inertia. "
             "What freezes joins free of stress, what melts loses its stress.",
-            "Temperatures of the switch do not depend on the load; a heated layer melts along its nominal curve.",
+            "Temperatures of the cycle do not depend on the load; a heated layer melts along its nominal curve, a "
+            "cooled one freezes with the nominal kinetics.",
             *notes_for([case for case, _ in found]),
         ),
     )  # fmt: skip
@@ -101,7 +102,7 @@ def _yielded(carried: Carried, load: float) -> list[Finding]:
     spent = load * (last - first) - float(carried.energy[-1] - carried.energy[0])
     return [
         Finding("loaded_angle_start", first, "rad", "Angle right after the load is put on"),
-        Finding("loaded_angle_end", last, "rad", "Angle under load at the end of the switch"),
+        Finding("loaded_angle_end", last, "rad", "Angle under load at the end of the cycle"),
         Finding("loaded_half_way_time", half, "s", "Time at which the link has gone half its way"),
         Finding(
             "loaded_layer_share", float(carried.layer_torque[-1]) / load, "1", "Share of the load the layer bears last"

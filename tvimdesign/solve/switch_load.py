@@ -16,7 +16,8 @@ from tvimdesign.solve.simulate import Simulator
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-6
-FIRST_CELL = 3  # in `Model.temperatures`, after cold side, hot side and near face
+SAMPLES = 100  # of each stretch of the simulated cycle
+FIRST_CELL = 3  # in a stage's `temperatures`, after cold side, hot side and near face
 
 
 @dataclass(frozen=True)
@@ -51,15 +52,23 @@ class Carried:
 
 
 def slice_histories(rig: Rig) -> SliceHistory:
-    """Temperatures and solid fractions of the layer's cells over one heating switch."""
+    """Temperatures and solid fractions of the layer's cells over the working cycle: softening, then stiffening."""
     model = Model(rig.table, rig.values, rig.points, rig.study.solver.cells)
-    trajectory = Simulator(model).run(model.start).trajectory
-    count = len(trajectory.times)
-    stack = np.asarray(model.temperatures.map(count)(trajectory.states, np.repeat(model.start[:, None], count, axis=1)))
-    cells = stack[FIRST_CELL : FIRST_CELL + model.cells]
-    melting = rig.row("pcl_melting")
-    fractions = np.asarray(polymer.solid_fraction(polymer.enthalpy(cells, melting), melting))
-    return SliceHistory(trajectory.times, cells, fractions)
+    cycle = Simulator(model, steps=SAMPLES).run(model.start, stages=["stiffening"])
+    begins = 0.0
+    pieces: list[tuple[Array, Array, Array]] = []
+    for name, trajectory in cycle.trajectories.items():
+        count, stage = len(trajectory.times), model.stages[name]
+        arguments = (trajectory.states, trajectory.currents[None, :], np.repeat(model.start[:, None], count, axis=1))
+        stack = np.asarray(stage.temperatures.map(count)(*arguments))
+        fractions = np.asarray(stage.fractions.map(count)(*arguments))
+        first = 1 if pieces else 0  # a stage begins where the one before has ended
+        pieces.append(
+            (begins + trajectory.times[first:], stack[FIRST_CELL:][: model.cells, first:], fractions[:, first:])
+        )
+        begins += trajectory.times[-1]
+    times, cells, solid = (np.concatenate([piece[k] for piece in pieces], axis=-1) for k in range(3))
+    return SliceHistory(times, cells, np.clip(solid, 0.0, 1.0))
 
 
 class Changing:

@@ -19,6 +19,9 @@ TESTS: dict[str, str] = {
     "temperature": "tvimdesign.solve.oscillation:temperature",
     "creep": "tvimdesign.solve.transient:creep",
     "relaxation": "tvimdesign.solve.transient:relaxation",
+    "release": "tvimdesign.solve.motion:release",
+    "sine": "tvimdesign.solve.motion:sine",
+    "step": "tvimdesign.solve.motion:step",
 }
 """`module:function` by name; the function takes a `Rig` and returns a `Trial`."""
 
