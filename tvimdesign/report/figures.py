@@ -203,7 +203,8 @@ def trial(data: dict[str, Any]) -> Figure:
     panels = data["panels"]
     down = -(-len(panels) // _ACROSS)
     across = -(-len(panels) // down)
-    width, height = 4.6 * across + 0.4, 3.9 * down + 0.5
+    key = 0.15 * max(len(panel["lines"]) for panel in panels) + 0.2  # inches of legend below each panel
+    width, height = 4.6 * across + 0.55, (3.9 + key) * down + 0.1
     figure = _figure(width, height)
     grid = figure.subplots(down, across, squeeze=False).ravel()
     for axes, panel in zip(grid, panels, strict=False):
@@ -211,17 +212,24 @@ def trial(data: dict[str, Any]) -> Figure:
     for axes in grid[len(panels) :]:
         axes.set_axis_off()
     figure.suptitle(data["title"], y=1.0 - 0.14 / height, va="top")
-    figure.subplots_adjust(left=0.8 / width, right=1.0 - 0.15 / width, bottom=0.6 / height, top=1.0 - 0.8 / height,
-                           wspace=0.28, hspace=0.34)  # fmt: skip
+    figure.subplots_adjust(left=0.95 / width, right=1.0 - 0.15 / width, bottom=(0.5 + key) / height,
+                           top=1.0 - 0.8 / height, wspace=0.28, hspace=0.34 + key / 3.0)  # fmt: skip
     return figure
+
+
+_STYLES = ("-", ":", "-.", (0, (1, 3)))
+"""Lines of one colour, in the order in which they come."""
 
 
 def _panel(axes: Any, panel: dict[str, Any]) -> None:
     """One pair of axes of a virtual test; a colour for each beginning of a label."""
-    colours: dict[str, str] = {}
+    styles: dict[str, list[Any]] = {}
     for line in panel["lines"]:
-        colour = colours.setdefault(line["label"].partition(",")[0], f"C{len(colours)}")
-        axes.plot(line["x"], line["y"], color=colour, linestyle="--" if line["dashed"] else "-", label=line["label"])
+        family = line["label"].partition(",")[0]
+        left = styles.setdefault(family, list(_STYLES))
+        colour = f"C{list(styles).index(family)}"
+        style = "--" if line["dashed"] else left.pop(0) if left else "-"
+        axes.plot(line["x"], line["y"], color=colour, linestyle=style, label=line["label"])
         if line["band"]:
             axes.fill_between(line["x"], *line["band"], color=colour, alpha=0.15, linewidth=0.0)
     if panel["log_x"]:
@@ -229,7 +237,7 @@ def _panel(axes: Any, panel: dict[str, Any]) -> None:
     if panel["log_y"]:
         _logarithmic(axes, panel["lines"])
     axes.set(xlabel=panel["x_label"], ylabel=panel["y_label"], title=panel["title"])
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.16))
 
 
 def _logarithmic(axes: Any, lines: list[dict[str, Any]]) -> None:

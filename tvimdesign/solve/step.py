@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.solve import link
 from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
 from tvimdesign.solve.linear import doubling
@@ -70,14 +69,14 @@ def _sheet(case: Case, moved: Motion) -> Sheet:
 
 
 def _loaded_sheet(carried: Carried, history: SliceHistory) -> Sheet:
-    celsius = history.temperatures - ZERO_CELSIUS
+    slices = history.temperatures
     return Sheet(LOADED, (
         Column("time", "s", carried.times),
         Column("angle", "rad", carried.angle),
         Column("layer_torque", "N*m", carried.layer_torque),
-        Column("near_slice", "degC", celsius[0]),
-        Column("middle_slice", "degC", celsius[len(celsius) // 2]),
-        Column("far_slice", "degC", celsius[-1]),
+        Column("near_slice", "degC", slices[0]),
+        Column("middle_slice", "degC", slices[len(slices) // 2]),
+        Column("far_slice", "degC", slices[-1]),
         Column("mean_solid_fraction", "1", np.mean(history.fractions, axis=0)),
         Column("stored_energy", "J", carried.energy),
     ))  # fmt: skip
