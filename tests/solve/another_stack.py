@@ -151,7 +151,7 @@ class AnotherStack:
         """Nakamura's rate with Hoffman and Lauritzen's growth below T_m0; melting of what is above equilibrium."""
         v = self.value
         n, psi = v("pcl_avrami_exponent"), y[-CELLS:]
-        highest, reference = v("pcl_equilibrium_melting"), v("pcl_crystallization_reference")
+        highest, reference = v("pcl_equilibrium_melting_temperature"), v("pcl_crystallization_reference")
 
         def exponent(kelvin: Array | float) -> Array:
             mobile = np.maximum(kelvin - (v("pcl_glass_transition") - 30.0), 1.0)
