@@ -6,8 +6,8 @@ stepped over (Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709). Fa
 half-cell resistances in series (Patankar, Numerical Heat Transfer and Fluid Flow, 1980, sec. 4.2). Surfaces lose heat
 by convection and grey radiation to surroundings at ambient temperature (Incropera, ch. 1).
 
-What is frozen follows the equilibrium melting curve, which is right for melting; with `Stack.freezing` each cell carries
-its own history instead, and freezes late and supercooled.
+What is frozen follows the equilibrium melting curve, which is right for melting; with `Stack.freezing` each cell has a
+history of its own instead, and freezes late and supercooled.
 
 A state is a one-dimensional array: cold side, hot side, polymer cells from the hot side on, plate cells, the lumps
 beside the plate, the sink if there is one, and with kinetics one extended fraction for each polymer cell. Temperatures
@@ -16,6 +16,7 @@ stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all 
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -144,7 +145,7 @@ def _parts(state: Any, stack: Stack) -> _Parts:
     cells = len(state) - 2 - _others(stack)
     cells = cells // 2 if stack.freezing else cells
     ends = np.cumsum([2, cells, stack.plate_cells, len(stack.beside), int(stack.sink is not None)])
-    layer, plate, beside, sink = (state[int(a) : int(b)] for a, b in zip(ends[:-1], ends[1:], strict=True))
+    layer, plate, beside, sink = (state[int(a) : int(b)] for a, b in pairwise(ends))
     return _Parts(state[0], state[1], layer, plate, beside, sink, state[int(ends[-1]) :])
 
 
@@ -191,7 +192,7 @@ def profile(state: Any, stack: Stack) -> Profile:
     inside = -np.diff(cells) / (half[:-1] + half[1:])
     across = (cells[-1] - plate[0]) / (half[-1] + 1.0 / (stack.plate_contact * stack.area) + plate_half)
     within = -np.diff(plate) / (2.0 * plate_half)
-    # Radiation at the temperature of the outermost cell: in a thin plate that is the surface's to a fraction of a kelvin.
+    # Radiation at the temperature of the outermost cell: in a thin plate the surface's to a fraction of a kelvin.
     outside = surface_coefficient(stack.plate_surface, plate[-1], stack.ambient) * stack.area
     outflow = (plate[-1] - stack.ambient) / (plate_half + 1.0 / outside)
     return Profile(
