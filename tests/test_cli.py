@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -160,6 +161,21 @@ def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path
     done = tvimdesign("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")
     assert "never ends" in done.stdout
     assert json.loads((tmp_path / "out/results.json").read_text())["values"]["response_time"]["value"] is None
+
+
+def test_a_module_that_never_stiffens_is_said_so_and_leaves_a_whole_folder(tvimdesign: Command, tmp_path: Path) -> None:
+    # In free air an ampere heats the module more than it cools the layer.
+    study = tmp_path / "study.yaml"
+    study.write_text("mode: shear\nmodule: {cooling_current: 1 A}\n")
+    done = tvimdesign("run", study, "--no-cad", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"stiffening_time\W+never", done.stdout)
+    assert re.search(r"cycle_time\W+never", done.stdout)
+    assert re.search(r"response_time\W+1[67]\d", done.stdout)
+    told = json.loads((tmp_path / "out/results.json").read_text())["values"]
+    assert told["stiffening_time"]["value"] is None
+    assert told["response_time"]["value"] > 0.0
+    assert (tmp_path / "out/stiffening.csv").stat().st_size > 1000
 
 
 def test_results_are_not_replaced_without_being_asked(tvimdesign: Command, tmp_path: Path) -> None:

@@ -11,8 +11,8 @@ import pytest
 from support import ROOT, STUDIES, Command
 
 FILES = {
-    "design.json", "impedance.csv", "manifest.json", "results.csv", "results.json", "study.resolved.json",
-    "study.yaml", "temperatures.csv",
+    "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
+    "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml",
 }  # fmt: skip
 PLOTS = {"bounds.png", "impedance.png", "mass.png", "switch_temperatures.png"}
 names = pytest.mark.parametrize("study", STUDIES, ids=lambda path: path.stem)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Event, Path, Table, table_for
+from tvimdesign.device import Supplied, Table, table_for
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.study import given, read_study_text
@@ -53,11 +53,11 @@ def switch(simulator: Simulator, unity: Model) -> Switch:
 @pytest.fixture(scope="session")
 def algebraic(table: Table) -> list[str]:
     """Full names of the outputs a study can ask for that no simulation supplies."""
-    return [name for name in table.names(POINTS) if not isinstance(table.row(name), Event | Path)]
+    return [name for name in table.names(POINTS) if not isinstance(table.row(name), Supplied)]
 
 
 @pytest.fixture(scope="session")
 def numbers(switch: Switch) -> dict[str, float]:
-    """Values of the events and paths."""
+    """Values of what a simulation supplies."""
     assert all(np.isfinite(value) for value in switch.values.values())
     return dict(switch.values)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tvimdesign.device import Event, Input, Path, Table, table_for
+from tvimdesign.device import Input, Supplied, Table, table_for
 
 # Power of the length with which a number in this unit scales; materials, angles, temperatures and frequencies stay.
 POWERS = {
@@ -47,7 +47,7 @@ def test_outputs_scale_with_the_length_as_their_units_say(
         name
         for name in TABLE.names(("cold", "hot"))
         if _free_of_fixed_lengths(name)
-        and not any(isinstance(TABLE.row(base), Event | Path) for base in (name, *TABLE.ancestors(name)))
+        and not any(isinstance(TABLE.row(base), Supplied) for base in (name, *TABLE.ancestors(name)))
     ]
     assert len(wanted) > 70
     inputs = {**scaled_inputs, "transmission": transmission}

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Choice, Event, Input, Output, Path, Table, table_for
+from tvimdesign.device import Choice, Input, Output, Supplied, Table, table_for
 from tvimdesign.units import to_si
 
 TABLE = table_for("shear")
@@ -42,14 +42,15 @@ def test_default_of_an_input_lies_within_its_limits(row: Input, inputs: dict[str
 
 def test_every_input_and_choice_is_used() -> None:
     used = {name for row in TABLE.outputs for name in TABLE.ancestors(row.name)}
-    used.add("horizon")  # the simulator's own: how long a switch is waited for
+    used |= {"horizon", "current_slew"}  # the solver's own: how long a stage is waited for, how fast currents change
+    used |= {stage.drive for stage in TABLE.stages}
     used |= {row.record[0] for row in TABLE.inputs if row.record}  # a record is used through its values
     assert {row.name for row in TABLE.rows if not isinstance(row, Output)} <= used
 
 
 def test_every_intermediate_result_is_used() -> None:
     used = {name for row in TABLE.outputs for name in TABLE.ancestors(row.name)}
-    used |= {"state_rates", "pcl_kinetics"}  # the simulator asks for them
+    used |= {"state_rates"}  # the simulator asks for them
     assert {row.name for row in TABLE.outputs if row.hidden} <= used
 
 
@@ -106,7 +107,7 @@ def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
     columns = model.start[:, None] * factors
     known = {**model.words, **{name: columns[i] for name, i in model.index.items()}}
     supplied = {name: random.uniform(50.0, 300.0, 3) for name in model.switch_names}
-    wanted = [name for name in TABLE.names(model.points) if not isinstance(TABLE.row(name), Event | Path)]
+    wanted = [name for name in TABLE.names(model.points) if not isinstance(TABLE.row(name), Supplied)]
     arrays = TABLE.evaluate({**known, **supplied}, wanted)
     for j in range(3):
         symbols = model.values(columns[:, j], {name: float(value[j]) for name, value in supplied.items()})

@@ -93,18 +93,19 @@ def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: S
     fine.update({name: float(paper.inputs[i]) for name, i in coarse.index.items()})
     fine["rotor_cells"] = 10 * int(fine["rotor_cells"])
     model = Model(TABLE, fine, tuple(study.operating_points), 10 * coarse.cells)
-    target = model.switch_names.index("response_time")
+    stage, current = model.stages["softening"], model.start[model.index["current"]]
+    gap = stage.watch(["response_time"])
 
     def reached(_: float, state: np.ndarray) -> float:
-        return float(np.asarray(model.instant(state, model.start)).ravel()[target])
+        return float(gap(state, current, model.start))
 
     reached.terminal = True
-    jacobian = model.rates.jacobian()
-    begin = np.asarray(model.initial(model.start)).ravel()
+    jacobian = stage.rates.jacobian()
+    begin = np.asarray(stage.initial(model.start)).ravel()
     run = solve_ivp(
-        lambda _, s: np.asarray(model.rates(s, model.start)).ravel(),
+        lambda _, s: np.asarray(stage.rates(s, current, model.start)).ravel(),
         (0.0, 300.0), begin, method="Radau", rtol=1e-6, atol=1e-9, events=reached,
-        jac=lambda _, s: np.asarray(jacobian(s, model.start, 0)[0]),
+        jac=lambda _, s: np.asarray(jacobian(s, current, model.start, 0)[0]),
     )  # fmt: skip
     assert run.t_events[0][0] == pytest.approx(paper.values["response_time"], rel=0.01)
 

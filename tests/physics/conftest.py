@@ -31,7 +31,7 @@ class History:
     """One column a time."""
 
     def profiles(self) -> list[heat.Profile]:
-        return [heat.profile(list(column), self.stack) for column in self.states.T]
+        return [heat.profile(column, self.stack) for column in self.states.T]
 
 
 @pytest.fixture(scope="session")
@@ -41,9 +41,10 @@ def bare_stack() -> Callable[..., heat.Stack]:
     def make(**changes: Any) -> heat.Stack:
         stack = heat.Stack(
             area=1e-3, thickness=1e-3, density=1145.0, conductivity_solid=0.2, conductivity_melt=0.2,
-            melting=NO_MELTING, peltier=peltier.Module(0.0, 1.0, 0.0), current=0.0, cold_capacity=1e9,
-            hot_capacity=1e-7, cold_conductance=0.0, hot_contact=1e12, plate_contact=1e-12, plate_thickness=1e-3,
-            plate_conductivity=0.2, plate_heat_capacity=1e6, plate_coefficient=1e-12, ambient=COLD, plate_cells=1,
+            melting=NO_MELTING, peltier=peltier.Module(0.0, 1.0, 0.0), cold_capacity=1e9, hot_capacity=1e-7,
+            cold_surface=heat.NOWHERE, hot_contact=1e12, plate_contact=1e-12, plate_thickness=1e-3,
+            plate_conductivity=0.2, plate_heat_capacity=1e6, plate_surface=heat.Surface(1e-3, 1e-12), ambient=COLD,
+            plate_cells=1,
         )  # fmt: skip
         return stack._replace(**changes)
 
@@ -54,9 +55,11 @@ def bare_stack() -> Callable[..., heat.Stack]:
 def integrate() -> Callable[..., History]:
     """Integrate a stack to each of the given times from a state; neighbours alone couple, so the Jacobian is banded."""
 
-    def run(stack: heat.Stack, begin: Sequence[float], times: Sequence[float], tolerance: float = 1e-9) -> History:
+    def run(
+        stack: heat.Stack, begin: Array, times: Sequence[float], tolerance: float = 1e-9, current: float = 0.0
+    ) -> History:
         found = solve_ivp(
-            lambda _, y: heat.rates(list(y), stack), (0.0, times[-1]), begin, method="LSODA", t_eval=times,
+            lambda _, y: heat.rates(y, stack, current), (0.0, times[-1]), begin, method="LSODA", t_eval=times,
             lband=1, uband=1, rtol=tolerance, atol=tolerance * 1e-3,
         )  # fmt: skip
         assert found.success

@@ -23,8 +23,9 @@ Run = Callable[..., Any]
 
 def flux_slab(make: Make, run: Run, cells: int, fourier: list[float]) -> tuple[np.ndarray, np.ndarray]:
     """theta k/(q L) at the front and the back of a slab under constant flux with an insulated back."""
-    stack = make(current=2.0)  # half of I^2 R = 4 W goes to the hot side: 2000 W/m^2
-    history = run(stack, heat.initial_state(stack, cells, COLD), [fo * FOURIER_TIME for fo in fourier])
+    stack = make()  # at 2 A half of I^2 R = 4 W goes to the hot side: 2000 W/m^2
+    begin = heat.initial_state(stack, cells, COLD)
+    history = run(stack, begin, [fo * FOURIER_TIME for fo in fourier], current=2.0)
     scale = 2000.0 * 1e-3 / 0.2
     profiles = history.profiles()
     return np.array([(p.near - COLD) / scale for p in profiles]), np.array([(p.far - COLD) / scale for p in profiles])
@@ -98,7 +99,7 @@ def test_two_bodies_that_touch_meet_at_the_temperature_of_their_effusivities(bar
         plate_cells=200,
     )  # fmt: skip
     begin = heat.initial_state(stack, 200, COLD)
-    begin[-200:] = [1.0] * 200
+    begin[-200:] = 1.0
     history = integrate(stack, begin, [0.2, 0.5, 1.0], tolerance=1e-7)
     metal, plastic = np.sqrt(167.0 * 2700.0 * 896.0), np.sqrt(0.225 * 1145.0 * 1850.0)
     exact = (100.0 * metal + 22.0 * plastic) / (metal + plastic)
@@ -109,14 +110,15 @@ def test_two_bodies_that_touch_meet_at_the_temperature_of_their_effusivities(bar
 def test_steady_heat_passes_all_resistances_in_series(bare_stack: Make, integrate: Run) -> None:
     stack = bare_stack(
         hot_capacity=1e12, hot_contact=2e3, plate_contact=5e2, plate_thickness=4e-3, plate_conductivity=0.24,
-        plate_coefficient=10.0, plate_cells=5,
+        plate_surface=heat.Surface(1e-3, 10.0), plate_cells=5,
     )  # fmt: skip
     begin = heat.initial_state(stack, 7, COLD)
     begin[1] = 1.0
     (steady,) = integrate(stack, begin, [4e3]).profiles()
     resistance = (1.0 / 2e3 + 1e-3 / 0.2 + 1.0 / 5e2 + 4e-3 / 0.24 + 1.0 / 10.0) / 1e-3
     flow = (373.15 - COLD) / resistance
-    assert steady.flows == pytest.approx([flow] * len(steady.flows), rel=1e-6)
+    for flows in (steady.through_layer, steady.through_plate):
+        assert flows == pytest.approx([flow] * len(flows), rel=1e-6)
     assert steady.near == pytest.approx(373.15 - flow / 2e3 / 1e-3, rel=1e-9)
     assert steady.far == pytest.approx(steady.near - flow * 1e-3 / 0.2 / 1e-3, rel=1e-9)
 
@@ -128,10 +130,11 @@ def test_part_molten_layer_conducts_between_solid_and_melt(bare_stack: Make) -> 
         state[2] += 1e-9
         seen = heat.profile(state, stack)
         gradient = (seen.cells[0] - seen.cells[1]) / 0.5e-3
-        assert seen.flows[1] == pytest.approx(conductivity * 1e-3 * gradient, rel=2e-3)
+        assert seen.through_layer[1] == pytest.approx(conductivity * 1e-3 * gradient, rel=2e-3)
 
 
 def test_a_switched_off_stack_at_ambient_temperature_stays_as_it_is(bare_stack: Make) -> None:
-    stack = bare_stack(hot_contact=1e4, plate_contact=1e4, plate_coefficient=10.0, cold_conductance=0.02)
+    warm = heat.Surface(1e-3, 10.0, 0.9)
+    stack = bare_stack(hot_contact=1e4, plate_contact=1e4, plate_surface=warm, cold_surface=warm)
     state = heat.initial_state(stack, 10, COLD)
-    assert np.max(np.abs(heat.rates(state, stack))) < 1e-12
+    assert np.max(np.abs(heat.rates(state, stack, 0.0))) < 1e-12

@@ -8,7 +8,7 @@ import pytest
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.simulate import Switch, Trajectory
-from tvimdesign.solve.transcription import guess, radau, switch_block
+from tvimdesign.solve.transcription import guess, radau, stage_block
 
 DESIGNS = ("as it is", "thin", "thick", "aluminium")
 EVENTS = ("near_face_time", "mean_time", "far_face_time", "response_time")
@@ -18,7 +18,8 @@ ELEMENTS = 8
 def solve(model: Model, switch: Switch, event: str, elements: int) -> tuple[float, np.ndarray, np.ndarray]:
     """Final time of the collocated switch, its states at every point, the start first, and the points' weights."""
     inputs = ca.MX.sym("inputs", len(model.names))
-    block = switch_block(model, event, elements, inputs)
+    stage = model.stages["softening"]
+    block = stage_block(stage, event, elements, inputs, stage.initial(inputs), inputs[model.index["current"]])
     unknowns = ca.vertcat(ca.vec(block.states), block.log_time)
     newton = ca.rootfinder(
         "newton", "newton", ca.Function("system", [unknowns, inputs], [block.equations]), {"abstol": 1e-10}
@@ -27,7 +28,9 @@ def solve(model: Model, switch: Switch, event: str, elements: int) -> tuple[floa
     ends = np.linspace(0.0, time, 500)
     simulated = switch.trajectory
     states = np.array([np.interp(ends, simulated.times, row) for row in simulated.states])
-    begin = np.append(guess(Trajectory(times=ends, states=states), elements).ravel(order="F"), np.log(time))
+    begin = np.append(
+        guess(Trajectory(times=ends, states=states, currents=np.zeros(500)), elements).ravel(order="F"), np.log(time)
+    )
     solution = newton(begin, model.start)
     every = ca.Function("every", [unknowns, inputs], [block.every])(solution, model.start)
     return float(np.exp(float(solution[-1]))), np.asarray(ca.DM(every).full()), block.weights
@@ -72,7 +75,7 @@ def test_quadrature_of_the_points_gives_the_energy_of_the_simulation(
 ) -> None:
     model, switch = build(), switch_of("as it is")
     time, every, weights = solve(model, switch, "response_time", ELEMENTS)
-    place = len(model.events) + [row.name for row in model.paths].index("switch_energy")
-    power = [float(np.asarray(model.instant(column, model.start)).ravel()[place]) for column in every.T[1:]]
+    power_at = model.stages["softening"].watch(["switch_energy"])
+    power = [float(power_at(column, 1.5, model.start)) for column in every.T[1:]]
     assert time * weights @ power == pytest.approx(switch.values["switch_energy"], rel=1e-3)
     assert np.sum(weights) == pytest.approx(1.0, rel=1e-12)

@@ -10,6 +10,7 @@ import pytest
 
 from tvimdesign.device import Choice, Event, Input, Output, Table
 from tvimdesign.device import Path as PathRow
+from tvimdesign.device.stages import STAGES
 from tvimdesign.errors import CatalogError, InputError
 from tvimdesign.study import Study, StudyError, read_study_text
 
@@ -41,6 +42,8 @@ def table() -> Table:
             _input("coil_count", "1", 1.0, 20.0, default=3.25),
             _input("arc_count", "1", 1.0, 8.0, default=4.0, integer=True),
             _input("pcl_thickness", "mm", 0.2e-3, 5e-3),
+            _input("current", "A", 0.05, 20.0, default=1.5),
+            _input("cooling_current", "A", 0.0, 20.0, default=0.2),
             _input("placement_radius", "mm", 10e-3, 200e-3, default=57e-3, variable=False),
             _input("youngs_modulus", "GPa", 1e9, 400e9, variable=False, record=("spring_material", "youngs_modulus")),
             _input("temperature", "degC", 223.15, 473.15, variable=False, per_point=True),
@@ -58,9 +61,10 @@ def table() -> Table:
             _output("impedance_range", "1", lambda joint_stiffness_at_cold: joint_stiffness_at_cold),
             _output("moduli", "1", lambda wire_diameter: [wire_diameter], hidden=True),
             _output("face_temperature", "degC", lambda state: state[0], instant=True),
-            _output("response_time", "s", lambda state: state[0], Event),
-            _output("switch_energy", "J", lambda state: state[0], PathRow, reduce="integral"),
-        )
+            _output("response_time", "s", lambda state: state[0], Event, stage="softening"),
+            _output("switch_energy", "J", lambda state: state[0], PathRow, stage="softening", reduce="integral"),
+        ),
+        STAGES,
     )
 
 

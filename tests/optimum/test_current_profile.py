@@ -1,0 +1,206 @@
+"""Design and currents found together: no worse than a constant current, within all limits, the same from anywhere."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.errors import InputError
+from tvimdesign.solve.drive import Drive
+from tvimdesign.solve.search import optimize
+from tvimdesign.solve.simulate import Simulator, Trajectory
+from tvimdesign.solve.solution import Held, Solution
+from tvimdesign.study import read_study_text
+
+TABLE = table_for("shear")
+HEATING = """
+mode: shear
+module: {current_slew: 0.2 A/s}
+vary:
+  pcl_thickness: [0.6 mm, 2 mm]
+  current: [0.3 A, 3 A]
+require:
+  layer_holding_torque: ">= 40 N.m"
+  peak_power: "<= 15 W"
+  peak_voltage: "<= 7.6 V"
+  peak_peltier_temperature: "<= 125 degC"
+minimize: response_time
+profile: {softening: 0}
+solver: {starts: 1}
+"""
+CYCLE = """
+mode: shear
+module: {cold_side: sink, current_slew: 0.5 A/s}
+vary:
+  pcl_thickness: [0.6 mm, 2 mm]
+  current: [0.3 A, 3 A]
+  cooling_current: [0.05 A, 2.5 A]
+require:
+  layer_holding_torque: ">= 40 N.m"
+  peak_power: "<= 20 W"
+  peak_peltier_temperature: "<= 130 degC"
+  stiffening_peak_voltage: "<= 6 V"
+minimize: cycle_time
+profile: {softening: 4, stiffening: 4}
+solver: {starts: 1}
+"""
+TOLERANCE = 2e-3  # share of a limit: the peaks of the equations are at their points, the simulation's anywhere
+
+
+@cache
+def solve(text: str) -> Solution:
+    return optimize(read_study_text(text, "a test"), Catalog(), TABLE)
+
+
+def with_pieces(pieces: int, text: str = HEATING) -> str:
+    return text.replace("softening: 0", f"softening: {pieces}")
+
+
+def steepest(drive: Drive) -> float:
+    return float(np.max(np.abs(np.diff(drive.currents))) * (len(drive.currents) - 1) / drive.duration)
+
+
+def terminals(solution: Solution, stage: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Voltage, hot and cold side over a stage, by the Peltier equations from temperatures and currents."""
+    line, model = solution.switch.trajectories[stage], solution.model
+    seen = np.array([kelvins(solution, stage, line, i) for i in range(len(line.times))])
+    share = solution.values["peltier_scale"]
+    seebeck, ohms = (share * solution.inputs[model.index[f"peltier_{name}"]] for name in ("seebeck", "resistance"))
+    return np.abs(seebeck * (seen[:, 1] - seen[:, 0]) + ohms * line.currents), seen[:, 1], seen[:, 0]
+
+
+def kelvins(solution: Solution, stage: str, line: Trajectory, i: int) -> np.ndarray:
+    compiled = solution.model.stages[stage]
+    return np.asarray(compiled.temperatures(line.states[:, i], line.currents[i], solution.inputs)).ravel()[:2]
+
+
+def test_more_pieces_are_never_slower_than_fewer_and_any_beats_a_constant_current() -> None:
+    # Nodes of four pieces are nodes of eight; each is also free to stay constant.
+    times = [solve(with_pieces(pieces)).values["response_time"] for pieces in (0, 1, 4, 8)]
+    assert all(solve(with_pieces(pieces)).status == "optimal" for pieces in (0, 1, 4, 8))
+    for fewer, more in ((0, 1), (1, 4), (4, 8)):
+        first, then = times[(0, 1, 4, 8).index(fewer)], times[(0, 1, 4, 8).index(more)]
+        assert then <= first * (1.0 + 1e-3), f"{more} pieces against {fewer}"
+    assert times[2] < 0.95 * times[0]  # the pads' power first, then their temperature is at its limit
+
+
+def test_the_limits_hold_all_along_the_simulated_heating() -> None:
+    solution = solve(with_pieces(8))
+    voltage, hot, _ = terminals(solution, "softening")
+    line = solution.switch.trajectories["softening"]
+    assert np.max(voltage) <= 7.6 * (1.0 + TOLERANCE)
+    assert np.max(voltage * line.currents) <= 15.0 * (1.0 + TOLERANCE)
+    assert np.max(hot) <= 398.15 + 100.0 * TOLERANCE
+    assert np.min(line.currents) >= 0.3
+    assert np.max(line.currents) <= 3.0
+    assert steepest(solution.drives["softening"]) <= 0.2 * (1.0 + 1e-6)
+    # The limits that are said to hold it do: one is met.
+    assert max(np.max(voltage) / 7.6, np.max(voltage * line.currents) / 15.0) > 0.99
+    assert np.max(hot) > 398.15 - 0.3
+
+
+def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
+    solution = solve(CYCLE)
+    assert solution.status == "optimal"
+    voltage, hot, _ = terminals(solution, "softening")
+    assert np.max(voltage * solution.switch.trajectories["softening"].currents) <= 20.0 * (1.0 + TOLERANCE)
+    assert np.max(hot) <= 403.15 + 100.0 * TOLERANCE
+    voltage, _, _ = terminals(solution, "stiffening")
+    cooling = solution.switch.trajectories["stiffening"].currents
+    assert np.max(voltage) <= 6.0 * (1.0 + TOLERANCE)
+    assert np.max(cooling) <= -0.05
+    assert np.min(cooling) >= -2.5
+    assert all(steepest(drive) <= 0.5 * (1.0 + 1e-6) for drive in solution.drives.values())
+
+
+def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
+    solution = solve(CYCLE)
+    again = Simulator(solution.model).run(solution.inputs, solution.drives)
+    for stage, event in (("softening", "response_time"), ("stiffening", "stiffening_time")):
+        assert again.values[event] == pytest.approx(solution.values[event], rel=1e-9)
+        assert solution.drives[stage].duration == pytest.approx(again.values[event], rel=1e-3)
+        assert abs(solution.drives[stage].mean) == pytest.approx(
+            solution.inputs[solution.model.index[TABLE.stage(stage).drive]], rel=1e-12
+        )
+
+
+def test_a_cycle_with_profiles_is_no_longer_than_one_with_constant_currents() -> None:
+    constant = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", ""))
+    assert solve(CYCLE).values["cycle_time"] < 0.95 * constant.values["cycle_time"]
+
+
+@pytest.mark.slow
+def test_a_slow_supply_costs_time_and_is_told() -> None:
+    slow, eased = (solve(CYCLE.replace("0.5 A/s", f"{slew} A/s")) for slew in ("0.01", "0.0101"))
+    assert slow.status == "optimal"
+    assert slow.values["cycle_time"] > solve(CYCLE).values["cycle_time"]
+    assert max(steepest(drive) for drive in slow.drives.values()) == pytest.approx(0.01, rel=1e-4)
+    # Both studies start from the same module, so that their objectives are one measure.
+    saved = 100.0 * (slow.objective - eased.objective) / slow.objective
+    assert one(slow, "current_slew <=").price > 1e-3
+    assert saved == pytest.approx(one(slow, "current_slew <=").price, rel=0.1)
+
+
+def one(solution: Solution, name: str) -> Held:
+    (held,) = (held for held in solution.held if held.name == name)
+    return held
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "written", "tighter", "eased"),
+    [
+        (with_pieces(8), "peak_peltier_temperature <=", "125 degC", "124 degC", "126 degC"),
+        (with_pieces(8), "peak_power <=", "15 W", "14.85 W", "15.15 W"),
+        pytest.param(
+            CYCLE, "peak_peltier_temperature <=", "130 degC", "129 degC", "131 degC", marks=pytest.mark.slow
+        ),
+        pytest.param(CYCLE, "peak_power <=", "20 W", "19.8 W", "20.2 W", marks=pytest.mark.slow),
+        pytest.param(CYCLE, "stiffening_peak_voltage <=", "6 V", "5.94 V", "6.06 V", marks=pytest.mark.slow),
+    ],
+)  # fmt: skip
+def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
+    text: str, name: str, written: str, tighter: str, eased: str
+) -> None:
+    # A temperature's step is a kelvin, the others' a hundredth; to either side, for another limit takes over nearby.
+    below, above = (solve(text.replace(f"<= {written}", f"<= {moved}")) for moved in (tighter, eased))
+    price = one(solve(text), name).price
+    assert price > 1e-2
+    assert 50.0 * (below.objective - above.objective) / solve(text).objective == pytest.approx(price, rel=0.1)
+
+
+def test_ten_random_starts_find_one_profile() -> None:
+    solution = solve(with_pieces(8).replace("starts: 1", "starts: 11"))
+    assert len(solution.starts) == 11
+    assert all(start.converged for start in solution.starts)
+    objectives = [start.objective for start in solution.starts]
+    assert max(objectives) - min(objectives) <= 1e-4 * min(objectives)
+    assert len(solution.distinct_optima()) == 1
+
+
+@pytest.mark.slow
+def test_ten_random_starts_of_the_whole_cycle_end_in_optima_that_are_all_told() -> None:
+    solution = solve(CYCLE.replace("starts: 1", "starts: 11"))
+    assert sum(start.converged for start in solution.starts) >= 10
+    told = [start.objective for start in solution.distinct_optima()]
+    assert solution.objective == pytest.approx(min(told), rel=1e-3)
+    for start in solution.starts:
+        if start.converged:
+            assert any(abs(start.objective - objective) <= 1e-4 * objective for objective in told)
+
+
+def test_a_profile_nothing_depends_on_is_refused() -> None:
+    text = CYCLE.replace("minimize: cycle_time", "minimize: response_time").replace(
+        '  stiffening_peak_voltage: "<= 6 V"\n', ""
+    )
+    with pytest.raises(InputError, match=r"profile\.stiffening: nothing that is required or minimised depends"):
+        solve(text)
+
+
+def test_another_time_of_a_stage_with_a_profile_is_refused() -> None:
+    text = with_pieces(4).replace("require:", 'require:\n  near_face_time: "<= 100 s"')
+    with pytest.raises(InputError, match=r"profile\.softening: .* near_face_time cannot be limited"):
+        solve(text)

@@ -1,0 +1,93 @@
+"""What it takes to stay soft: the steady state against a long simulation and against the first law."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from another_stack import AnotherStack, value_of
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Simulator, Switch
+
+Array = NDArray[np.float64]
+DESIGNS = ("as it is", "thick", "sink")
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+def test_at_the_hold_current_the_layer_stays_where_the_switch_ended(
+    design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+) -> None:
+    # Another integration over hours from the switch's end: the far face comes back to the target and stays.
+    model, switch = build(design), switch_of(design)
+    stage, amps = model.stages["softening"], switch.values["hold_current"]
+    jacobian = stage.rates.jacobian()
+    long = solve_ivp(
+        lambda _, y: np.asarray(stage.rates(y, amps, model.start)).ravel(), (0.0, 2e5),
+        switch.trajectory.states[:, -1], method="BDF", rtol=1e-9, atol=1e-11,
+        jac=lambda _, y: np.asarray(jacobian(y, amps, model.start, 0)[0]),
+    )  # fmt: skip
+    end = long.y[:, -1]
+    gap = float(stage.watch(["response_time"])(end, amps, model.start))
+    assert gap == pytest.approx(0.0, abs=1e-6)  # in hundreds of kelvin
+    assert end == pytest.approx(switch.balances["softening"][:-1], abs=1e-6)
+    power = float(stage.watch(["hold_power"])(end, amps, model.start))
+    assert switch.values["hold_power"] == pytest.approx(power, rel=1e-6)
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+def test_what_holds_the_layer_is_what_the_air_takes(
+    design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+) -> None:
+    model, switch = build(design), switch_of(design)
+    stage, balance = model.stages["softening"], switch.balances["softening"]
+    assert np.max(np.abs(np.asarray(stage.rates(balance[:-1], balance[-1], model.start)))) < 1e-9
+    value, sink = value_of(model), design == "sink"
+    another = AnotherStack(value, sink=sink)
+    seen = np.asarray(stage.temperatures(balance[:-1], balance[-1], model.start)).ravel() - 273.15
+    cold, outer = seen[0], seen[4 + model.cells + int(value("rotor_cells")) - 1]
+    lost = another.rest * another._flux(seen[-3 if sink else -2], value("rotor_coefficient"))
+    lost += _plate_loss(another, outer, 0.5 * value("rotor_thickness") / value("rotor_cells"))
+    if sink:
+        lost += value("sink_area") * another._flux(seen[-1], value("sink_coefficient"))
+    else:
+        lost += another.window * another._flux(cold, value("cold_side_coefficient"))
+    # The pads' power with the rounding of its corner at zero left out; the plate's face radiates at its cell's heat.
+    assert switch.values["hold_power"] == pytest.approx(lost, rel=2e-3)
+
+
+def _plate_loss(another: AnotherStack, outermost: float, half: float) -> float:
+    face = outermost
+    for _ in range(50):
+        flux = another._flux(face, another.value("rotor_coefficient"))
+        face = 0.5 * face + 0.5 * (outermost - half / another.value("structure_conductivity") * flux)
+    return another.area * flux
+
+
+def test_less_current_lets_the_layer_cool_and_more_heats_it(
+    build: Callable[..., Model], switch_of: Callable[[str], Switch]
+) -> None:
+    model, switch = build(), switch_of("as it is")
+    stage, balance = model.stages["softening"], switch.balances["softening"]
+    for share, sign in ((0.95, -1.0), (1.05, 1.0)):
+        found = solve_ivp(
+            lambda _, y, amps=share * balance[-1]: np.asarray(stage.rates(y, amps, model.start)).ravel(),
+            (0.0, 1e4), balance[:-1], method="LSODA", rtol=1e-8, atol=1e-10,
+        )  # fmt: skip
+        gap = float(stage.watch(["response_time"])(found.y[:, -1], share * balance[-1], model.start))
+        assert sign * gap > 0.01
+
+
+def test_holding_takes_less_than_the_switch_does(switch_of: Callable[[str], Switch]) -> None:
+    for design in DESIGNS:
+        values = switch_of(design).values
+        assert 0.0 < values["hold_power"] < values["peak_power"]
+        assert 0.0 < values["hold_current"] < values["peak_current"]
+
+
+def test_a_switch_that_never_ends_has_no_hold_power(build: Callable[..., Model]) -> None:
+    model = build()
+    inputs = model.start.copy()
+    inputs[model.index["current"]] = 0.4
+    assert Simulator(model).run(inputs).values["hold_power"] == np.inf
