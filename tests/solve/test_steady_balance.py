@@ -91,3 +91,17 @@ def test_a_switch_that_never_ends_has_no_hold_power(build: Callable[..., Model])
     inputs = model.start.copy()
     inputs[model.index["current"]] = 0.4
     assert Simulator(model).run(inputs).values["hold_power"] == np.inf
+
+
+@pytest.mark.parametrize("design", ["as it is", "sink"])
+def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(
+    design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+) -> None:
+    model = build(design)
+    simulator, place = Simulator(model), model.index["current"]
+    for amps in (1.8, 4.0, 12.0):
+        inputs = model.start.copy()
+        inputs[place] = amps
+        values = simulator.run(inputs, stages=["softening"]).values
+        for name in ("hold_current", "hold_power"):
+            assert values[name] == pytest.approx(switch_of(design).values[name], rel=1e-8), name
