@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import switching, table_for
-from tvimdesign.physics import heat
+from tvimdesign.device import table_for, thermal
+from tvimdesign.physics import heat, layer, polymer
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.simulate import Simulator
@@ -83,34 +83,41 @@ def written_by_hand(model: Model, sparse: bool) -> Equations:
     stack, rheology, moment, structure, springs, hot = (model.table.evaluate(known, wanted)[name] for name in wanted)
     target, soft = numbers["target_temperature"], numbers["softening_band"] * hot
 
-    def rates(_: float, state: Array) -> list[Any]:
-        return heat.rates(state.tolist(), stack)
+    current, omega = numbers["current"], 2.0 * np.pi * numbers["frequency@hot"]
+
+    def rates(_: float, state: Array) -> Any:
+        return heat.rates(state, stack, current)
 
     def gaps(_: float, state: Array) -> list[Any]:
-        now = heat.profile(state.tolist(), stack)
-        moduli = switching.layer_moduli(now, rheology, numbers["frequency@hot"])
-        impedance = switching.impedance_now(moduli, moment, numbers["pcl_thickness"], structure, springs)
-        mean = sum(now.cells) / len(now.cells)
+        now = heat.profile(state, stack)
+        moduli = layer.series_modulus(*polymer.moduli(now.cells, now.fractions, omega, rheology))
+        impedance = thermal.impedance_now(moduli, moment, numbers["pcl_thickness"], structure, springs)
+        mean = np.mean(now.cells)
         return [now.near - target, mean - target, now.far - target, np.log(soft / impedance)]
 
-    start = np.asarray(model.initial(model.start)).ravel()
+    start = np.asarray(model.stages["softening"].initial(model.start)).ravel()
     return Equations(start, rates, gaps, sparsity=_pattern(model) if sparse else None)
 
 
 def compiled(model: Model) -> Equations:
     """Hand scipy tvimdesign's own compiled right-hand side, exact Jacobian and its events."""
-    state, inputs = ca.SX.sym("state", model.rates.size1_in(0)), ca.SX.sym("inputs", len(model.names))
-    slope = ca.densify(ca.jacobian(model.rates(state, inputs), state))
+    stage = model.stages["softening"]
+    state, inputs = ca.SX.sym("state", stage.state_size), ca.SX.sym("inputs", len(model.names))
+    current = inputs[model.index["current"]]
+    rates = stage.rates(state, current, inputs)
+    waits = stage.watch(EVENTS)(state, current, inputs)
+    slope = ca.densify(ca.jacobian(rates, state))
     return Equations(
-        np.asarray(model.initial(model.start)).ravel(),
-        Quick(model.rates, model.start),
-        Quick(model.watch(EVENTS), model.start),
-        Quick(ca.Function("jacobian", [state, inputs], [slope]), model.start),
+        np.asarray(stage.initial(model.start)).ravel(),
+        *(
+            Quick(ca.Function(name, [state, inputs], [expression]), model.start)
+            for name, expression in (("rates", rates), ("gaps", waits), ("jacobian", slope))
+        ),
     )
 
 
 def _pattern(model: Model) -> Array:
-    return np.asarray(ca.DM(model.rates.jac_sparsity(0, 0), 1).full())
+    return np.asarray(ca.DM(model.stages["softening"].rates.jac_sparsity(0, 0), 1).full())
 
 
 def by_scipy(equations: Equations, method: str) -> Callable[[float], Array]:
@@ -147,7 +154,7 @@ def by_tvimdesign(model: Model) -> Callable[[float], Array]:
     simulator = Simulator(model)
 
     def solve(_: float) -> Array:
-        values = simulator.run(model.start).values
+        values = simulator.run(model.start, stages=["softening"]).values
         return np.array([values[name] for name in EVENTS])
 
     return solve

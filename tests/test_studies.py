@@ -14,7 +14,7 @@ FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
     "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml",
 }  # fmt: skip
-PLOTS = {"bounds.png", "impedance.png", "mass.png", "switch_temperatures.png"}
+PLOTS = {"bounds.png", "impedance.png", "mass.png", "cycle.png"}
 names = pytest.mark.parametrize("study", STUDIES, ids=lambda path: path.stem)
 
 

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Supplied, Table, table_for
@@ -42,7 +43,7 @@ def unity(table: Table) -> Model:
 
 @pytest.fixture(scope="session")
 def simulator(unity: Model) -> Simulator:
-    return Simulator(unity)
+    return fine(unity)
 
 
 @pytest.fixture(scope="session")

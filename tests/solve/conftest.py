@@ -5,11 +5,12 @@ from functools import cache
 from typing import Any
 
 import pytest
+from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.solve.simulate import Switch
 from tvimdesign.study import given, read_study_text
 
 Build = Callable[..., Model]
@@ -47,6 +48,6 @@ def switch_of(build: Build) -> Callable[[str], Switch]:
     @cache
     def run(design: str) -> Switch:
         model = build(design)
-        return Simulator(model).run(model.start)
+        return fine(model).run(model.start)
 
     return run

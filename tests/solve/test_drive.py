@@ -9,10 +9,10 @@ from another_stack import AnotherStack, value_of
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
+from support import fine
 
 from tvimdesign.solve.drive import Drive
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator
 
 currents = st.lists(st.floats(-20.0, 20.0), min_size=1, max_size=9).map(tuple)
 durations = st.floats(0.5, 5000.0)
@@ -77,7 +77,7 @@ def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., Model])
         (0.0, 600.0), another.everywhere(22.0), method="BDF", rtol=1e-6, atol=1e-4, max_step=5.0,
         jac_sparsity=another.neighbours(), events=[reached], dense_output=True,
     )  # fmt: skip
-    switch = Simulator(model).run(model.start, {"softening": drive}, stages=["softening"])
+    switch = fine(model).run(model.start, {"softening": drive}, stages=["softening"])
     time = float(found.t_events[0][0])
     assert switch.values["far_face_time"] == pytest.approx(time, rel=0.01)
     sampled = np.linspace(0.0, time, 2001)
@@ -87,21 +87,21 @@ def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., Model])
     assert switch.values["peak_power"] == pytest.approx(max(power), rel=0.01)
     assert switch.values["peak_current"] == pytest.approx(2.4, rel=1e-6)
     assert switch.trajectory.currents == pytest.approx(drive.at(switch.trajectory.times))
-    constant = Simulator(model).run(model.start, stages=["softening"]).values["far_face_time"]
+    constant = fine(model).run(model.start, stages=["softening"]).values["far_face_time"]
     assert abs(constant - time) > 0.05 * time  # the profile is what made it
 
 
 def test_a_profile_that_is_flat_is_the_constant_current(build: Callable[..., Model]) -> None:
     model = build()
-    flat = Simulator(model).run(model.start, {"softening": Drive(80.0, (1.5,) * 5)}).values
-    constant = Simulator(model).run(model.start).values
+    flat = fine(model).run(model.start, {"softening": Drive(80.0, (1.5,) * 5)}).values
+    constant = fine(model).run(model.start).values
     for name in ("response_time", "switch_energy", "peak_pcl_temperature", "stiffening_time", "hold_power"):
         assert flat[name] == pytest.approx(constant[name], rel=1e-6), name
 
 
 def test_the_end_of_a_switch_within_a_profile_does_not_depend_on_what_comes_later(build: Callable[..., Model]) -> None:
     model = build()
-    simulator = Simulator(model)
+    simulator = fine(model)
     early = simulator.run(model.start, {"softening": Drive(400.0, (2.0,) * 5)}).values["response_time"]
     late = simulator.run(model.start, {"softening": Drive(400.0, (2.0, 2.0, 2.0, 0.1, 0.1))}).values["response_time"]
     assert early < 200.0

@@ -8,12 +8,13 @@ import pytest
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
+from support import fine
 
 from tvimdesign.device import table_for
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Problem
-from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.solve.simulate import Switch
 from tvimdesign.solve.transcription import guess
 
 Array = NDArray[np.float64]
@@ -86,7 +87,7 @@ def test_eight_elements_a_stage_find_stiffening_time_and_hold_power_of_the_simul
 
 def stencil(model: Model, name: str, share: float = 5e-3) -> Array:
     """Derivatives of the wanted values by one input from simulations of changed designs; fourth order."""
-    simulator, place = Simulator(model), model.index[name]
+    simulator, place = fine(model), model.index[name]
     step, found = share * model.start[place], []
     for times in (-2, -1, 1, 2):
         inputs = model.start.copy()

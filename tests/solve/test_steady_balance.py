@@ -7,9 +7,10 @@ import pytest
 from another_stack import AnotherStack, value_of
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from support import fine
 
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.solve.simulate import Switch
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thick", "sink")
@@ -90,7 +91,7 @@ def test_a_switch_that_never_ends_has_no_hold_power(build: Callable[..., Model])
     model = build()
     inputs = model.start.copy()
     inputs[model.index["current"]] = 0.4
-    assert Simulator(model).run(inputs).values["hold_power"] == np.inf
+    assert fine(model).run(inputs).values["hold_power"] == np.inf
 
 
 @pytest.mark.parametrize("design", ["as it is", "sink"])
@@ -98,7 +99,7 @@ def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(
     design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
 ) -> None:
     model = build(design)
-    simulator, place = Simulator(model), model.index["current"]
+    simulator, place = fine(model), model.index["current"]
     for amps in (1.8, 4.0, 12.0):
         inputs = model.start.copy()
         inputs[place] = amps

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from support import fine
 
 from tvimdesign.physics import polymer
 from tvimdesign.solve.model import Model
@@ -94,7 +95,7 @@ def test_stiffening_converges_with_the_square_of_the_cell(design: str, build: Ca
     found = []
     for cells in (6, 12, 24, 48):
         model = build(design, cells)
-        values = Simulator(model).run(model.start).values
+        values = fine(model).run(model.start).values
         found.append([values[name] for name in names])
     changes = np.abs(np.diff(found, axis=0))
     assert np.log2(changes[:-1] / changes[1:]) == pytest.approx(2.0, abs=0.25)
@@ -115,10 +116,10 @@ def test_a_layer_with_kinetics_never_stiffens_sooner_than_its_melting_curve_clai
 
 def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., Model]) -> None:
     model = build("equilibrium")
-    values = Simulator(model).run(model.start).values
+    values = fine(model).run(model.start).values
     assert values["stiffening_time"] == pytest.approx(values["equilibrium_stiffening_time"], rel=1e-8)
     kinetic = build()
-    other = Simulator(kinetic).run(kinetic.start).values
+    other = fine(kinetic).run(kinetic.start).values
     assert values["stiffening_time"] == pytest.approx(other["equilibrium_stiffening_time"], rel=1e-8)
 
 
@@ -148,7 +149,7 @@ def changed(model: Model, **inputs: float) -> Array:
 
 @pytest.fixture(scope="module")
 def simulators(build: Callable[..., Model]) -> dict[str, Simulator]:
-    return {design: Simulator(build(design)) for design in ("as it is", "sink")}
+    return {design: fine(build(design)) for design in ("as it is", "sink")}
 
 
 @pytest.mark.parametrize("cooling", [1.0, 3.0, 20.0])

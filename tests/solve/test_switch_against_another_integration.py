@@ -7,9 +7,10 @@ import pytest
 from another_stack import AnotherStack, value_of
 from numpy.typing import NDArray
 from scipy.integrate import simpson, solve_ivp
+from support import fine
 
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.solve.simulate import Switch
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "thick", "aluminium", "sink")
@@ -104,7 +105,7 @@ def test_a_switch_that_stalls_has_no_response_time(build: Callable[..., Model]) 
     model = build()
     inputs = model.start.copy()
     inputs[model.index["current"]] = 0.4
-    switch = Simulator(model).run(inputs)
+    switch = fine(model).run(inputs)
     assert switch.values["far_face_time"] == np.inf
     assert switch.values["response_time"] == np.inf
 
@@ -113,7 +114,7 @@ def test_times_converge_with_the_square_of_the_cell(build: Callable[..., Model])
     found = []
     for cells in (6, 12, 24, 48):
         model = build("as it is", cells, 8)
-        found.append(Simulator(model).run(model.start, stages=["softening"]).values["far_face_time"])
+        found.append(fine(model).run(model.start, stages=["softening"]).values["far_face_time"])
     changes = np.abs(np.diff(found))
     # Melting passes cell after cell, so the order is uneven; it must not be less than one on the whole.
     assert changes[-1] < 0.5 * changes[0]

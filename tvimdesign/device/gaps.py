@@ -112,6 +112,12 @@ def arc_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
     return pcl_outer_radius - pcl_inner_radius
 
 
+@book.output("mm", _at_least(0.0, "a Peltier pad needs a window behind its ledges for its cold side", 0.0))
+def window_depth(arc_width: Scalar, window_ledge: Scalar) -> Scalar:
+    """Radial width of the windows below the Peltier pads."""
+    return arc_width - 2.0 * window_ledge
+
+
 @book.output("mm", _at_least(1.2 * MM, "the floor below a Peltier pad must carry it", 0.0))
 def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
     """Thickness of the floor below the Peltier pads."""

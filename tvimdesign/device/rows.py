@@ -152,6 +152,8 @@ class Stage:
     """The input that is its current where that is constant."""
     sign: float
     """1 where the current heats the layer, -1 where it cools."""
+    like: str | None = None
+    """The stage whose current it has, where it is that stage under another assumption."""
     history: bool
     """Whether the polymer's solid fraction has a history of its own, by the kinetics of freezing."""
 

@@ -14,6 +14,7 @@ STIFFENING = Stage(
 )  # fmt: skip
 EQUILIBRIUM_STIFFENING = Stage(
     name="equilibrium_stiffening", description="the same, as if the layer froze where it melts",
-    after="softening", ends="equilibrium_stiffening_time", drive="cooling_current", sign=-1.0, history=False,
+    after="softening", ends="equilibrium_stiffening_time", drive="cooling_current", sign=-1.0, like="stiffening",
+    history=False,
 )  # fmt: skip
 STAGES = (SOFTENING, STIFFENING, EQUILIBRIUM_STIFFENING)

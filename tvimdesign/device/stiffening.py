@@ -85,6 +85,18 @@ def peak_cold_side_temperature(stack_profile: heat.Profile) -> Scalar:
     return stack_profile.cold
 
 
+@book.path(STIFFENING, "A", "maximum")
+def stiffening_peak_current(drive_current: Scalar) -> Scalar:
+    """Highest current, in size, while the joint stiffens."""
+    return -drive_current
+
+
+@book.output("A", advice=(Rule(sense=">=", value=0.0, reason="cooling is above the Peltier module's rated current"),))
+def cooling_current_reserve(peltier_max_current: Scalar, stiffening_peak_current: Scalar) -> Scalar:
+    """Rated current of the Peltier module less the highest current while the joint stiffens."""
+    return peltier_max_current - stiffening_peak_current
+
+
 @book.output(
     "K", advice=(Rule(sense=">=", value=0.0, reason="the pads' outer side is above the temperature it is rated for"),)
 )

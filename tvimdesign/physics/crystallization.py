@@ -21,9 +21,8 @@ BELOW_GLASS = 30.0  # K; molecules stop moving that far below the glass transiti
 _UNDERCOOLING_ROUNDING = 0.5  # K
 _WINDOW_ROUNDING = 0.5  # K
 _PSI_ROUNDING = 1e-3
-_EXCESS_ROUNDING = 0.05
 _LEAST_MELT = 1e-4  # psi ends where this share is left molten: at 2.1 for n = 3
-_LEAST_NUCLEI = 1e-2  # below this -ln(1 - X), psi goes straight to zero, not with the root's infinite slope
+_LEAST_NUCLEI = 1e-3  # below this -ln(1 - X), psi goes straight to zero, not with the root's infinite slope
 _SLOWEST = (
     -200.0
 )  # the logarithm of the rate goes no lower: K is then 1e-87 of its reference, and no half-time infinite
@@ -104,9 +103,9 @@ def rate(temperature_kelvin: Any, psi: Any, kinetics: Kinetics, melting: Melting
     d psi/dt = K(T) - max(psi - psi_eq(T), 0)/tau. K does not depend on psi, so a melt without a crystal freezes too.
     Heated at a rate r, the solid fraction follows the equilibrium curve tau r behind.
     """
-    beyond = np.fmax(psi - extended(equilibrium_fraction(temperature_kelvin, melting), kinetics), 0.0)
-    # Its corner is rounded on the side where there is something to melt: what is not there does not melt.
-    excess = beyond**3 / (beyond**2 + _EXCESS_ROUNDING**2)
+    largest = extended(equilibrium_fraction(temperature_kelvin, melting), kinetics)
+    # The second ramp is the first at psi = 0: what is not there does not melt, not even in the rounded corner.
+    excess = ramp(psi - largest, _PSI_ROUNDING) - ramp(-largest, _PSI_ROUNDING)
     return rate_constant(temperature_kelvin, kinetics) - excess / kinetics.melting_time
 
 

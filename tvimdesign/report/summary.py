@@ -188,6 +188,11 @@ def _print_warnings(answer: Answer, table: Table, console: Console) -> None:
     for check in answer.warnings:
         value = format_quantity(check.value, table.unit(check.output))
         console.print(f"[yellow]Mind[/yellow] {check.output} is {value}: {check.origin}.")
+    if math.isfinite(answer.design.value("response_time")) and math.isinf(answer.design.value("stiffening_time")):
+        console.print(
+            "[yellow]Mind[/yellow] the joint never gets stiff again within `horizon`: the cooling current heats more "
+            "than it cools, or the cold side is too warm; try less `cooling_current`, or a sink."
+        )
     for start in answer.solution.distinct_optima()[1:] if answer.solution else []:
         where = ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in start.end.items())
         console.print(f"[yellow]Mind[/yellow] another optimum, objective {start.objective:.5g}: {where}.")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -131,8 +130,6 @@ class Optimizer:
                 )
         kept = [limit for limit in limits if limit not in constant]
         elements = self.study.solver.elements
-        for current in self.currents:  # corners of the current lie between elements
-            elements = math.lcm(elements, current.pieces) if elements % current.pieces else elements
         return Problem(self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents)
 
     def _variables_behind(self, name: str) -> list[str]:
@@ -223,7 +220,7 @@ class Optimizer:
                 trajectory = self._standing(block.stage, switch)
             end = switch.values[block.event]
             end = end if np.isfinite(end) else trajectory.times[-1]
-            points = guess(trajectory, self.problem.elements).ravel(order="F")
+            points = guess(trajectory, self.problem.elements(block.stage.stage.name)).ravel(order="F")
             parts += [points, np.array([np.log(max(end, 1e-3))])]
         for current in self.currents:
             size = np.clip(inputs[self.model.index[current.row]], current.lower, current.upper)

@@ -6,6 +6,7 @@ was built. Unknowns that are positive throughout are logarithms of their ratio t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -96,7 +97,7 @@ class Problem:
         self.free = tuple(free)
         self.limits = tuple(limits)
         self.minimize = tuple(minimize)
-        self.elements = elements
+        self._elements = elements
         self.free_currents = tuple(currents)
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self._check()
@@ -169,6 +170,11 @@ class Problem:
         table = self.model.table
         return {base for name in self.wanted for base in (name.partition("@")[0], *table.ancestors(name))}
 
+    def elements(self, stage: str) -> int:
+        """Count of a stage's elements: no less than asked for, and the corners of its current lie between them."""
+        pieces = next((current.pieces for current in self.free_currents if current.stage == stage), 1)
+        return pieces * math.ceil(self._elements / pieces)
+
     def currents_at_nodes(self, stage: str, inputs: Any) -> Any:
         """Current [A] of a stage at its nodes: one where it is constant."""
         row = self.model.stages[stage].stage
@@ -189,7 +195,7 @@ class Problem:
             else:
                 start = stage.begin(blocks[self.model.stages[after].stage.ends].states[:, -1], inputs)
             nodes = self.currents_at_nodes(row.stage, inputs)
-            blocks[event] = stage_block(stage, event, self.elements, inputs, start, nodes)
+            blocks[event] = stage_block(stage, event, self.elements(row.stage), inputs, start, nodes)
         return list(blocks.values())
 
     def _write_balances(self, inputs: Any) -> list[Balance]:

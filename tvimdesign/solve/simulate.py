@@ -80,7 +80,7 @@ class Simulator:
             before = trajectories.get(stage.after) if stage.after else None
             if stage.after and (before is None or not np.isfinite(values[self.model.stages[stage.after].stage.ends])):
                 continue
-            drive = (drives or {}).get(name) or self.constant_drive(name, inputs)
+            drive = (drives or {}).get(stage.like or name) or self.constant_drive(name, inputs)
             simulator = self._stage(name)
             found, trajectories[name] = simulator.run(inputs, drive, before.states[:, -1] if before else None)
             values |= found
@@ -257,7 +257,9 @@ class _StageSimulator:
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
         values = dict(found.times)
         for row, sampled in zip(self.stage.paths, watched[len(self._events) :], strict=True):
-            values[row.name] = float(integrals.get(row.name, np.max(sampled)))
+            # What a stage that never ends adds up to has no end either.
+            whole = integrals.get(row.name, np.max(sampled))
+            values[row.name] = np.inf if row.name in integrals and found.end is None else float(whole)
         return values, Trajectory(times=times, states=states[:size], currents=drive.at(times))
 
     @cached_property

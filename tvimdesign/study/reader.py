@@ -140,9 +140,10 @@ class _Reader:
         """A current may only follow a profile between the ends of a range."""
         section = self.sections.get("profile")
         for stage, (_, node) in entries(Problems(self.name), section, "profile", "").items():
-            row = next((known.drive for known in table.stages if known.name == stage), None)
-            free = row is not None and isinstance(vary.get(row), Range)
-            if row is not None and not free and not (isinstance(node, Text) and node.value.strip() == "0"):
+            if stage not in ProfileOptions.model_fields:
+                continue  # told already
+            row = table.stage(stage).drive
+            if not isinstance(vary.get(row), Range) and not (isinstance(node, Text) and node.value.strip() == "0"):
                 found = f"the current of this stage has no range: `vary.{row}` is missing"
                 self.problems.add(node, step("profile", stage), found, f"{row}: [0.1 A, 3 A] under `vary`, for one")
 
