@@ -53,6 +53,6 @@ def test_equations_by_hand_and_compiled_are_the_same(bench: ModuleType, model: M
 def test_all_rows_find_the_same_times(bench: ModuleType, model: Model) -> None:
     machine = bench.compiled(model)
     ours = bench.by_tvimdesign(model)(0.0)
-    assert bench.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-5)
-    assert bench.by_scipy(machine, "BDF")(1e-7) == pytest.approx(ours, rel=1e-5)
+    assert bench.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-4)
+    assert bench.by_scipy(machine, "BDF")(1e-7) == pytest.approx(ours, rel=1e-4)
     assert bench.by_scipy(bench.written_by_hand(model, sparse=True), "BDF")(1e-5) == pytest.approx(ours, rel=1e-4)

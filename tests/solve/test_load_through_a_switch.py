@@ -138,23 +138,28 @@ def test_freezing_under_load_leaves_a_layer_that_does_not_relax_as_it_is() -> No
     assert carried.layer_torque == pytest.approx(carried.layer_torque[0], rel=1e-9)
 
 
-def test_module_heated_under_load_lets_go_before_the_switch_ends() -> None:
+def test_module_heated_under_load_lets_go_before_the_switch_ends_and_freezes_where_it_is() -> None:
     rig = rig_for(read_study_text("mode: shear\n", "a test"), Catalog(), table_for("shear"))
     history = slice_histories(rig)
     assert history.temperatures.shape == (rig.study.solver.cells, len(history.times))
     assert history.temperatures[:, 0] == pytest.approx(rig.row("ambient_temperature"), abs=0.01)
-    # It ends as the far face reaches the target, half a slice beyond the middle of the last.
-    last, target = history.temperatures[-2:, -1], rig.row("target_temperature")
+    # Heating ends as the far face reaches the target, half a slice beyond the middle of the last.
+    hottest = int(np.argmax(history.temperatures[0]))
+    last, target = history.temperatures[-2:, hottest], rig.row("target_temperature")
     assert last[1] - target == pytest.approx(0.5 * (last[0] - last[1]), rel=0.3)
     assert history.fractions[:, 0] == pytest.approx(1.0, abs=1e-3)
-    assert history.fractions[:, -1] == pytest.approx(0.0, abs=1e-2)
+    assert history.fractions[:, hottest] == pytest.approx(0.0, abs=1e-2)
+    assert np.min(history.fractions[:, -1]) > 0.3
     load = 0.1 * rig.row("spring_stiffness")
     carried = carry(changing(rig, history), support_of(rig), load, history.times)
     solid = rig.table.evaluate(
         {**rig.values, "temperature@cold": rig.row("ambient_temperature")}, ["joint_stiffness@cold"]
     )
     assert carried.angle[0] == pytest.approx(load / solid["joint_stiffness@cold"], rel=5e-3)
+    assert carried.angle[hottest] == pytest.approx(0.1, rel=1e-3)
     assert carried.angle[-1] == pytest.approx(0.1, rel=1e-3)
+    # The load taken off, the springs cannot pull a frozen joint back.
+    assert carried.unloaded_angle > 0.09
 
 
 @pytest.mark.parametrize("times", [[0.0], [0.0, 1.0, 1.0], [0.0, 2.0, 1.0]])
