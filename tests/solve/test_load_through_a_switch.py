@@ -149,7 +149,7 @@ def test_module_heated_under_load_lets_go_before_the_switch_ends_and_freezes_whe
     assert last[1] - target == pytest.approx(0.5 * (last[0] - last[1]), rel=0.3)
     assert history.fractions[:, 0] == pytest.approx(1.0, abs=1e-3)
     assert history.fractions[:, hottest] == pytest.approx(0.0, abs=1e-2)
-    assert np.min(history.fractions[:, -1]) > 0.3
+    assert np.min(history.fractions[:, -1]) > 0.1  # a fifth frozen is as stiff as the structure around it
     load = 0.1 * rig.row("spring_stiffness")
     carried = carry(changing(rig, history), support_of(rig), load, history.times)
     solid = rig.table.evaluate(
