@@ -1,0 +1,133 @@
+"""The textbook problems again, at the twelve cells a study has unless it says otherwise: within 0.5 %.
+
+Sources: Carslaw and Jaeger, Conduction of Heat in Solids, 2nd ed., sections 2.14, 3.8 and 11.2 (Neumann's two phases);
+Incropera, Fundamentals of Heat and Mass Transfer, section 5.5 (slab with convection).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.special import erf, erfc
+
+from tvimdesign.physics import heat, polymer
+from tvimdesign.study.model import SolverOptions
+
+Array = NDArray[np.float64]
+CELLS = SolverOptions().cells
+HALF_PERCENT = 5e-3
+COLD = 295.15
+FOURIER_TIME = 1e-3**2 / (0.2 / (1145.0 * 1900.0))  # s
+Make = Callable[..., heat.Stack]
+Run = Callable[..., Any]
+
+
+def test_constant_flux_heats_the_face_as_tabulated_once_the_heat_is_through_the_first_cells(
+    bare_stack: Make, integrate: Run
+) -> None:
+    fourier = [0.1, 0.5, 1.0]
+    stack = bare_stack()  # half of I^2 R = 4 W goes to the hot side: 2000 W/m^2
+    begin = heat.initial_state(stack, CELLS, COLD)
+    seen = integrate(stack, begin, [fo * FOURIER_TIME for fo in fourier], current=2.0).profiles()
+    scale = 2000.0 * 1e-3 / 0.2
+    assert [(p.near - COLD) / scale for p in seen] == pytest.approx([0.35683, 0.83188, 1.33332], rel=HALF_PERCENT)
+    # The back, as a share of what the face has risen: at Fo 0.1 it has hardly begun.
+    back = np.array([(p.far - COLD) / scale for p in seen]) - np.array([0.00789, 0.33479, 0.83333])
+    assert np.all(np.abs(back) < HALF_PERCENT * np.array([0.35683, 0.83188, 1.33332]))
+
+
+@pytest.mark.parametrize("biot", [0.5, 2.0, 10.0])
+def test_slab_with_convection_warms_through_as_the_series_says(biot: float, bare_stack: Make, integrate: Run) -> None:
+    # The insulated face of a slab of L with convection on the other is the mid-plane of one of 2 L.
+    fourier = np.array([0.1, 0.2, 0.5, 1.0])
+    stack = bare_stack(hot_capacity=1e12, hot_contact=biot * 0.2 / 1e-3)
+    begin = heat.initial_state(stack, CELLS, COLD)
+    begin[1] += 0.5
+    seen = integrate(stack, begin, list(fourier * FOURIER_TIME)).profiles()
+    roots = np.array(
+        [brentq(lambda z: z * np.tan(z) - biot, k * np.pi + 1e-9, (k + 0.5) * np.pi - 1e-9) for k in range(60)]
+    )
+    weights = 4.0 * np.sin(roots) / (2.0 * roots + np.sin(2.0 * roots))
+    decays = np.exp(-np.outer(fourier, roots**2))
+    assert [1.0 - (p.far - COLD) / 50.0 for p in seen] == pytest.approx(decays @ weights, rel=HALF_PERCENT)
+    faces = decays @ (weights * np.cos(roots))
+    assert [1.0 - (p.near - COLD) / 50.0 for p in seen] == pytest.approx(faces, rel=HALF_PERCENT)
+
+
+MELTING_POINT, SPECIFIC_HEAT, LATENT = 330.0, 2000.0, 80e3
+ALL_BUT_ISOTHERMAL = polymer.Melting(SPECIFIC_HEAT, SPECIFIC_HEAT, LATENT, MELTING_POINT, MELTING_POINT + 0.02, 5.0)
+
+
+def front_over_exact(
+    stack: heat.Stack, begin: Array, run: Run, speed: float, diffusivity: float, cells: int
+) -> tuple[float, float]:
+    """Depth of the molten layer over 2 l sqrt(a t): its mean on the way through the first millimetre, and its wobble.
+
+    A sharp front wobbles as it passes a cell, whose temperature stays at the melting point meanwhile.
+    """
+    depths = np.linspace(0.25e-3, 0.95e-3, 71)
+    times = (depths / (2.0 * speed)) ** 2 / diffusivity
+    seen = run(stack, begin, list(times), tolerance=1e-7).profiles()
+    found = np.array([stack.thickness * (1.0 - np.mean(p.fractions)) for p in seen]) / depths
+    assert len(seen[0].fractions) == cells
+    return float(np.mean(found)), float(np.max(np.abs(found - 1.0)))
+
+
+@pytest.mark.parametrize("stefan", [0.1, 0.5, 1.0, 2.0])
+def test_front_of_one_phase_advances_as_stefan_found(stefan: float, bare_stack: Make, integrate: Run) -> None:
+    speed = brentq(lambda x: np.sqrt(np.pi) * x * np.exp(x**2) * erf(x) - stefan, 1e-3, 3.0)
+    stack = bare_stack(hot_capacity=1e12, melting=ALL_BUT_ISOTHERMAL)
+    mean, wobble = {}, {}
+    for cells in (CELLS, 2 * CELLS):
+        begin = heat.initial_state(stack, cells, MELTING_POINT)
+        begin[1] += stefan * LATENT / SPECIFIC_HEAT / heat.TEMPERATURE_SCALE
+        diffusivity = 0.2 / (1145.0 * SPECIFIC_HEAT)
+        mean[cells], wobble[cells] = front_over_exact(stack, begin, integrate, speed, diffusivity, cells)
+    assert mean[CELLS] == pytest.approx(1.0, abs=HALF_PERCENT)
+    assert wobble[2 * CELLS] < 0.6 * wobble[CELLS]
+
+
+@pytest.mark.parametrize(("far", "face"), [(310.0, 370.0), (320.0, 390.0)])
+def test_front_between_two_phases_advances_as_neumann_found(
+    far: float, face: float, bare_stack: Make, integrate: Run
+) -> None:
+    # Solid below its melting point, in a layer four times as deep that the heat does not get through; cells as deep
+    # as twelve in a millimetre.
+    solid, melt = 0.225, 0.18
+    capacity = 1145.0 * SPECIFIC_HEAT
+    ratio = np.sqrt(melt / solid)
+    above, below = (SPECIFIC_HEAT * difference / LATENT for difference in (face - MELTING_POINT, MELTING_POINT - far))
+
+    def balance(x: float) -> float:
+        into = above / (np.exp(x**2) * erf(x))
+        # Carslaw and Jaeger, section 11.2 (6): conducted away into the solid.
+        away = below / (ratio * np.exp((ratio * x) ** 2) * erfc(ratio * x))
+        return float(into - away - x * np.sqrt(np.pi))
+
+    speed = brentq(balance, 1e-3, 3.0)
+    stack = bare_stack(
+        hot_capacity=1e12, melting=ALL_BUT_ISOTHERMAL, conductivity_solid=solid, conductivity_melt=melt, thickness=4e-3
+    )
+    begin = heat.initial_state(stack, 4 * CELLS, far)
+    begin[1] = (face - 273.15) / heat.TEMPERATURE_SCALE
+    mean, _ = front_over_exact(stack, begin, integrate, speed, melt / capacity, 4 * CELLS)
+    assert mean == pytest.approx(1.0, abs=HALF_PERCENT)
+
+
+def test_two_bodies_that_touch_meet_at_the_temperature_of_their_effusivities(bare_stack: Make, integrate: Run) -> None:
+    # Aluminium at 100 degC on polycaprolactone at 22 degC. Once the heat is some cells deep, and not yet through.
+    stack = bare_stack(
+        conductivity_solid=0.225, conductivity_melt=0.225, hot_contact=1e-12, plate_contact=1e12, plate_thickness=60e-3,
+        plate_conductivity=167.0, plate_heat_capacity=2700.0 * 896.0, plate_cells=200,
+    )  # fmt: skip
+    begin = heat.initial_state(stack, CELLS, COLD)
+    begin[-200:] = 1.0
+    seen = integrate(stack, begin, [0.5, 1.0, 2.0], tolerance=1e-7).profiles()
+    metal, plastic = np.sqrt(167.0 * 2700.0 * 896.0), np.sqrt(0.225 * 1145.0 * 1900.0)
+    exact = (100.0 * metal + 22.0 * plastic) / (metal + plastic)
+    assert [p.far - 273.15 for p in seen] == pytest.approx([exact] * 3, rel=HALF_PERCENT)
