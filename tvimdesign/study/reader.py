@@ -143,6 +143,9 @@ class _Reader:
             if stage not in ProfileOptions.model_fields:
                 continue  # told already
             row = table.stage(stage).drive
+            asked = self.sections.get("vary")
+            if row not in vary and isinstance(asked, Mapping) and row in asked.entries:
+                continue  # what is wrong with that range has been told
             if not isinstance(vary.get(row), Range) and not (isinstance(node, Text) and node.value.strip() == "0"):
                 found = f"the current of this stage has no range: `vary.{row}` is missing"
                 self.problems.add(node, step("profile", stage), found, f"{row}: [0.1 A, 3 A] under `vary`, for one")
