@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from rich.console import Console
 from rich.markup import escape
@@ -83,15 +84,24 @@ def _print_drives(answer: Answer, table: Table, console: Console) -> None:
     for row in rows:
         grid.add_row(*row)
     console.print(grid)
-    grid = _grid("What that buys in this module", ("", "profile", "constant", "unit", "meaning"), right=(1, 2))
+    best = answer.solution.constant if answer.solution else None
+    columns = ("", "profile", *(["best constant"] if best else []), "default", "unit", "meaning")
+    grid = _grid("What letting it change buys", columns, right=(1, 2, 3 if best else 2))
     for name, value in answer.constant_current.items():
         unit = table.unit(name)
-        pair = (number(from_si(v, unit)) for v in (answer.design.value(name), value))
-        grid.add_row(name, *pair, pretty(unit), table.row(name).description)
+        values = (answer.design.value(name), *([best.values[name]] if best else []), value)
+        grid.add_row(name, *(number(from_si(v, unit)) for v in values), pretty(unit), table.row(name).description)
     console.print(grid)
-    currents = (table.stage(stage).drive for stage in answer.design.drives)
-    said = ", ".join(f"{name} {format_quantity(_default(table, name), table.unit(name))}" for name in currents)
-    console.print(f"[dim]Constant: {said}, the table's own values; the paper heats with 1.5 A.[/dim]")
+    driven = [table.stage(stage).drive for stage in answer.design.drives]
+
+    def said(values: Mapping[str, float]) -> str:
+        return ", ".join(f"{name} {format_quantity(values[name], table.unit(name))}" for name in driven)
+
+    if best and answer.solution:
+        worse = best.objective / answer.solution.objective - 1.0
+        console.print(f"Best constant: a design of its own, {said(best.values)}; its objective is {worse:.1%} higher.")
+    defaults = {name: _default(table, name) for name in driven}
+    console.print(f"[dim]Default: this module at {said(defaults)}; the paper heats with 1.5 A.[/dim]")
 
 
 def _default(table: Table, name: str) -> float:

@@ -146,7 +146,8 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
         "checks": [check_row(check, table) for check in answer.checks],
         "warnings": [check_row(check, table) for check in answer.warnings],
         "drives": design.drives,
-        "at_constant_current": {name: _entry(name, value, table) for name, value in answer.constant_current.items()},
+        "at_default_currents": {name: _entry(name, value, table) for name, value in answer.constant_current.items()},
+        "best_constant_currents": _best_constant(answer, table),
         "solution": _all_finite(design.solution),
     }
 
@@ -162,6 +163,14 @@ def _entry(name: str, value: float, table: Table) -> dict[str, Any]:
         "group": row.group,
         "description": row.description,
     }
+
+
+def _best_constant(answer: Answer, table: Table) -> dict[str, Any]:
+    constant = answer.solution.constant if answer.solution else None
+    if constant is None:
+        return {}
+    values = {name: _entry(name, value, table) for name, value in constant.values.items()}
+    return {"objective": constant.objective, "values": values}
 
 
 def _ends(answer: Answer, name: str, table: Table) -> dict[str, Any]:

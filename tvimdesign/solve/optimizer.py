@@ -22,7 +22,7 @@ from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
 from tvimdesign.solve.solution import Start
 from tvimdesign.solve.stage_model import StageModel
 from tvimdesign.solve.transcription import guess
-from tvimdesign.study import Range, Study, given
+from tvimdesign.study import ProfileOptions, Range, Study, given
 
 Array = NDArray[np.float64]
 Progress = Callable[[str], None]
@@ -77,17 +77,20 @@ class Optimizer:
         runs: int,
         reference: dict[str, float] | None = None,
         progress: Progress = lambda _: None,
+        simulator: Simulator | None = None,
     ) -> None:
         """Compile the device, simulate the study's start, and build the problem for about `runs` runs.
 
-        `reference` are the values the minimised outputs are divided by: the study's start unless given. Raises
-        InfeasibleError where a limit is broken that nothing free can mend, InputError from the table.
+        `reference` are the values the minimised outputs are divided by: the study's start unless given. A `simulator`
+        of the same device saves compiling it again. Raises InfeasibleError where a limit is broken that nothing free
+        can mend, InputError from the table.
         """
         self._many = runs >= EXPAND_FROM
-        self.study, self.table, self.progress = study, table, progress
+        self.study, self.catalog, self.table, self.progress = study, catalog, table, progress
         began = time.perf_counter()
-        self.model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
-        self.simulator = Simulator(self.model)
+        points = tuple(study.operating_points)
+        self.simulator = simulator or Simulator(Model(table, given(study, catalog, table), points, study.solver.cells))
+        self.model = self.simulator.model
         self.currents = tuple(self._current(stage, pieces) for stage, pieces in study.profile.pieces().items())
         rows = {current.row for current in self.currents}
         numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
@@ -98,6 +101,14 @@ class Optimizer:
         self.reference = reference or {name: self._reference(name) for name in study.minimize}
         self._solvers: dict[bool, Any] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
+
+    def with_constant_currents(self) -> Optimizer | None:
+        """The same problem with currents that do not change over a stage; None where they do not anyway."""
+        if not self.currents:
+            return None
+        study = self.study.model_copy(update={"profile": ProfileOptions()})
+        runs = EXPAND_FROM if self._many else 1
+        return Optimizer(study, self.catalog, self.table, runs, self.reference, self.progress, self.simulator)
 
     def _free(self, name: str) -> Free:
         vary = self.study.vary[name]
@@ -271,7 +282,7 @@ class Optimizer:
         start = Start(
             number=0, status=stats["return_status"], converged=bool(stats["success"]),
             iterations=int(stats["iter_count"]), objective=float(answer["f"]), seconds=seconds,
-            begin=self._free_values(inputs), end=self._free_values(end),
+            begin=self.free_values(inputs), end=self.free_values(end),
         )  # fmt: skip
         drives = self._drives_of(unknowns)
         return Run(
@@ -316,5 +327,6 @@ class Optimizer:
             inputs[self.model.index[self.table.stage(stage).drive]] = abs(drive.mean)
         return inputs
 
-    def _free_values(self, inputs: Array) -> dict[str, float]:
+    def free_values(self, inputs: Array) -> dict[str, float]:
+        """The free numbers among the inputs, by name."""
         return {free.name: float(inputs[self.model.index[free.name]]) for free in self.free}

@@ -10,8 +10,8 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
 from tvimdesign.errors import InputError
 from tvimdesign.solve.account import account
-from tvimdesign.solve.optimizer import Optimizer, Progress, Run
-from tvimdesign.solve.solution import Solution, Start
+from tvimdesign.solve.optimizer import Array, Optimizer, Progress, Run
+from tvimdesign.solve.solution import Constant, Solution, Start
 from tvimdesign.study import Options, Study
 from tvimdesign.units import format_quantity
 
@@ -29,34 +29,67 @@ def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = 
             f"narrow a list with from and to"
         )
     best: tuple[Optimizer, Run] | None = None
+    constant: Constant | None = None
     reference: dict[str, float] | None = None
     starts: list[Start] = []
     seconds = {"set_up": 0.0, "solve": 0.0}
     for choice in records:
         optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress)
         reference = optimizer.reference
-        for run, size in _runs(optimizer, sizes, progress):
+        stepping_stone = SteppingStone(optimizer)
+        for run, size in _runs(optimizer, stepping_stone, sizes, progress):
             relaxed = bool(sizes) and not size
             run.start = replace(run.start, number=len(starts), choices={**choice, **size}, relaxed=relaxed)
             starts.append(run.start)
             if relaxed:
                 continue
             if best is None or _order(run.start) < _order(best[1].start):
-                best = (optimizer, run)
+                best, constant = (optimizer, run), stepping_stone.found()
         seconds = {key: seconds[key] + optimizer.seconds[key] for key in seconds}
     assert best is not None  # there is always one combination and one start
-    return account(*best, tuple(starts), seconds)
+    return replace(account(*best, tuple(starts), seconds), constant=constant)
+
+
+class SteppingStone:
+    """The same problem with constant currents: solved first, it is where a search for profiles begins, and what
+    they are held against."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Nothing to do where no current follows a profile."""
+        self.optimizer = optimizer.with_constant_currents()
+        self.best: Run | None = None
+
+    def beyond(self, begin: Array) -> Array:
+        """Inputs of the optimum with constant currents from a start; the start itself where there is none."""
+        if self.optimizer is None:
+            return begin
+        run = self.optimizer.solve(begin=begin)
+        if not run.start.converged:
+            return begin
+        if self.best is None or run.start.objective < self.best.start.objective:
+            self.best = run
+        return run.inputs
+
+    def found(self) -> Constant | None:
+        """The best optimum with constant currents, simulated; None where there is none."""
+        if self.optimizer is None or self.best is None:
+            return None
+        switch = self.optimizer.simulator.run(self.best.inputs)
+        values = self.optimizer.model.values(self.best.inputs, switch.values)
+        inputs = {name: float(self.best.inputs[i]) for name, i in self.optimizer.model.index.items()}
+        return Constant(self.best.start.objective, {**inputs, **values})
 
 
 def _runs(
-    optimizer: Optimizer, sizes: list[dict[str, float]], progress: Progress
+    optimizer: Optimizer, stepping_stone: SteppingStone, sizes: list[dict[str, float]], progress: Progress
 ) -> Iterator[tuple[Run, dict[str, float]]]:
     """Every start, all free; where sizes are listed, then every combination of them, warm from the best start."""
     starts = optimizer.study.solver.starts
     best: Run | None = None
     for number, begin in enumerate(optimizer.begin_points()):
         progress(f"start {number + 1} of {starts}")
-        run = optimizer.solve(begin=begin)
+        run = optimizer.solve(begin=stepping_stone.beyond(begin))
+        run.start = replace(run.start, begin=optimizer.free_values(begin))
         best = run if best is None or _order(run.start) < _order(best.start) else best
         yield run, {}
     for number, fixed in enumerate(sizes):

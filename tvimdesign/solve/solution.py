@@ -49,6 +49,15 @@ class Held:
 
 
 @dataclass(frozen=True)
+class Constant:
+    """The best design with constant currents, where the study lets them follow a profile."""
+
+    objective: float
+    values: dict[str, float]
+    """Inputs and outputs in SI by full name."""
+
+
+@dataclass(frozen=True)
 class Solution:
     """The best design found, with the account of how. `inputs` is in the order of `model.names`."""
 
@@ -66,6 +75,7 @@ class Solution:
     reference: dict[str, float]
     """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
     seconds: dict[str, float]
+    constant: Constant | None = None
 
     @property
     def free_starts(self) -> tuple[Start, ...]:
