@@ -52,12 +52,12 @@ def cycle(data: dict[str, Any]) -> Figure:
     over_time, current, impedance = (
         figure.add_subplot(grid[rows, 0]) for rows in (slice(5), slice(5, 7), slice(7, 12))
     )
-    heating, cooling = (figure.add_subplot(grid[rows, 1]) for rows in (slice(6), slice(6, 12)))
+    heating, cooling = (figure.add_subplot(grid[rows, 1]) for rows in (slice(5), slice(7, 12)))
     soft, stiff = data["softening"], data.get("stiffening")
     _temperatures(over_time, soft, stiff, data)
     current.plot(*_joined(soft, stiff, "current"), color="tab:green")
     current.set_ylabel("current (A)")
-    current.yaxis.set_major_locator(MaxNLocator(3))
+    current.yaxis.set_major_locator(MaxNLocator(4))
     _impedance_over_time(impedance, soft, data)
     for axes in (over_time, current, impedance):
         axes.axvline(soft["time"][-1], color="grey", linewidth=0.8)
@@ -89,7 +89,7 @@ def _temperatures(axes: Any, soft: dict[str, Any], stiff: dict[str, Any] | None,
     axes.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange", label="melting range")
     axes.axhline(data["target"], color="black", linewidth=0.8, linestyle=":", label="target")
     axes.set(ylabel="temperature (°C)", title="Over the cycle: heating, then cooling")
-    axes.legend(fontsize=8, loc="upper right")
+    axes.legend(fontsize=7, loc="upper right", ncols=2, frameon=True, framealpha=0.8, edgecolor="none")
 
 
 def _impedance_over_time(axes: Any, soft: dict[str, Any], data: dict[str, Any]) -> None:
@@ -107,7 +107,7 @@ def _impedance_over_time(axes: Any, soft: dict[str, Any], data: dict[str, Any]) 
         axes.text(0.0, data[threshold], f"{threshold} ", va="bottom", fontsize=8)
     axes.yaxis.set_minor_locator(NullLocator())  # minor ticks of a log axis take longer to draw than all else
     axes.set(xlabel="time (s)", ylabel="joint impedance (N·m/rad)")
-    axes.legend(fontsize=8, loc="lower right")
+    axes.legend(fontsize=7, loc="lower right", frameon=True, framealpha=0.8, edgecolor="none")
 
 
 def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: str) -> None:
