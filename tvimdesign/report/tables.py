@@ -168,7 +168,7 @@ def _ends(answer: Answer, name: str, table: Table) -> dict[str, Any]:
     """`low` and `high` of an output that history leaves open; its value is that of the equilibrium curve on heating."""
     if name not in answer.intervals:
         return {}
-    low, high = (from_si(end, table.unit(name)) for end in answer.intervals[name])
+    low, high = (_finite(from_si(end, table.unit(name))) for end in answer.intervals[name])
     return {"low": low, "high": high}
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Input, Table
+from tvimdesign.device import Input, Path, Table
 from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.curves import Curves, impedance_sweep, stage_history
 from tvimdesign.solve.history import intervals
@@ -95,11 +95,12 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
     )  # fmt: skip
     rig = Rig(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
     checks = tuple(_check(limit, values, table) for limit in limits_of(study, table))
-    warnings = tuple(check for check in (_check(limit, values, table) for limit in advice_of(table)) if not check.kept)
+    advice = (_check(limit, values, table) for limit in advice_of(table) if _happened(limit.output, values, table))
+    warnings = tuple(check for check in advice if not check.kept)
     return Answer(
         design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, switch),
         sweep=impedance_sweep(model, inputs, switch), solution=solution,
-        intervals=intervals(rig, model, inputs, switch.values),
+        intervals=intervals(rig, model, inputs, switch.values, drives),
         constant_current=_at_constant_current(model, inputs, set(drives)),
     )  # fmt: skip
 
@@ -139,6 +140,12 @@ def _check(limit: Limit, values: dict[str, float], table: Table) -> Check:
         text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
         scale=limit.scale, absolute=limit.absolute, kept=bool(residual <= tolerance), origin=limit.origin,
     )  # fmt: skip
+
+
+def _happened(name: str, values: dict[str, float], table: Table) -> bool:
+    """Whether there is anything to say of an output: the peak of a stage that never began is none."""
+    peaks = (need for need in table.output(name).needs if isinstance(table.row(need), Path))
+    return not np.isnan(values[name]) and all(np.isfinite(values[peak]) for peak in peaks)
 
 
 def _plain(solution: Solution | None) -> dict[str, Any]:
