@@ -17,8 +17,8 @@ def answered(module: str, cold: float = 30.0, hot: float = 100.0) -> Answer:
     return answer(read_study_text(text, "a test"), Catalog(), table_for("shear"))
 
 
-def liquid_impedance(found: Answer, celsius: float) -> float:
-    """|K*| of the joint with a layer that is all melt, at 1 Hz, from the record's table in complex numbers."""
+def liquid_impedance(found: Answer, celsius: float) -> complex:
+    """K* of the joint with a layer that is all melt, at 1 Hz, from the record's table in complex numbers."""
     value = found.design.value
     rows = Catalog().record("polymers", found.design.choices["pcl_grade"]).table("melt_spectrum")
     kelvin, reference = celsius + KELVIN, value("pcl_melt_reference")
@@ -29,13 +29,13 @@ def liquid_impedance(found: Answer, celsius: float) -> float:
         for row in rows
     )
     layer = modulus * value("layer_polar_moment") / value("pcl_thickness")
-    return abs(value("spring_stiffness") + 1.0 / (1.0 / layer + 1.0 / value("structure_stiffness")))
+    return complex(value("spring_stiffness") + 1.0 / (1.0 / layer + 1.0 / value("structure_stiffness")))
 
 
 def test_softening_to_a_point_in_the_melting_range_takes_from_to_and_not_one_time() -> None:
     found = answered("current: 1.5 A", hot=60.0)
     low, high = found.intervals["softening_time"]
-    target = liquid_impedance(found, 60.0)
+    target = abs(liquid_impedance(found, 60.0))
     stated = answered(f"current: 1.5 A, impedance_targets: stated, soft_impedance: {target:.9f} N.m/rad")
     assert high == pytest.approx(stated.design.value("softening_time"), rel=1e-3)
     assert low < 0.5 * high
@@ -55,3 +55,16 @@ def test_a_switch_that_never_ends_has_no_advice_on_what_never_began() -> None:
     found = answered("current: 0.3 A", hot=60.0)
     assert np.isinf(found.design.value("response_time"))
     assert not [check.text for check in found.warnings if not np.isfinite(check.value)]
+
+
+def test_the_sweep_over_temperature_reaches_from_liquid_up_inside_the_melting_range_and_is_a_line_outside() -> None:
+    found = answered("current: 1.5 A")
+    sweep = {name: np.array(column) for name, column in found.sweep.items()}
+    inside = (sweep["temperature"] >= 45.0) & (sweep["temperature"] <= 70.0)
+    for name in ("pcl_stiffness", "joint_stiffness", "joint_damping", "solid_fraction"):
+        low, middle, high = sweep[f"{name}_low"], sweep[name], sweep[f"{name}_high"]
+        assert np.all(low <= middle)
+        assert np.all(middle <= high)
+        assert np.all((low < high) == inside)
+    at_sixty = int(np.argmin(np.abs(sweep["temperature"] - 60.0)))
+    assert sweep["joint_stiffness_low"][at_sixty] == pytest.approx(liquid_impedance(found, 60.0).real, rel=1e-6)

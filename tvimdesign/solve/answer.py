@@ -99,7 +99,7 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
     warnings = tuple(check for check in advice if not check.kept)
     return Answer(
         design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, switch),
-        sweep=impedance_sweep(model, inputs, switch), solution=solution,
+        sweep=impedance_sweep(rig, model, switch), solution=solution,
         intervals=intervals(rig, model, inputs, switch.values, drives),
         constant_current=_at_constant_current(model, inputs, set(drives)),
     )  # fmt: skip
