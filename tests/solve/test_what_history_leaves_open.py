@@ -68,3 +68,15 @@ def test_the_sweep_over_temperature_reaches_from_liquid_up_inside_the_melting_ra
         assert np.all((low < high) == inside)
     at_sixty = int(np.argmin(np.abs(sweep["temperature"] - 60.0)))
     assert sweep["joint_stiffness_low"][at_sixty] == pytest.approx(liquid_impedance(found, 60.0).real, rel=1e-6)
+
+
+def test_a_limit_that_only_some_histories_keep_is_undecided_and_the_design_carries_both_ends() -> None:
+    points = "operating_points: {warm: {temperature: 60 degC}}\n"
+    require = "require: {joint_stiffness@warm: '>= 100 N.m/rad', joint_stiffness@hot: '>= 1 N.m/rad'}\n"
+    study = read_study_text(f"mode: shear\n{points}{require}", "a test")
+    found = answer(study, Catalog(), table_for("shear"))
+    assert [check.output for check in found.undecided] == ["joint_stiffness@warm"]
+    low, high = found.design.intervals["joint_stiffness@warm"]
+    assert low == pytest.approx(liquid_impedance(found, 60.0).real, rel=1e-6)
+    assert found.undecided[0].worst == pytest.approx(low / 100.0 - 1.0, rel=1e-9)
+    assert low < 100.0 < high

@@ -143,8 +143,8 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
         "values": {
             name: _entry(name, value, table) | _ends(answer, name, table) for name, value in design.values.items()
         },
-        "checks": [check_row(check, table) for check in answer.checks],
-        "warnings": [check_row(check, table) for check in answer.warnings],
+        "checks": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.checks],
+        "warnings": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.warnings],
         "drives": design.drives,
         "at_constant_current": {name: _entry(name, value, table) for name, value in answer.constant_current.items()},
         "solution": _all_finite(design.solution),
