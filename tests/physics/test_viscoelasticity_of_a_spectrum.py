@@ -169,6 +169,12 @@ def test_a_quick_ramp_is_a_step_and_a_slow_one_a_flow(modes: Modes) -> None:
     assert slow == pytest.approx(0.1 * viscoelasticity.start_up_viscosity(0.5, modes), rel=1e-12)
 
 
+def test_long_after_a_ramp_a_melt_has_a_tiny_stress_and_not_none() -> None:
+    # One mode by hand: s' = G g' - s/tau gives G g' tau (1 - exp(-t_r/tau)) at the end of the rise, fading from there.
+    by_hand = 1e5 * (0.1 / 0.1) * 0.02 * (1.0 - math.exp(-5.0)) * math.exp(-0.9 / 0.02)
+    assert viscoelasticity.ramped_stress(1.0, 0.1, 0.1, [(0.02, 1e5)]) == pytest.approx(by_hand, rel=1e-9, abs=0.0)
+
+
 @pytest.mark.parametrize(
     ("modes", "said"),
     [

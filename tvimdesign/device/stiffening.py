@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from tvimdesign.device.book import Book
@@ -41,6 +43,39 @@ def stiffening_time(impedance_now: Scalar, stiff_threshold: Scalar) -> Scalar:
 def equilibrium_stiffening_time(impedance_now: Scalar, stiff_threshold: Scalar) -> Scalar:
     """What stiffening would take if the layer froze where it melts: a claim, not a prediction."""
     return stiffening_time(impedance_now, stiff_threshold)
+
+
+@book.event(STIFFENING)
+def frozen_time(stack_profile: heat.Profile) -> Scalar:
+    """Time from the end of the switch until every slice of the layer is half frozen.
+
+    The slices are in series: under a lasting load the joint gives way as its least frozen slice flows.
+    """
+    return functools.reduce(np.fmin, list(stack_profile.fractions)) - 0.5
+
+
+@book.output(
+    "1",
+    advice=(
+        Rule(sense=">=", value=1.0, reason="the joint counts as stiff while a slice of its layer is mostly liquid: "
+             "it resists at its frequency, and gives way under a lasting load"),
+    ),
+)  # fmt: skip
+def stiffening_over_freezing(stiffening_time: Scalar, frozen_time: Scalar) -> Scalar:
+    """Time until the joint counts as stiff over the time until every slice of its layer is half frozen."""
+    return stiffening_time / frozen_time
+
+
+@book.output(
+    "1",
+    advice=(
+        Rule(sense=">=", value=0.0, reason="soft and stiff overlap: between the two thresholds the joint counts as "
+             "both, and the times of a switch say nothing"),
+    ),
+)  # fmt: skip
+def thresholds_apart(stiff_threshold: Scalar, soft_threshold: Scalar) -> Scalar:
+    """How far the stiff threshold is above the soft one, as the logarithm of the ratio."""
+    return np.log(stiff_threshold) - np.log(soft_threshold)
 
 
 @book.event(STIFFENING, headline=False)

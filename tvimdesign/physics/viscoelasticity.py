@@ -134,6 +134,11 @@ def creep_and_recovery(time: Any, stress: float, release: float, response: Retar
 
 
 def ramped_stress(time: Any, strain: float, rise: float, modes: Modes) -> Any:
-    """Stress [Pa] while and after a strain is reached at a constant rate within `rise` seconds, by superposition."""
-    after = np.maximum(time - rise, 0.0)
-    return strain / rise * (start_up_viscosity(time, modes) - start_up_viscosity(after, modes))
+    """Stress [Pa] while and after a strain is reached at a constant rate within `rise` seconds.
+
+    Each mode rises as in `start_up_viscosity` and fades from the end of the rise on; the difference of two starts would
+    cancel there.
+    """
+    rising, after = np.minimum(time, rise), np.maximum(time - rise, 0.0)
+    fading = [(tau, modulus * np.exp(-after / tau)) for tau, modulus in modes]
+    return strain / rise * start_up_viscosity(rising, fading)

@@ -131,11 +131,16 @@ def impedance(data: dict[str, Any]) -> Figure:
     figure = _figure(10.0)
     stiffness, damping = figure.subplots(1, 2)
     for axes, kind, unit in ((stiffness, "stiffness", "N·m/rad"), (damping, "damping", "N·m·s/rad")):
-        axes.semilogy(sweep["temperature"], sweep[f"pcl_{kind}"], label="PCL layer alone", linestyle="--")
-        axes.semilogy(sweep["temperature"], sweep[f"joint_{kind}"], label="joint: springs, layer, structure")
+        for part, label, style in (
+            ("pcl", "PCL layer alone", "--"),
+            ("joint", "joint: springs, layer, structure", "-"),
+        ):
+            (line,) = axes.semilogy(sweep["temperature"], sweep[f"{part}_{kind}"], label=label, linestyle=style)
+            ends = (sweep[f"{part}_{kind}_{end}"] for end in ("low", "high"))
+            axes.fill_between(sweep["temperature"], *ends, alpha=0.2, color=line.get_color(), linewidth=0.0)
         axes.yaxis.set_minor_locator(NullLocator())  # minor ticks of a log axis take longer to draw than all else
         axes.axvspan(
-            data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange", label="melting: depends\non history"
+            data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange", label="melting; bands: by history"
         )
         axes.set(
             xlabel="layer temperature (°C)",

@@ -94,7 +94,7 @@ def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told:
     units = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
     for stage, history in found.histories.items():
         folder.write(f"{stage}.csv", curves_csv(history, units, "degC"))
-    units = {name: table.unit(name) for name in found.sweep}
+    units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in found.sweep}
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     return write_design(found.design, folder.path / "design.json")
 

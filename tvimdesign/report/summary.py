@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
 
 from tvimdesign.device import Input, Table
-from tvimdesign.report.tables import NOTHING, drive_rows, headline_rows, margin_text, number, point_rows, variable_rows
+from tvimdesign.report.tables import (
+    NOTHING,
+    drive_rows,
+    headline_rows,
+    margin_text,
+    number,
+    point_rows,
+    value_text,
+    variable_rows,
+)
 from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.units import format_quantity, from_si, pretty
 
@@ -142,6 +152,9 @@ def _verdict(answer: Answer) -> str:
             return "[red]The switch never ends: the current is too weak, or the cold side too warm.[/red]"
         if broken:
             return f"[yellow]Evaluated; {broken} of {len(answer.checks)} rules and requirements do not hold.[/yellow]"
+        if answer.undecided:
+            count = len(answer.undecided)
+            return f"[yellow]Evaluated; history decides whether {count} of the limits hold{warned}.[/yellow]"
         return f"[green]Evaluated; every rule and requirement holds{warned}.[/green]"
     if not answer.found:
         return "[red]No design found that keeps every limit.[/red]"
@@ -163,19 +176,27 @@ def _print_checks(answer: Answer, table: Table, console: Console) -> None:
     grid = _grid("What must hold", ("", "limit", "value", "unit", "margin", "because"), right=(2, 4))
     hidden = 0
     for check in answer.checks:
-        if check.origin != "require" and check.kept and check.margin > NOTHING:
+        if check.origin != "require" and check.kept and check.worst > NOTHING:
             hidden += 1
             continue
         mark = "[red]broken[/red]" if not check.kept else "[yellow]binds[/yellow]" if _binds(check) else "ok"
+        mark = "[yellow]open[/yellow]" if check in answer.undecided else mark
         unit = table.unit(check.output)
         because = "the study" if check.origin == "require" else check.origin
         value = from_si(check.value, unit)
         shown = number(0.0 if abs(value) < _ROUND else value)
-        grid.add_row(mark, check.text, shown, pretty(unit), margin_text(check, table), because)
+        if check.output in answer.intervals:
+            shown = value_text(answer, check.output, table)
+        grid.add_row(mark, check.text, shown, pretty(unit), _worst(check, table), because)
     if grid.row_count:
         console.print(grid)
     if hidden:
         console.print(f"[dim]{hidden} rules of the machine hold with room to spare.[/dim]")
+
+
+def _worst(check: Check, table: Table) -> str:
+    """The margin for people, with the history that leaves the least."""
+    return margin_text(replace(check, margin=check.worst), table)
 
 
 def _binds(check: Check) -> bool:
@@ -202,6 +223,11 @@ def _print_warnings(answer: Answer, table: Table, console: Console) -> None:
         console.print(
             "[yellow]Mind[/yellow] the joint never gets stiff again within `horizon`: the cooling current heats more "
             "than it cools, or the cold side is too warm; try less `cooling_current`, or a sink."
+        )
+    for check in answer.undecided:
+        console.print(
+            f"[yellow]Mind[/yellow] {check.text} holds as nominally heated, and not with every history: a point lies "
+            f"in the melting range, and the margin is {_worst(check, table)} at worst."
         )
     for start in answer.solution.distinct_optima()[1:] if answer.solution else []:
         where = ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in start.end.items())

@@ -143,8 +143,8 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
         "values": {
             name: _entry(name, value, table) | _ends(answer, name, table) for name, value in design.values.items()
         },
-        "checks": [check_row(check, table) for check in answer.checks],
-        "warnings": [check_row(check, table) for check in answer.warnings],
+        "checks": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.checks],
+        "warnings": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.warnings],
         "drives": design.drives,
         "at_default_currents": {name: _entry(name, value, table) for name, value in answer.constant_current.items()},
         "best_constant_currents": _best_constant(answer, table),
@@ -177,7 +177,7 @@ def _ends(answer: Answer, name: str, table: Table) -> dict[str, Any]:
     """`low` and `high` of an output that history leaves open; its value is that of the equilibrium curve on heating."""
     if name not in answer.intervals:
         return {}
-    low, high = (from_si(end, table.unit(name)) for end in answer.intervals[name])
+    low, high = (_finite(from_si(end, table.unit(name))) for end in answer.intervals[name])
     return {"low": low, "high": high}
 
 

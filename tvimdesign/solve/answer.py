@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Input, Table
+from tvimdesign.device import Input, Path, Table
 from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.curves import Curves, impedance_sweep, stage_history
 from tvimdesign.solve.history import intervals
@@ -39,6 +40,8 @@ class Check:
     absolute: bool
     """Whether the margin is to be read in the row's unit, not as a share."""
     kept: bool
+    worst: float
+    """The least margin over what history leaves open; the margin itself where there is one value."""
     origin: str
     """`require`, or the reason the machine has the limit."""
 
@@ -67,6 +70,11 @@ class Answer:
         return self.solution is None or self.design.status == "optimal"
 
     @property
+    def undecided(self) -> tuple[Check, ...]:
+        """The requirements and rules that are kept as nominally heated, and broken with another history."""
+        return tuple(check for check in self.checks if check.kept and check.worst < -SWITCH_TOLERANCE)
+
+    @property
     def feasible(self) -> bool:
         """Whether every requirement and rule is kept."""
         return all(check.kept for check in self.checks)
@@ -88,18 +96,22 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
         values = model.values(inputs, switch.values)
         status, drives = "evaluated", {}
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
+    rig = Rig(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
+    open_values = intervals(rig, model, inputs, switch.values, drives)
     design = Design(
         tvimdesign=__version__, name=study.name, mode=study.mode, status=status,
-        choices=_choices(model, table), values={**numbers, **values}, study=study.model_dump(mode="json"),
+        choices=_choices(model, table), values={**numbers, **values},
+        intervals=open_values, study=study.model_dump(mode="json"),
         drives={stage: drive.plain() for stage, drive in drives.items()}, solution=_plain(solution),
     )  # fmt: skip
-    rig = Rig(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
-    checks = tuple(_check(limit, values, table) for limit in limits_of(study, table))
-    warnings = tuple(check for check in (_check(limit, values, table) for limit in advice_of(table)) if not check.kept)
+    checks = tuple(_check(limit, values, table, open_values) for limit in limits_of(study, table))
+    happened = (limit for limit in advice_of(table) if _happened(limit.output, values, table))
+    advice = (_check(limit, values, table, open_values) for limit in happened)
+    warnings = tuple(check for check in advice if not check.kept)
     return Answer(
         design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, switch),
-        sweep=impedance_sweep(model, inputs, switch), solution=solution,
-        intervals=intervals(rig, model, inputs, switch.values),
+        sweep=impedance_sweep(rig, model, switch), solution=solution,
+        intervals=open_values,
         constant_current=_at_constant_current(model, inputs, set(drives)),
     )  # fmt: skip
 
@@ -131,14 +143,24 @@ def _choices(model: Model, table: Table) -> dict[str, str]:
     return {row.name: getattr(model.words[row.name], "name", model.words[row.name]) for row in table.choices}
 
 
-def _check(limit: Limit, values: dict[str, float], table: Table) -> Check:
+def _check(
+    limit: Limit, values: dict[str, float], table: Table, open_values: Mapping[str, tuple[float, float]]
+) -> Check:
     value = values[limit.output]
+    ends = open_values.get(limit.output, (value, value))
     residual = limit.residual(value)
     tolerance = SWITCH_TOLERANCE if on_switch(table, limit.output) else ALGEBRAIC_TOLERANCE
     return Check(
         text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
-        scale=limit.scale, absolute=limit.absolute, kept=bool(residual <= tolerance), origin=limit.origin,
+        scale=limit.scale, absolute=limit.absolute, kept=bool(residual <= tolerance),
+        worst=-max(float(limit.residual(end)) for end in ends), origin=limit.origin,
     )  # fmt: skip
+
+
+def _happened(name: str, values: dict[str, float], table: Table) -> bool:
+    """Whether there is anything to say of an output: the peak of a stage that never began is none."""
+    peaks = (need for need in table.output(name).needs if isinstance(table.row(need), Path))
+    return not np.isnan(values[name]) and all(np.isfinite(values[peak]) for peak in peaks)
 
 
 def _plain(solution: Solution | None) -> dict[str, Any]:

@@ -12,11 +12,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.device import Table
 from tvimdesign.physics import crystallization, polymer
+from tvimdesign.solve.drive import Drive
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.rig import Rig
+from tvimdesign.solve.simulate import Simulator
 
 Array = NDArray[np.float64]
+HISTORIES = 5
+"""Solid fractions, equally spaced from the least to the largest, of which the extremes are taken."""
 
 
 class Fractions(NamedTuple):
@@ -64,25 +69,44 @@ def frozen_on_cooling(rig: Rig, rate: float) -> Callable[[float], float]:
     return fraction
 
 
-def intervals(rig: Rig, model: Model, inputs: Array, switch: Mapping[str, float]) -> dict[str, tuple[float, float]]:
-    """Least and largest value (SI) of every output that a point inside the melting range leaves open, by full name."""
+def intervals(
+    rig: Rig, model: Model, inputs: Array, switch: Mapping[str, float], drives: Mapping[str, Drive] | None = None
+) -> dict[str, tuple[float, float]]:
+    """Least and largest value (SI) of every output that a point inside the melting range leaves open, by full name.
+
+    Damping peaks between the least and the largest solid fraction, so fractions between are tried too. Where the point
+    says what soft or stiff means, the cycle is simulated for each of them.
+    """
     found: dict[str, tuple[float, float]] = {}
-    supplied = [switch[name] for name in model.switch_names]
     for point in rig.points:
         low, nominal, high = fractions_at(rig, float(inputs[model.index[f"temperature@{point}"]]))
         if low == high:
             continue
-        runs = [
-            np.asarray(model.outputs(model.output_names, {f"solid_fraction@{point}": share})(inputs, supplied)).ravel()
-            for share in (low, nominal, high)
-        ]
+        runs = []
+        for share in (nominal, *np.linspace(low, high, HISTORIES)):
+            seen = _as_left(rig, model, point, float(share), drives) if _sets_a_target(model.table, point) else switch
+            outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
+            runs.append(np.asarray(outputs(inputs, [seen[name] for name in model.switch_names])).ravel())
         least, most = np.min(runs, axis=0), np.max(runs, axis=0)
         for name, a, b in zip(model.output_names, least, most, strict=True):
-            if b - a > 1e-9 * max(abs(a), abs(b)) and np.isfinite(a) and np.isfinite(b):
+            if not (np.isnan(a) or np.isclose(a, b, rtol=1e-9, atol=0.0)):
                 other = found.get(name, (a, b))
                 found[name] = (float(min(a, other[0])), float(max(b, other[1])))
         found[f"solid_fraction@{point}"] = (low, high)
     return found
+
+
+def _sets_a_target(table: Table, point: str) -> bool:
+    """Whether what soft or stiff means is read off at a point."""
+    return any(f"joint_impedance@{point}" in row.needs for row in table.outputs)
+
+
+def _as_left(
+    rig: Rig, model: Model, point: str, share: float, drives: Mapping[str, Drive] | None
+) -> Mapping[str, float]:
+    """The cycle's values where a point has a given solid fraction."""
+    other = Model(rig.table, {**rig.values, f"solid_fraction@{point}": share}, rig.points, model.cells)
+    return Simulator(other).run(other.start, drives).values
 
 
 def _on_heating(temperature: float, melting: polymer.Melting) -> float:

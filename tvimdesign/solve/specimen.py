@@ -14,15 +14,13 @@ import numpy as np
 from tvimdesign.physics import polymer
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.physics.viscoelasticity import check_rising, check_spectrum
-from tvimdesign.solve.history import fractions_at, melting_range
+from tvimdesign.solve.history import HISTORIES, fractions_at, melting_range
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.trial import Array, Column, Finding, Line
 from tvimdesign.study.model import STANDARD_POINTS
 
 PAPER = (303.15, 333.15, 373.15)
 """The temperatures of the paper's rheometer tests [K]."""
-HISTORIES = 5
-"""Solid fractions, equally spaced from the least to the largest, of which the extremes are taken."""
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,8 @@ class Design(BaseModel):
     """Chosen records and options by row name."""
     values: dict[str, float]
     """Every input and output by full name (`row` or `row@point`), SI."""
+    intervals: dict[str, tuple[float, float]] = Field(default_factory=dict)
+    """Least and largest value of what a point in the melting range leaves open; `values` has it as heated, nominal."""
     study: dict[str, Any]
     """The study it answers, resolved."""
     drives: dict[str, Any] = Field(default_factory=dict)

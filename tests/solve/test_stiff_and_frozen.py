@@ -1,0 +1,49 @@
+"""What counts as stiff at a frequency need not be frozen: the advice tells the two apart."""
+
+import numpy as np
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.study import read_study_text
+
+# Half a millimetre with a strong sink: at 30 degC and 1 Hz the supercooled melt alone is within twice a soft target.
+QUICK = "cold_side: sink, pcl_thickness: 0.6 mm, cooling_current: 1.5 A, stiffening_band: 4"
+
+
+def answered(module: str, points: str = "") -> Answer:
+    study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n{points}", "a test")
+    return answer(study, Catalog(), table_for("shear"))
+
+
+def warned(found: Answer) -> set[str]:
+    return {check.output for check in found.warnings}
+
+
+def test_a_melt_that_never_freezes_can_count_as_stiff_and_the_run_says_so() -> None:
+    found = answered(f"{QUICK}, pcl_crystallization_half_time: 100000 s")
+    assert np.isfinite(found.design.value("stiffening_time"))
+    assert np.isinf(found.design.value("frozen_time"))
+    assert "stiffening_over_freezing" in warned(found)
+
+
+def test_a_joint_that_waits_until_it_is_frozen_gets_no_such_advice() -> None:
+    found = answered("stiffening_band: 1.02")
+    assert found.design.value("stiffening_time") > found.design.value("frozen_time")
+    assert "stiffening_over_freezing" not in warned(found)
+
+
+def test_the_last_slice_of_a_layer_is_half_frozen_at_the_frozen_time() -> None:
+    # On the melting curve the middle of the window is half frozen: the far face, warmest, is the last to get there.
+    found = answered("phase_model: equilibrium, stiffening_band: 1.01")
+    stiffening = found.histories["stiffening"]
+    warmest = np.max([stiffening[f"cell_{i + 1}"] for i in range(12)], axis=0)
+    moment = np.interp(-57.5, -warmest, stiffening["time"])
+    assert found.design.value("frozen_time") == pytest.approx(moment, rel=0.01)
+
+
+def test_a_cold_point_hotter_than_the_hot_one_makes_the_thresholds_overlap() -> None:
+    points = "operating_points: {cold: {temperature: 110 degC}, hot: {temperature: 100 degC}}\n"
+    assert "thresholds_apart" in warned(answered("current: 1.5 A", points))
+    assert "thresholds_apart" not in warned(answered("current: 1.5 A"))
