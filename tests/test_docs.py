@@ -41,7 +41,8 @@ def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column:
         "far face at 100 °C": f"{values['far_face_time']:.0f} s",
         "joint soft": f"{values['softening_time']:.0f} s",
         "joint stiff again, cold side in free air": f"{values['stiffening_time']:.0f} s",
-        "the same, as the melting curve would claim": f"{values['equilibrium_stiffening_time']:.0f} s",
+        "every slice of the layer half frozen": f"{values['frozen_time']:.0f} s",
+        "stiff again, as the melting curve would claim": f"{values['equilibrium_stiffening_time']:.0f} s",
     }
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in README.splitlines() if line.startswith("|")]
     told = {row[0]: row[column] for row in rows if row[0] in expected}

@@ -105,17 +105,19 @@ def cad(
 
 @app.command()
 def simulate(
-    study: StudyFile,
-    test: Annotated[str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.")],
+    study: Annotated[
+        Path, typer.Argument(metavar="STUDY|DESIGN", help="Study file, or design.json or folder of a run.")
+    ],
+    test: Annotated[str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.")] = "",
     out: Out = None,
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Put a study's module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
+    """Put a module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
     from tvimdesign.report.simulate import simulate_study
 
-    folder = out or Path("results") / f"{study.stem}-{test}"
-    simulate_study(study, test, folder, overwrite=overwrite, as_json=json)
+    name = study.resolve().parent.name if study.suffix == ".json" else study.stem
+    simulate_study(study, test, out or Path("results") / f"{name}-{test}", overwrite=overwrite, as_json=json)
 
 
 @app.command()

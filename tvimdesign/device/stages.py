@@ -10,7 +10,7 @@ SOFTENING = Stage(
 )  # fmt: skip
 STIFFENING = Stage(
     name="stiffening", description="cooling from there until the joint is stiff again",
-    after="softening", ends="stiffening_time", drive="cooling_current", sign=-1.0, history=True,
+    after="softening", ends="return_time", drive="cooling_current", sign=-1.0, history=True,
 )  # fmt: skip
 EQUILIBRIUM_STIFFENING = Stage(
     name="equilibrium_stiffening", description="the same, as if the layer froze where it melts",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
 
 from tvimdesign.device.book import Book
@@ -13,7 +11,15 @@ from tvimdesign.physics import heat
 
 book = Book("Stiffening")
 
+HALF = 0.5
+SHARPNESS = 80.0
+
 book.inputs()
+book.option(
+    "stiffening_criterion",
+    ("impedance", "frozen"),
+    "What ends the way back: the joint's impedance, or every slice of the layer half frozen, so that it bears for good",
+)
 
 
 @book.output("N*m/rad")
@@ -49,9 +55,20 @@ def equilibrium_stiffening_time(impedance_now: Scalar, stiff_threshold: Scalar) 
 def frozen_time(stack_profile: heat.Profile) -> Scalar:
     """Time from the end of the switch until every slice of the layer is half frozen.
 
-    The slices are in series: under a lasting load the joint gives way as its least frozen slice flows.
+    The slices are in series: under a lasting load the joint gives way as its least frozen slice flows. The least is
+    taken smoothly, by the mean of exp(-80 X), which is at most 0.03 of X below it.
     """
-    return functools.reduce(np.fmin, list(stack_profile.fractions)) - 0.5
+    return -np.log(np.mean(np.exp(-SHARPNESS * (stack_profile.fractions - HALF)))) / SHARPNESS
+
+
+@book.event(STIFFENING, headline=False)
+def return_time(
+    stiffening_criterion: str, impedance_now: Scalar, stiff_threshold: Scalar, stack_profile: heat.Profile
+) -> Scalar:
+    """Time of the way back, by the criterion the study chose: stiff at its frequency, or frozen."""
+    if stiffening_criterion == "frozen":
+        return frozen_time(stack_profile)
+    return stiffening_time(impedance_now, stiff_threshold)
 
 
 @book.output(
@@ -140,10 +157,19 @@ def cold_side_temperature_reserve(peltier_max_temperature: Scalar, peak_cold_sid
     return peltier_max_temperature - peak_cold_side_temperature
 
 
+@book.output(
+    "K",
+    advice=(Rule(sense=">=", value=0.0, reason="the structure is above its service temperature while it stiffens"),),
+)
+def stiffening_structure_reserve(structure_service_temperature: Scalar, peak_cold_side_temperature: Scalar) -> Scalar:
+    """Service temperature of the structure less the highest of the pads' outer side, which touches it."""
+    return structure_service_temperature - peak_cold_side_temperature
+
+
 @book.output("s", headline=True)
-def cycle_time(response_time: Scalar, stiffening_time: Scalar) -> Scalar:
-    """Time to soften and to stiffen again."""
-    return response_time + stiffening_time
+def cycle_time(response_time: Scalar, return_time: Scalar) -> Scalar:
+    """Time to soften and to stiffen again, each by its criterion."""
+    return response_time + return_time
 
 
 @book.output("J", headline=True)

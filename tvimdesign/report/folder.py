@@ -55,7 +55,7 @@ class ResultsFolder:
         self.path.mkdir(parents=True, exist_ok=True)
         if not any(self.path.iterdir()):
             return
-        if not overwrite and (self.path / MANIFEST).exists():
+        if not overwrite and (self.path / MANIFEST).exists() and any(p.name != MANIFEST for p in self.path.iterdir()):
             raise InputError(
                 f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder"
             )

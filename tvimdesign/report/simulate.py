@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Iterator
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,28 +20,31 @@ from tvimdesign.report.plots import Drawing, PlotProcess
 from tvimdesign.report.run import catalog_of
 from tvimdesign.report.tables import curves_csv, number
 from tvimdesign.report.talk import talk, wide_console
-from tvimdesign.solve.rig import Rig, rig_for
+from tvimdesign.solve.rig import Rig, rig_for, rig_of_design
 from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
 from tvimdesign.solve.trials import find_test
-from tvimdesign.study import read_study
+from tvimdesign.study import Study, read_study
+from tvimdesign.study.design import read_design
 from tvimdesign.units import from_si, pretty
 
 
 def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json: bool) -> None:
     """Put a study's module to a test and write its folder. Raises InputError, and TvimError where drawing fails."""
     do = find_test(test)
-    study = read_study(path)
-    rig = rig_for(study, catalog_of(study), table_for(study.mode))
+    source = path / "design.json" if path.is_dir() else path
+    rig, module = _rig(source)
+    study = rig.study
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite))
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
         progress(f"{test}: testing {study.name}")
         trial = do(rig)
+        trial = replace(trial, notes=(module, *trial.notes))
         if drawing:
             drawing.begin(folder.path, [Drawing(trial.test, "trial", figure_data(trial))])
         told = findings(trial)
-        folder.write("study.yaml", path.read_bytes())
+        folder.write(f"tested{source.suffix}", source.read_bytes())
         folder.write_json("findings.json", told)
         for sheet in trial.sheets:
             folder.write(f"{sheet.name}.csv", sheet_csv(sheet))
@@ -48,7 +52,7 @@ def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json
             progress("drawing the figure")
             drawing.finish()
         progress("")
-        folder.finish("tested", {"study": path, **_records(rig)}, study.model_dump(mode="json"))
+        folder.finish("tested", {"tested": source, **_records(rig)}, study.model_dump(mode="json"))
         if as_json:
             print(json.dumps({**told, "folder": str(out)}, indent=2, allow_nan=False))
         else:
@@ -56,6 +60,19 @@ def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json
             wide_console().print(
                 f"\nCurves, figure and findings are in [bold]{escape(str(out))}[/bold]", soft_wrap=True
             )
+
+
+def _rig(source: Path) -> tuple[Rig, str]:
+    """The module of a study or of a design, and which one that is, in a sentence."""
+    if source.suffix == ".json":
+        design = read_design(source)
+        study = Study.model_validate(design.study)
+        return rig_of_design(design, catalog_of(study), table_for(study.mode)), f"Module: the design {source}."
+    study = read_study(source)
+    rig = rig_for(study, catalog_of(study), table_for(study.mode))
+    if not study.vary:
+        return rig, f"Module: {source}."
+    return rig, (f"Module: the start of {source}, not its optimum; run it and give the run's design.json to test that.")
 
 
 def _records(rig: Rig) -> dict[str, Path]:

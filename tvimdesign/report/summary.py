@@ -34,6 +34,7 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     design = answer.design
     console.print(f"[bold]{escape(design.name)}[/bold]  ({design.mode} mode)")
     console.print(_verdict(answer))
+    console.print(_in_short(answer, table))
     if not answer.found:
         _print_variables(answer, table, console, "Where the solver ended; this is not a design")
         return
@@ -149,7 +150,11 @@ def _verdict(answer: Answer) -> str:
     solution = answer.solution
     if solution is None:
         if math.isinf(answer.design.value("response_time")):
-            return "[red]The switch never ends: the current is too weak, or the cold side too warm.[/red]"
+            last = answer.histories["softening"]
+            return (
+                f"[red]The switch never ends: after {last['time'][-1]:.0f} s the layer's far face is at "
+                f"{last['far_face'][-1]:.0f} °C. The current is too weak, or the cold side too warm.[/red]"
+            )
         if broken:
             return f"[yellow]Evaluated; {broken} of {len(answer.checks)} rules and requirements do not hold.[/yellow]"
         if answer.undecided:
@@ -168,6 +173,19 @@ def _verdict(answer: Answer) -> str:
     return (
         f"[green]Optimal{warned}[/green]: {converged} of {len(starts)} starts converged{agree}; objective "
         f"{solution.objective:.5g}, against {of_start:.5g} at the study's own start."
+    )
+
+
+def _in_short(answer: Answer, table: Table) -> str:
+    """The answer in one line."""
+
+    def shown(name: str) -> str:
+        text, unit = value_text(answer, name, table), pretty(table.unit(name))
+        return text if text == "never" else f"{text} {unit}"
+
+    return (
+        f"Soft: {shown('softening_time')}. Stiff again: {shown('stiffening_time')}, its layer half frozen: "
+        f"{shown('frozen_time')}. {shown('envelope_diameter')} across, {shown('module_mass')}."
     )
 
 

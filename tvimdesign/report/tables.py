@@ -112,7 +112,7 @@ def margin_text(check: Check, table: Table) -> str:
     margin, unit = margin_of(check, table)
     margin = margin if abs(check.margin) > NOTHING else 0.0
     if unit == "1" and not check.absolute:
-        return f"{margin:+.1%}" if abs(margin) < 100 else "ample"
+        return f"{margin:+.1%}" if abs(margin) < 100 else "ample" if margin > 0.0 else "far off"
     return f"{margin:+.3g} {pretty(unit)}".rstrip()
 
 
@@ -141,35 +141,50 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
         "feasible": answer.feasible,
         "choices": design.choices,
         "values": {
-            name: _entry(name, value, table) | _ends(answer, name, table) for name, value in design.values.items()
+            name: _entry(name, value, design, table) | _ends(answer, name, table)
+            for name, value in design.values.items()
         },
         "checks": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.checks],
         "warnings": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.warnings],
         "drives": design.drives,
-        "at_default_currents": {name: _entry(name, value, table) for name, value in answer.constant_current.items()},
+        "at_default_currents": {
+            name: _entry(name, value, design, table) for name, value in answer.constant_current.items()
+        },
         "best_constant_currents": _best_constant(answer, table),
         "solution": _all_finite(design.solution),
     }
 
 
-def _entry(name: str, value: float, table: Table) -> dict[str, Any]:
+def _origin(name: str, design: Design, table: Table) -> str:
+    """Where a value comes from: computed, found, set by the study, or the source of the row's default."""
+    row, base = table.row(name), name.partition("@")[0]
+    if not isinstance(row, Input):
+        return "computed"
+    if base in design.study["vary"]:
+        return "found by the optimiser"
+    if base in design.study["module"]:
+        return "set by the study"
+    return "an operating point of the study" if row.per_point else row.source
+
+
+def _entry(name: str, value: float, design: Design, table: Table) -> dict[str, Any]:
     row = table.row(name)
     unit = table.unit(name)
     return {
         "value": _finite(from_si(value, unit)),
         "unit": pretty(unit),
         "kind": "input" if isinstance(row, Input) else "output",
-        "source": row.source if isinstance(row, Input) else "computed",
+        "source": _origin(name, design, table),
         "group": row.group,
         "description": row.description,
     }
 
 
 def _best_constant(answer: Answer, table: Table) -> dict[str, Any]:
-    constant = answer.solution.constant if answer.solution else None
+    constant, design = answer.solution.constant if answer.solution else None, answer.design
     if constant is None:
         return {}
-    values = {name: _entry(name, value, table) for name, value in constant.values.items()}
+    values = {name: _entry(name, value, design, table) for name, value in constant.values.items()}
     return {"objective": constant.objective, "values": values}
 
 

@@ -92,7 +92,7 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
         progress("simulating one working cycle")
         model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
-        switch = Simulator(model).run(inputs)
+        switch = Simulator(model).run_to_show(inputs)
         values = model.values(inputs, switch.values)
         status, drives = "evaluated", {}
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
@@ -119,7 +119,7 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
 _COMPARED = {
     "softening": ("response_time", "softening_time", "switch_energy", "peak_power", "peak_voltage",
                   "peak_peltier_temperature"),
-    "stiffening": ("stiffening_time", "stiffening_energy", "peak_cold_side_temperature"),
+    "stiffening": ("stiffening_time", "frozen_time", "stiffening_energy", "peak_cold_side_temperature"),
 }  # fmt: skip
 
 

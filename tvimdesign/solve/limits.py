@@ -79,8 +79,26 @@ def refuse_impossible(study: Study, catalog: Catalog, table: Table) -> None:
     found = impossible(table.evaluate(start, rows), table)
     if found:
         raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
+    _refuse_idle(study, start)
     if not study.vary:
         _refuse_unreachable(start, table)
+
+
+_ONLY_WITH = {
+    "cold_side": ("sink", ("sink_contact", "sink_capacity", "sink_area", "sink_coefficient")),
+    "impedance_targets": ("stated", ("soft_impedance", "stiff_impedance")),
+}
+"""Inputs that count only where an option is chosen: option, its word, the inputs."""
+
+
+def _refuse_idle(study: Study, start: Mapping[str, Any]) -> None:
+    """Raise InputError for what the study sets to no effect."""
+    for option, (word, names) in _ONLY_WITH.items():
+        idle = [name for name in names if name in study.module or name in study.vary]
+        if idle and option in start and start[option] != word and option not in study.vary:
+            raise InputError(
+                f"{', '.join(idle)}: no effect, as {option} is {start[option]}; add `{option}: {word}` under `module`"
+            )
 
 
 def _refuse_unreachable(start: Mapping[str, Any], table: Table) -> None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
+from tvimdesign.solve.drive import Drive
 from tvimdesign.study import Study, given
+from tvimdesign.study.design import Design
 
 
 @dataclass(frozen=True)
@@ -19,6 +21,8 @@ class Rig:
     catalog: Catalog
     table: Table
     values: Mapping[str, Any]
+    drives: Mapping[str, Drive] = field(default_factory=dict)
+    """Currents that follow a profile, by stage."""
 
     @property
     def points(self) -> tuple[str, ...]:
@@ -33,3 +37,13 @@ class Rig:
 def rig_for(study: Study, catalog: Catalog, table: Table) -> Rig:
     """Resolve a study for testing; what it varies stands at its start. Raises InputError for what has no value."""
     return Rig(study, catalog, table, given(study, catalog, table))
+
+
+def rig_of_design(design: Design, catalog: Catalog, table: Table) -> Rig:
+    """The module of a design, with the currents found for it. Raises InputError for what has no value."""
+    study = Study.model_validate({**design.study, "vary": {}, "profile": {}})
+    study = study.model_copy(update={"module": {**study.module, **design.choices}})
+    values = given(study, catalog, table)
+    numbers = {name: design.values[name] for name, value in values.items() if isinstance(value, float | int)}
+    drives = {stage: Drive.from_plain(plain) for stage, plain in design.drives.items()}
+    return Rig(study, catalog, table, {**values, **numbers}, drives)

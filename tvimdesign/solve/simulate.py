@@ -19,6 +19,7 @@ from tvimdesign.solve.stage_model import StageModel
 STEPS = 25  # samples of one stretch of time
 TOLERANCE = 1e-5  # with these, times of events are within 1e-4 of what they converge to
 FIRST_STRETCH = 120.0  # s; each after it is twice as long
+SHOWN_STRETCHES = 4  # of a stage that is to be drawn
 STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
 
 Array = NDArray[np.float64]
@@ -63,12 +64,24 @@ class Simulator:
         self.tolerance, self.steps = tolerance, steps
         self._stages: dict[str, _StageSimulator] = {}
 
+    def run_to_show(self, inputs: Array, drives: Mapping[str, Drive] | None = None) -> Switch:
+        """Simulate all stages twice, the second time with samples enough to draw each, however short it is."""
+        found = self.run(inputs, drives)
+        ends = {name: found.values[stage.stage.ends] for name, stage in self.model.stages.items()}
+        stretches = {name: end / SHOWN_STRETCHES for name, end in ends.items() if 0.0 < end < np.inf}
+        return self.run(inputs, drives, stretches=stretches)
+
     def run(
-        self, inputs: Array, drives: Mapping[str, Drive] | None = None, stages: Collection[str] | None = None
+        self,
+        inputs: Array,
+        drives: Mapping[str, Drive] | None = None,
+        stages: Collection[str] | None = None,
+        stretches: Mapping[str, float] | None = None,
     ) -> Switch:
         """Simulate the named stages (all unless given) and those they start from; the rest has infinite values.
 
-        `drives` are currents by stage where they are not the constant ones of the inputs.
+        `drives` are currents by stage where they are not the constant ones of the inputs; `stretches` the lengths [s]
+        of time, by stage, that are sampled at a time at first.
         """
         values = dict.fromkeys(self.model.switch_names, np.inf)
         trajectories: dict[str, Trajectory] = {}
@@ -82,7 +95,9 @@ class Simulator:
                 continue
             drive = (drives or {}).get(stage.like or name) or self.constant_drive(name, inputs)
             simulator = self._stage(name)
-            found, trajectories[name] = simulator.run(inputs, drive, before.states[:, -1] if before else None)
+            stretch = (stretches or {}).get(name, FIRST_STRETCH)
+            state = before.states[:, -1] if before else None
+            found, trajectories[name] = simulator.run(inputs, drive, state, stretch)
             values |= found
             balance = simulator.balance(inputs, trajectories[name]) if np.isfinite(found[stage.ends]) else None
             if balance is not None:
@@ -163,28 +178,30 @@ class _StageSimulator:
             self.stage.rates(state, drive, inputs), self.stage.watch(self._integrals)(state, drive, inputs)
         )
 
-    def run(self, inputs: Array, drive: Drive, before: Array | None) -> tuple[dict[str, float], Trajectory]:
+    def run(
+        self, inputs: Array, drive: Drive, before: Array | None, stretch: float
+    ) -> tuple[dict[str, float], Trajectory]:
         """Simulate until every event has happened, nothing changes any more, or the horizon is over."""
         found = _Found(dict.fromkeys(self._events, np.inf))
         horizon = float(inputs[self.model.index["horizon"]])
         start = self.stage.initial(inputs) if before is None else self.stage.begin(before, inputs)
         begin = np.append(np.asarray(start).ravel(), np.zeros(len(self._integrals)))
         constants = np.asarray(self._constants(inputs)).ravel()
-        time, length = 0.0, min(FIRST_STRETCH, horizon)
+        time, length = 0.0, stretch
         pieces: list[tuple[Array, Array, Array]] = []
         while time < horizon and not all(np.isfinite(moment) for moment in found.times.values()):
             length = min(length, drive.next_corner(time) - time, horizon - time)
             currents = drive.at(time + length * self._shares)
-            stretch = self._stretch(begin, constants, length, currents)
-            watched = self._watch(stretch, inputs, currents)
-            self._look(found, (time, length, currents), stretch, watched, inputs)
-            pieces.append((time + length * self._shares, stretch, watched))
-            begin, time = stretch[:, -1], time + length
+            states = self._stretch(begin, constants, length, currents)
+            watched = self._watch(states, inputs, currents)
+            self._look(found, (time, length, currents), states, watched, inputs)
+            pieces.append((time + length * self._shares, states, watched))
+            begin, time = states[:, -1], time + length
             rate = np.asarray(self.stage.rates(begin[: self.stage.state_size], currents[-1], inputs)).ravel()
             constant = np.isinf(drive.next_corner(time))
             if constant and np.max(np.abs(rate)) * (horizon - time) < STALLED:
                 break
-            length = 2.0 * length if constant else np.inf
+            length = 2.0 * length if length >= FIRST_STRETCH else stretch
         return self._summary(found, pieces, inputs, drive)
 
     def _stretch(self, begin: Array, constants: Array, length: float, currents: Array) -> Array:

@@ -54,7 +54,7 @@ class Carried:
 def slice_histories(rig: Rig) -> SliceHistory:
     """Temperatures and solid fractions of the layer's cells over the working cycle: softening, then stiffening."""
     model = Model(rig.table, rig.values, rig.points, rig.study.solver.cells)
-    cycle = Simulator(model, steps=SAMPLES).run(model.start, stages=["stiffening"])
+    cycle = Simulator(model, steps=SAMPLES).run(model.start, rig.drives, ["stiffening"])
     begins = 0.0
     pieces: list[tuple[Array, Array, Array]] = []
     for name, trajectory in cycle.trajectories.items():
