@@ -47,7 +47,7 @@ def test_stiffening_to_a_point_in_the_melting_range_takes_from_to_and_not_one_ti
     low, high = found.intervals["stiffening_time"]
     assert 0.0 < low < found.design.value("stiffening_time") < high
     assert found.intervals["cycle_time"] == pytest.approx(
-        [found.design.value("response_time") + t for t in (low, high)]
+        [found.design.value("response_time") + t for t in (low, high)], rel=1e-4
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import io
 import math
 from typing import Any
@@ -117,7 +118,7 @@ def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: st
     colours = mpl.colormaps["plasma"]
     for i in range(_PROFILES):
         wanted = time[-1] * i / (_PROFILES - 1)
-        at = next(k for k, moment in enumerate(time) if moment >= wanted)
+        at = min(bisect.bisect_left(time, wanted), len(time) - 1)
         line = [history["near_face"][at], *(history[name][at] for name in cells), history["far_face"][at]]
         axes.plot(depths, line, color=colours(0.9 * i / (_PROFILES - 1)), label=f"{time[at]:.0f} s")
     axes.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange")
