@@ -110,3 +110,24 @@ def test_a_record_with_a_negative_modulus_is_named_by_the_command(tvimdesign: Co
     assert "odd.yaml" in done.stderr
     assert "tables.melt_spectrum.rows[1].modulus: -82513.7 does not do: it must be greater than zero" in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_the_design_of_a_run_is_tested_in_place_of_the_start_of_its_study(tvimdesign: Command, tmp_path: Path) -> None:
+    study = tmp_path / "thin.yaml"
+    study.write_text("mode: shear\nvary: {pcl_thickness: [0.6 mm, 2 mm]}\nminimize: module_mass\nsolver: {starts: 1}\n")
+    assert tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "run").returncode == 0
+    told = {}
+    for name, source in (("start", study), ("design", tmp_path / "run")):
+        done = tvimdesign("simulate", source, "--test", "sine", "--json", "--out", tmp_path / name)
+        assert done.returncode == 0, done.stderr
+        told[name] = json.loads(done.stdout)
+    assert "the start of" in told["start"]["notes"][0]
+    assert "the design" in told["design"]["notes"][0]
+    values = json.loads((tmp_path / "run/results.json").read_text())["values"]
+    stiffness = {
+        name: next(found["value"] for found in one["findings"] if found["name"] == "stiffness@hot")
+        for name, one in told.items()
+    }
+    assert stiffness["design"] == pytest.approx(values["joint_stiffness@hot"]["value"], rel=1e-3)
+    assert stiffness["start"] != pytest.approx(stiffness["design"], rel=1e-3)
+    assert values["pcl_thickness"]["source"] == "found by the optimiser"

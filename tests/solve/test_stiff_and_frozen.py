@@ -5,6 +5,7 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
+from tvimdesign.errors import InputError
 from tvimdesign.solve.answer import Answer, answer
 from tvimdesign.study import read_study_text
 
@@ -47,3 +48,20 @@ def test_a_cold_point_hotter_than_the_hot_one_makes_the_thresholds_overlap() -> 
     points = "operating_points: {cold: {temperature: 110 degC}, hot: {temperature: 100 degC}}\n"
     assert "thresholds_apart" in warned(answered("current: 1.5 A", points))
     assert "thresholds_apart" not in warned(answered("current: 1.5 A"))
+
+
+def test_the_way_back_ends_by_the_criterion_that_was_chosen() -> None:
+    frozen = answered("stiffening_criterion: frozen").design
+    assert frozen.value("return_time") == pytest.approx(frozen.value("frozen_time"), rel=1e-6)
+    stiff = answered("current: 1.5 A").design
+    assert stiff.value("return_time") == pytest.approx(stiff.value("stiffening_time"), rel=1e-6)
+    assert stiff.value("return_time") < 0.95 * frozen.value("return_time")
+    # What is waited for longer costs more.
+    assert stiff.value("stiffening_energy") < frozen.value("stiffening_energy")
+    assert frozen.value("cycle_time") == pytest.approx(frozen.value("response_time") + frozen.value("return_time"))
+
+
+@pytest.mark.parametrize("setting", ["sink_area: 100 cm^2", "soft_impedance: 5 N.m/rad"])
+def test_what_a_study_sets_to_no_effect_is_refused(setting: str) -> None:
+    with pytest.raises(InputError, match=r"no effect, as (cold_side is open|impedance_targets is operating_points)"):
+        answered(setting)

@@ -120,3 +120,15 @@ def finding(name: str, unit: str, meaning: str, numbers: Sequence[float]) -> Fin
 def notes_for(found: Sequence[Case]) -> tuple[str, ...]:
     """What a reader of these cases must know."""
     return (LINEAR, HISTORY) if any(case.history.name for case in found) else (LINEAR,)
+
+
+def overload_notes(rig: Rig, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
+    """Where a test asks more torque [N*m] of a joint than it bears: the points, in a sentence; nothing otherwise."""
+    most = float(rig.row("holding_torque"))
+    beyond = ", ".join(dict.fromkeys(case.point for case, torque in torques if torque > most))
+    if not beyond:
+        return ()
+    return (
+        f"At {beyond} the test asks for more torque than the {most:.3g} N·m the joint bears: there the curves are "
+        "those of a joint that does not break, to be read as shares.",
+    )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Supplied, Table
+from tvimdesign.device import Input, Supplied, Table
 from tvimdesign.errors import InputError
 from tvimdesign.study import Study, given
 from tvimdesign.units import format_quantity, from_si, pretty, to_si
@@ -123,7 +123,12 @@ def impossible(values: Mapping[str, float], table: Table) -> list[str]:
         for rule in row.rules:
             if rule.exists_above is not None and not values[row.name] > rule.exists_above:
                 value, least = (format_quantity(number, row.unit) for number in (values[row.name], rule.exists_above))
-                found.append(f"{row.name} is {value}, it must be above {least}: {row.description}")
+                above = sorted(table.ancestors(row.name))
+                inputs = [name for name in above if isinstance(table.row(name), Input)][:_INPUTS_NAMED]
+                found.append(
+                    f"{row.name} is {value}, it must be above {least}: {row.description}; it follows from "
+                    + ", ".join(inputs)
+                )
     return found
 
 
@@ -134,6 +139,7 @@ def advice_of(table: Table) -> list[Limit]:
     ]
 
 
+_INPUTS_NAMED = 6
 _STEPS = {"mm": 0.1, "K": 1.0, "degC": 1.0, "s": 1.0}
 """What people relax a limit by that has no size of its own, in its unit; a hundredth of the unit elsewhere."""
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tvimdesign.solve import link
-from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
+from tvimdesign.solve.bench import Case, cases, finding, notes_for, overload_notes, with_paper_points
 from tvimdesign.solve.link import Array, Motion
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
@@ -68,7 +68,7 @@ def release(rig: Rig, angle: float = ANGLE, hold: float = HOLD, kelvin_voigt: bo
             "melt has relaxed by then, a frozen layer has only begun to.",
             "Torque is that of the module on the link.",
             *notes_for([one.case for one in found]),
-            *_overload(rig, found),
+            *overload_notes(rig, [(one.case, float(abs(one.motion.torque[0]))) for one in found]),
         ),
     )
 
@@ -153,12 +153,3 @@ def _findings(rig: Rig, found: Sequence[Released]) -> list[Finding]:
             ]  # fmt: skip
         numbers += [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
     return numbers
-
-
-def _overload(rig: Rig, found: Sequence[Released]) -> list[str]:
-    most = float(rig.row("holding_torque"))
-    beyond = dict.fromkeys(one.case.point for one in found if abs(one.motion.torque[0]) > most)
-    if not beyond:
-        return []
-    return [f"At {', '.join(beyond)} the torque that holds the link is more than the {most:.3g} N·m the joint bears: "
-            "there the curves are those of a joint that does not break, to be read as shares."]  # fmt: skip

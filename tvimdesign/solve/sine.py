@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tvimdesign.solve import link
-from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
+from tvimdesign.solve.bench import Case, cases, finding, notes_for, overload_notes, with_paper_points
 from tvimdesign.solve.link import Array, Motion
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
@@ -36,7 +36,7 @@ def sine(rig: Rig, periods: int = PERIODS) -> Trial:
     rig = with_paper_points(rig)
     found = [_swung(rig, case, periods) for case in cases(rig)]
     shown = [one for one in found if one.case.history.shown]
-    frequencies = ", ".join(f"{one.frequency:g} Hz" for one in {one.case.point: one for one in found}.values())
+    frequencies = ", ".join(dict.fromkeys(f"{one.frequency:g} Hz" for one in found))
     return Trial(
         test="sine",
         title=f"Turned as a sine of {float(rig.row('stroke')):g} rad ({frequencies})",
@@ -52,6 +52,7 @@ def sine(rig: Rig, periods: int = PERIODS) -> Trial:
             "The angle is prescribed, so the link's inertia takes no part; torque is that of the module on the link.",
             f"The layer is free of strain at first; the loops and numbers are those of period {periods}.",
             *notes_for([one.case for one in found]),
+            *overload_notes(rig, [(one.case, float(np.max(np.abs(one.motion.torque)))) for one in found]),
         ),
     )  # fmt: skip
 

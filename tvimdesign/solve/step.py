@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.solve import link
-from tvimdesign.solve.bench import Case, cases, finding, notes_for, with_paper_points
+from tvimdesign.solve.bench import Case, cases, finding, notes_for, overload_notes, with_paper_points
 from tvimdesign.solve.linear import doubling
 from tvimdesign.solve.link import Motion
 from tvimdesign.solve.rig import Rig
@@ -17,6 +18,7 @@ from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
 RISE = 0.01  # s
 WATCHED = 100.0  # s
 FIRST_STEP = 1e-4  # s
+HALF_MOLTEN = 0.5
 LOADED = "step_of_impedance"
 
 
@@ -52,8 +54,18 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
             "Temperatures of the cycle do not depend on the load; a heated layer melts along its nominal curve, a "
             "cooled one freezes with the nominal kinetics.",
             *notes_for([case for case, _ in found]),
+            *overload_notes(rig, [(case, float(np.max(np.abs(moved.torque)))) for case, moved in found]),
+            *_never_soft(history),
         ),
     )  # fmt: skip
+
+
+def _never_soft(history: SliceHistory) -> tuple[str, ...]:
+    """What to say of a cycle that does not get as far as melting the layer."""
+    if float(np.min(history.fractions)) < HALF_MOLTEN:
+        return ()
+    hottest = float(np.max(history.temperatures)) - ZERO_CELSIUS
+    return (f"At this current the layer does not melt: its hottest slice comes to {hottest:.0f} °C.",)
 
 
 def _turned(rig: Rig, case: Case, rise: float) -> Motion:
