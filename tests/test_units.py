@@ -125,10 +125,10 @@ HOSTILE = [
 @pytest.mark.parametrize("text", HOSTILE)
 def test_hostile_text_is_refused_at_once(text: str) -> None:
     parse_quantity("1 mm", "mm")
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(UnitError):
         parse_quantity(text, "mm")
-    assert time.perf_counter() - start < 1.0
+    assert time.process_time() - start < 1.0
 
 
 @settings(deadline=None)

@@ -103,9 +103,9 @@ NUMBERS = {
 @pytest.mark.parametrize("case", TEXTS)
 def test_hostile_text_is_refused_in_time(problems: Callable[..., list[str]], case: str) -> None:
     text, said = TEXTS[case]
-    start = time.perf_counter()
+    start = time.process_time()
     lines = problems(text)
-    assert time.perf_counter() - start < LIMIT
+    assert time.process_time() - start < LIMIT
     assert said in "\n".join(lines)
     assert len(lines) <= 51
     assert all(line.isprintable() and len(line) < 1000 for line in lines)
@@ -156,10 +156,10 @@ def test_a_large_file_is_not_read(tmp_path: Path) -> None:
     path = tmp_path / "large.yaml"
     with path.open("wb") as file:
         file.truncate(50_000_000)
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(StudyError, match=r"large\.yaml: the file has 50 MB, a study at most 1 MB"):
         read_study(path)
-    assert time.perf_counter() - start < 0.1
+    assert time.process_time() - start < 0.1
 
 
 def test_no_such_file(tmp_path: Path) -> None:
