@@ -220,3 +220,28 @@ def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
 def test_advice_that_is_not_followed_is_told(tmp_path: Path) -> None:
     found = answer(_study("mode: shear\n"), Catalog(tmp_path), TABLE)
     assert "structure_temperature_reserve" in {warning.output for warning in found.warnings}
+
+
+@pytest.mark.parametrize(
+    ("targets", "said"),
+    [
+        ("soft_impedance: 0.5 N.m/rad", "soft_impedance 0.5 N·m/rad cannot be reached: the softest joint"),
+        ("stiff_impedance: 90000 N.m/rad", "stiff_impedance 90000 N·m/rad cannot be reached: the stiffest joint"),
+    ],
+)
+def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets: str, said: str) -> None:
+    text = (
+        f"mode: shear\nmodule: {{impedance_targets: stated, soft_impedance: 40 N.m/rad, {targets}}}\n".replace(
+            "soft_impedance: 40 N.m/rad, soft_", "soft_"
+        )
+        + "vary: {pcl_thickness: [0.6 mm, 2 mm], wire_diameter: [1.5 mm, 3 mm]}\nminimize: response_time\n"
+    )
+    with pytest.raises(InputError, match=said) as caught:
+        _solve(read_study_text(text, "a test"))
+    # The target it names can be reached: a little beyond it on the side of what is possible, the search goes on.
+    possible = str(caught.value).rpartition("target is ")[2]
+    number, unit = possible.split(" ")
+    word = targets.partition(":")[0]
+    eased = float(number) * (1.02 if word.startswith("soft") else 0.98)
+    again = text.replace(targets, f"{word}: {eased:g} {unit.replace('·', '.')}")
+    assert _solve(read_study_text(again, "a test")).starts

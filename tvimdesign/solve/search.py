@@ -11,6 +11,7 @@ from tvimdesign.device import Input, Table
 from tvimdesign.errors import InputError
 from tvimdesign.solve.account import account
 from tvimdesign.solve.optimizer import Array, Optimizer, Progress, Run
+from tvimdesign.solve.reach import refuse_unreachable
 from tvimdesign.solve.solution import Constant, Solution, Start
 from tvimdesign.study import Options, Study
 from tvimdesign.units import format_quantity
@@ -20,6 +21,7 @@ MAX_COMBINATIONS = 500
 
 def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = lambda _: None) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError."""
+    refuse_unreachable(study, catalog, table)
     sizes = _listed_sizes(study, table)
     records = _record_choices(study, table)
     runs = study.solver.starts + len(sizes)
