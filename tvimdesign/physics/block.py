@@ -1,11 +1,11 @@
 """A block of polymer squeezed between the faces of two vanes: its stiffness, and what it keeps of a hold.
 
 The block does not slip on its faces, which have the sides w and h; its depth is L, and n of them stand at the mean
-radius r about the axis. It pushes and never pulls. How its stiffness follows from the relaxation spectrum: shear
-modes are the spectrum's, and the bulk modulus is one elastic constant, frozen and molten alike, E = 9 K G/(3 K + G). That is
-E = 2 (1 + nu) G with nu of the record in the frozen polymer and 3 G in the melt, without a rule between. So each mode
-of a block is that of its shear modulus, k_m = 3 G_m (1 + 2 S^2) n A r^2/L, and the bulk modulus is one more elastic
-spring in series with them all, beside that of the structure.
+radius r about the axis. It pushes and never pulls. How its stiffness follows from the relaxation spectrum: the modes
+are those of shear, and the bulk modulus is one elastic constant, frozen and molten alike. E = 9 K G/(3 K + G) then is
+2 (1 + nu) G with nu of the record in the frozen polymer and 3 G in the melt, with no rule between needed. So a mode of
+the block is one of shear, k_m = 3 G_m (1 + 2 S^2) n A r^2/L, and the bulk modulus is one more elastic spring in series
+with them all, as the structure is.
 Sources: [GL] Gent and Lindley, Proc. Inst. Mech. Eng. 173 (1959) 111 (bonded blocks, and their bulk correction);
 [G] Gent, Engineering with Rubber, 2nd ed. (2001), ch. 3; [L] Love, Mathematical Theory of Elasticity (constants of
 isotropic bodies); [F] Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 1 and 3 (Maxwell elements).
