@@ -204,6 +204,15 @@ def test_gap_after_a_hold_by_a_rigid_structure_is_the_backlash_of_the_formula(pa
     assert found == pytest.approx(block.backlash(0.1, 2.0, modes, precompression), rel=1e-6, abs=1e-9)
 
 
+@pytest.mark.parametrize("hold", [1e-3, 0.1, 10.0])
+@NAMED
+def test_share_of_a_held_angle_makes_the_formula_right_to_a_fifth(pair: str, hold: float) -> None:
+    modes = PAIRS[pair].first
+    exact = one_sided.gap(contact.held(JOINT, Blocks(modes, modes), 0.05, hold), Blocks(modes, modes))
+    share = block.held_share(hold, JOINT.structure_stiffness, modes)
+    assert 1.0 - 1e-9 < block.backlash(0.05 * share, hold, modes) / exact < 1.2
+
+
 def test_elastic_blocks_never_lose_a_link_that_is_swung() -> None:
     blocks = Blocks([(1e16, 300.0)], [(1e16, 100.0)])
     moved = contact.swung(JOINT, blocks, 0.1, 3.0, 3, 96)

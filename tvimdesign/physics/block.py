@@ -100,12 +100,22 @@ def held_internal(compression: Any, time: Any, modes: Modes) -> list[Any]:
     return [compression * -np.expm1(-time / tau) for tau, _ in modes]
 
 
+def held_share(time: Any, structure: Any, modes: Modes) -> Any:
+    """Share of a held angle [1] that the block itself has taken at the end of a hold, S/(S + K(t)).
+
+    The structure S [N*m/rad], volume included, takes the rest. This is the quasi-elastic approximation (Christensen,
+    Theory of Viscoelasticity, 2nd ed.; Schapery 1965): exact where the block is soft or elastic beside the structure;
+    times `backlash` of the whole angle it is up to a fifth more than `solve.contact.held` gives (tests).
+    """
+    return structure / (structure + relaxation_modulus(time, modes))
+
+
 def backlash(angle: Any, time: Any, modes: Modes, precompression: Any = 0.0) -> Any:
     """Angle over which no block touches right after a hold at an angle [rad]: all that springs back at once has.
 
     `precompression` is the angle by which either block is squeezed with the link at rest. The block ahead was held by
     both angles together, the one behind by what was left of its precompression, if anything. Structure and volume
-    count as rigid here; behind a structure the hold itself gives way, see `solve.contact.held` with `one_sided.gap`.
+    count as rigid here: behind them take `held_share` of the angle, or `solve.contact.held` with `one_sided.gap`.
     """
     ahead = held_internal(angle + precompression, time, modes)
     behind = held_internal(np.fmax(precompression - angle, 0.0), time, modes)
