@@ -66,7 +66,7 @@ def radau(blocks: Blocks, angle: float, hold: float, times: Array) -> tuple[Arra
         def distance(_: float, y: Array, __: list[bool]) -> float:
             return float((y[0] if side == 0 else -y[0]) - parts(y)[side][0])
 
-        distance.terminal = True  # type: ignore[attr-defined]  # scipy's way to say so
+        distance.terminal = True
         return distance
 
     ahead, behind = passing(0), passing(1)
@@ -224,6 +224,43 @@ def test_elastic_blocks_never_lose_a_link_that_is_swung() -> None:
     # Once every half period one block is left and the other met; a sine's zeros are those moments.
     inside = [event.time for event in moved.events if event.time < 0.99]
     assert inside == pytest.approx(np.repeat(np.arange(1, 6) / 6.0, 2), abs=1e-9)
+
+
+def test_block_that_is_only_grazed_between_two_samples_is_found() -> None:
+    # Faces 0.0999 rad away on either side, ten samples a period: the crests of 0.1 rad lie between samples.
+    blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
+    moved = contact.swung(JOINT, blocks, 0.1, 1.0, 1, 10, precompression=-0.0999)
+    reach = np.arccos(0.999) / (2.0 * np.pi)
+    expected = [0.25 - reach, 0.25 + reach, 0.75 - reach, 0.75 + reach]
+    assert [event.time for event in moved.events] == pytest.approx(expected, rel=1e-9)
+    assert [(event.side, event.touching) for event in moved.events] == [(0, True), (0, False), (1, True), (1, False)]
+    assert moved.lost_share(0.0, 1.0) == pytest.approx(1.0 - 4.0 * reach, rel=1e-9)
+
+
+def test_link_left_again_within_a_step_is_found() -> None:
+    # Blocks squeezed by as much as the swing but for its crest: the one behind is left there alone.
+    blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
+    moved = contact.swung(JOINT, blocks, 0.1, 1.0, 1, 10, precompression=0.0999)
+    reach = np.arccos(0.999) / (2.0 * np.pi)
+    expected = [0.25 - reach, 0.25 + reach, 0.75 - reach, 0.75 + reach]
+    assert [event.time for event in moved.events] == pytest.approx(expected, rel=1e-9)
+    assert [(event.side, event.touching) for event in moved.events] == [(1, False), (1, True), (0, False), (0, True)]
+    assert moved.lost_share(0.0, 1.0) == 0.0
+
+
+def test_first_swing_between_faces_out_of_reach_is_a_period_of_the_springs() -> None:
+    blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
+    moved = contact.released(JOINT, blocks, 0.1, np.array([0.2, 0.2]))
+    assert moved.events == ()
+    step = np.max(np.diff(moved.motion.times))
+    assert moved.first_swing() == pytest.approx(2.0 * np.pi / SWING, abs=1.01 * step)
+    assert moved.lost_share(0.0, moved.first_swing()) == 1.0
+
+
+def test_release_ends_when_its_energy_is_gone() -> None:
+    moved = contact.released(JOINT, PAIRS["melt"], 0.1, contact.squeezed(PAIRS["melt"], 0.5))
+    share = moved.motion.energy / moved.motion.energy[0]
+    assert share[-1] <= link.DEAD**2 < share[-2 * link.SAMPLES_A_PERIOD]
 
 
 def test_fluid_blocks_are_pushed_aside_once_and_not_touched_again() -> None:

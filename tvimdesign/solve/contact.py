@@ -35,7 +35,7 @@ def released(joint: Joint, blocks: Blocks, angle: float, internal: Array) -> One
     course.start(angle, 0.0, internal)
     enough = link.DEAD**2 * course.energy()
     first = 2.0 * np.pi / link.SAMPLES_A_PERIOD * np.sqrt(joint.inertia / _stiffest(joint, blocks))
-    while course.time < link.LONGEST and len(course.columns) < link.MOST_SAMPLES and course.energy() > enough:
+    while not _over(course, enough):
         _while_the_same_touch(course, first, enough)
     return course.found()
 
@@ -86,5 +86,10 @@ def _while_the_same_touch(course: Course, first: float, enough: float) -> None:
             course.across(step)
             if len(course.events) > events:
                 return
-        if course.energy() < enough or course.time > link.LONGEST or len(course.columns) > link.MOST_SAMPLES:
+        if _over(course, enough):
             return
+
+
+def _over(course: Course, enough: float) -> bool:
+    """Whether nothing is left to be seen, or too long was looked at it."""
+    return course.energy() <= enough or course.time >= link.LONGEST or len(course.columns) >= link.MOST_SAMPLES

@@ -25,8 +25,6 @@ SEARCHED = 1e-13
 """Share of a step to which an event is located."""
 NUDGE = 2.0**-10
 """Share of a step taken where a block is grazed, before it is asked again whether it touches."""
-ROUNDING = 1e-15
-"""Share of its terms below which a pull is rounding, and leaves a block as it was."""
 TURNS_OF_A_SWING = 2
 
 
@@ -91,19 +89,15 @@ class Regime:
     def leaving(self, side: int, state: Array, end: Array, step: float) -> float | None:
         """First time [s] in a step at which a block's pull gets the wrong sign, or None; `end` is the step's.
 
-        A pull that turns round within the step is looked at where it turns.
+        A pull that falls and rises again within the step is looked at where it turns.
         """
         sign = 1.0 if self.touching[side] else -1.0
         pull, slope = sign * self.pulls[side], sign * self.slopes[side]
-        rounding = ROUNDING * float(np.abs(pull) @ np.abs(state))
         starts, ends = float(slope @ state), float(slope @ end)
-        if pull @ end >= -rounding and not starts < 0.0 < ends:
+        if pull @ end >= 0.0 and not starts < 0.0 < ends:
             return None
-        before, after = 0.0, step
-        if starts * ends < 0.0:
-            turn = self._zero(slope, state, 0.0, step)
-            before, after = (before, turn) if starts < 0.0 else (turn, after)
-        return self._zero(pull, state, before, after) if self._at(pull, state, after) < -rounding else None
+        after = self._zero(slope, state, 0.0, step) if starts < 0.0 < ends else step
+        return self._zero(pull, state, 0.0, after) if self._at(pull, state, after) < 0.0 else None
 
     def _at(self, row: Array, state: Array, time: float) -> float:
         from scipy.linalg import expm
