@@ -35,11 +35,15 @@ def layer_angle(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes)
     return (joint.structure_stiffness * angle + pull) / (joint.structure_stiffness + total)
 
 
+def layer_pull(angle: Any, internal: Sequence[Any], modes: Modes) -> Any:
+    """Torque of the modes if the layer stood at an angle [N*m], sum k_m (theta - q_m): with a rigid structure, M."""
+    return sum(stiffness * (angle - inner) for (_, stiffness), inner in zip(modes, internal, strict=True))
+
+
 def branch_torque(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
     """Torque the branch takes [N*m], S (theta - phi) = S/(S + sum k_m) sum k_m (theta - q_m), which does not cancel."""
-    pull = sum(stiffness * (angle - inner) for (_, stiffness), inner in zip(modes, internal, strict=True))
     total = sum(stiffness for _, stiffness in modes)
-    return joint.structure_stiffness / (joint.structure_stiffness + total) * pull
+    return joint.structure_stiffness / (joint.structure_stiffness + total) * layer_pull(angle, internal, modes)
 
 
 def module_torque(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
@@ -59,19 +63,24 @@ def rates(angle: Any, speed: Any, internal: Sequence[Any], external: Any, joint:
     return [speed, torque / joint.inertia, *internal_rates(angle, internal, joint, modes)]
 
 
-def energy_terms(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> list[tuple[Any, Any]]:
-    """What stores energy, as pairs (stiffness or inertia c, deflection or speed d) that hold c d^2/2 each [J].
+def branch_energy_terms(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> list[tuple[Any, Any]]:
+    """What the branch stores energy in, as pairs (stiffness c, deflection d) that hold c d^2/2 each [J].
 
-    Link, springs, structure, then each mode's elastic angle phi - q_m.
+    Structure, then each mode's elastic angle phi - q_m.
     """
     phi = layer_angle(angle, internal, joint, modes)
+    total = sum(stiffness for _, stiffness in modes)
     elastic = [(stiffness, phi - inner) for (_, stiffness), inner in zip(modes, internal, strict=True)]
     return [
-        (joint.inertia, speed),
-        (joint.spring_stiffness, angle),
-        (joint.structure_stiffness, branch_torque(angle, internal, joint, modes) / joint.structure_stiffness),
+        (joint.structure_stiffness, layer_pull(angle, internal, modes) / (joint.structure_stiffness + total)),
         *elastic,
     ]
+
+
+def energy_terms(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> list[tuple[Any, Any]]:
+    """The same of the whole: link [kg*m^2, rad/s], springs, structure, then each mode's elastic angle."""
+    branch = branch_energy_terms(angle, internal, joint, modes)
+    return [(joint.inertia, speed), (joint.spring_stiffness, angle), *branch]
 
 
 def stored_energy(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:

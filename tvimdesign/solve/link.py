@@ -55,10 +55,10 @@ def released(joint: motion.Joint, modes: motion.Modes, angle: float, internal: A
     from_energy = np.linalg.inv(to_energy)
     state = to_energy @ np.concatenate([[angle, 0.0], internal])
     turned = to_energy @ matrix @ from_energy
-    first = 2.0 * np.pi / SAMPLES_A_PERIOD * np.sqrt(joint.inertia / _stiffest(joint, modes))
+    first = 2.0 * np.pi / SAMPLES_A_PERIOD * np.sqrt(joint.inertia / stiffest(joint, modes))
     enough = DEAD**2 * float(state @ state)
     stretches, columns, taken = [], [state[:, None]], 1
-    for stretch in _growing(first, np.linalg.eigvals(turned)):
+    for stretch in growing(first, np.linalg.eigvals(turned)):
         columns.append(propagate(turned, columns[-1][:, -1], [stretch])[:, 1:])
         stretches.append(stretch)
         taken += stretch[1]
@@ -162,13 +162,13 @@ def settling_time(times: Array, angle: Array, share: float) -> float:
     return float(times[last] + (before - limit) / (before - after) * (times[last + 1] - times[last]))
 
 
-def _stiffest(joint: motion.Joint, modes: motion.Modes) -> float:
+def stiffest(joint: motion.Joint, modes: motion.Modes) -> float:
     """Stiffness of the joint before any mode relaxes [N*m/rad]."""
     layer = sum(stiffness for _, stiffness in modes)
     return float(joint.spring_stiffness + joint.structure_stiffness * layer / (joint.structure_stiffness + layer))
 
 
-def _growing(first: float, values: Array) -> Iterator[Stretch]:
+def growing(first: float, values: Array) -> Iterator[Stretch]:
     """Stretches whose step doubles as soon as every swing that still lives is sampled finely enough."""
     swings = [(-value.real, 2.0 * np.pi / (value.imag * SAMPLES_A_PERIOD)) for value in values if value.imag > 0.0]
     time, step = 0.0, first
