@@ -15,7 +15,7 @@ MODES = ("shear",)
 def table_for(mode: str) -> Table:
     """Return the table of a mode; raises InputError for a mode that does not exist."""
     if mode == "shear":
-        from tvimdesign.device.shear import TABLE
+        from tvimdesign.device.shear.table import TABLE
 
         return TABLE
     raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")
