@@ -15,7 +15,7 @@ def rotor_bottom_level(pcl_thickness: Scalar) -> Scalar:
     return pcl_thickness
 
 
-@book.helper()
+@book.output("mm")
 def pcl_depth(pcl_thickness: Scalar) -> Scalar:
-    """Way of heat and load through the PCL [m]: the layer's thickness."""
+    """Way of heat and load through the PCL."""
     return pcl_thickness
