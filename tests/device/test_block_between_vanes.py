@@ -58,6 +58,18 @@ def test_joint_is_the_springs_parallel_to_blocks_and_structure_in_series(joint: 
     assert again == pytest.approx(star, rel=1e-9)
 
 
+def test_a_molten_film_softens_the_joint_as_a_block_of_its_own_depth_would(squeezed: dict[str, Any]) -> None:
+    storage, loss = np.full(12, 1e15), np.zeros(12)
+    storage[:3], loss[:3] = 2e4, 3e4  # a quarter has melted, the rest is rigid
+    names = ["impedance_now", "spring_stiffness", "elastic_support"]
+    found = TABLE.evaluate({**squeezed, "slice_moduli": (storage, loss)}, names)
+    width, height, thick = 14e-3, 3.5e-3, 0.25 * 7e-3
+    shape = width * height / (2.0 * thick * (width + height))
+    film = 6 * 3.0 * complex(2e4, 3e4) * (1.0 + 2.0 * shape**2) * width * height * 33e-3**2 / thick
+    star = found["spring_stiffness"] + 1.0 / (1.0 / film + 1.0 / found["elastic_support"])
+    assert found["impedance_now"] == pytest.approx(abs(star), rel=1e-6)
+
+
 def test_structure_is_core_plate_vanes_pads_and_floor_in_series(joint: dict[str, Any]) -> None:
     shear = 2.1e9 / (2.0 * 1.38)
     mean = 33e-3

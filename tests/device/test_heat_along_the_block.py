@@ -13,9 +13,10 @@ from tvimdesign.solve.model import Model
 TABLE = table_for("compression")
 # Nothing but block and pads takes heat, and nothing loses it.
 ALONE: dict[str, Any] = {
-    "structure_specific_heat": 1.0, "structure_conductivity": 1e-3, "rotor_coefficient": 1e-3, "surface_emissivity": 0.0,
-    "peltier_specific_heat": 5.0, "hot_contact": 1e6, "rotor_contact": 1e5, "peltier_conductance": 0.0,
-    "peltier_seebeck": 0.0, "cold_side_coefficient": 1e3, "horizon": 1e5, "response_criterion": "far_face",
+    "structure_specific_heat": 1.0, "structure_conductivity": 1e-3, "rotor_coefficient": 1e-3,
+    "surface_emissivity": 0.0, "peltier_specific_heat": 5.0, "hot_contact": 1e6, "rotor_contact": 1e5,
+    "peltier_conductance": 0.0, "peltier_seebeck": 0.0, "cold_side_coefficient": 1e3, "horizon": 1e5,
+    "response_criterion": "far_face",
 }  # fmt: skip
 
 

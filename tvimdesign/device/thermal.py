@@ -1,7 +1,8 @@
 """The thermal stack of the module, and what it is like at each instant of a stage.
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
-`plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`.
+`plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`; and by
+`moment_now` what a partly molten layer is to the joint.
 """
 
 from __future__ import annotations
@@ -179,28 +180,33 @@ def mean_temperature(stack_profile: heat.Profile) -> Scalar:
 
 
 @book.helper(instant=True)
-def layer_moduli(
+def slice_moduli(
     stack_profile: heat.Profile,
     pcl_rheology: polymer.Rheology,
     stage: Stage,
     frequency_at_hot: Scalar,
     frequency_at_cold: Scalar,
 ) -> tuple[Scalar, Scalar]:
-    """Storage and loss modulus of the layer [Pa], its slices in series, at the frequency of where the stage leads."""
+    """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the stage leads."""
     frequency = frequency_at_hot if stage.sign > 0.0 else frequency_at_cold
-    slices = polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency, pcl_rheology)
-    return layer.series_modulus(*slices)
+    return polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency, pcl_rheology)
+
+
+@book.helper(instant=True)
+def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of the layer [Pa], its slices in series."""
+    return layer.series_modulus(*slice_moduli)
 
 
 @book.output("N*m/rad", instant=True)
 def impedance_now(
     layer_moduli: tuple[Scalar, Scalar],
-    pcl_moment: Scalar,
+    moment_now: Scalar,
     pcl_depth: Scalar,
     elastic_support: Scalar,
     spring_stiffness: Scalar,
 ) -> Scalar:
     """Magnitude of the joint's dynamic stiffness at the frequency of where the stage leads."""
-    storage, loss = (modulus * pcl_moment / pcl_depth for modulus in layer_moduli)
+    storage, loss = (modulus * moment_now / pcl_depth for modulus in layer_moduli)
     real, imaginary = layer.series_stiffness(storage, loss, elastic_support)
     return np.sqrt((spring_stiffness + real) ** 2 + imaginary**2)

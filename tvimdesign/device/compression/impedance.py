@@ -22,13 +22,15 @@ def shape_factor(block_width: Scalar, block_height: Scalar, block_depth: Scalar)
     return block.shape_factor(block_width, block_height, block_depth)
 
 
+def blocks_moment(shape_factor: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar) -> Scalar:
+    """Stiffness of the pressed blocks over shear modulus, times depth [m^4]: 3 (1 + 2 S^2) N A r^2."""
+    return block.stiffness(3.0 * block.shape_stiffening(shape_factor), vane_count, block_area, pcl_mean_radius, 1.0)
+
+
 @book.helper()
-def pcl_moment(
-    shape_factor: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar, block_depth: Scalar
-) -> Scalar:
-    """What the PCL's shear modulus over its depth is multiplied with [m^4]: 3 (1 + 2 S^2) N A r^2."""
-    per_modulus = 3.0 * block.shape_stiffening(shape_factor)
-    return block.stiffness(per_modulus, vane_count, block_area, pcl_mean_radius, block_depth) * block_depth
+def pcl_moment(shape_factor: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar) -> Scalar:
+    """What the PCL's shear modulus over its depth is multiplied with [m^4]."""
+    return blocks_moment(shape_factor, vane_count, block_area, pcl_mean_radius)
 
 
 @book.helper()

@@ -9,9 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
+from tvimdesign.device.compression.impedance import blocks_moment
 from tvimdesign.device.rows import Scalar
 from tvimdesign.device.thermal import book as shared
-from tvimdesign.physics import heat
+from tvimdesign.physics import film, heat
 from tvimdesign.physics.shapes import Section
 
 book = Book(shared.group)
@@ -21,6 +22,19 @@ book = Book(shared.group)
 def cold_area(vane_count: Scalar, slot_width: Scalar, slot_height: Scalar) -> Scalar:
     """Open area of the pads' cold sides [m^2]: what of them the slots show."""
     return 2.0 * vane_count * slot_width * slot_height
+
+
+@book.helper(instant=True)
+def moment_now(
+    slice_moduli: tuple[Scalar, Scalar],
+    shape_factor: Scalar,
+    vane_count: Scalar,
+    block_area: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """The blocks' moment at an instant [m^4], 3 (1 + 2 (S/p)^2) N A r^2, p the share of them that is soft."""
+    share = film.soft_share(*slice_moduli)
+    return blocks_moment(shape_factor / share, vane_count, block_area, pcl_mean_radius)
 
 
 @book.helper()

@@ -19,6 +19,12 @@ def cold_area(window_section: Section) -> Scalar:
     return window_section.area
 
 
+@book.helper(instant=True)
+def moment_now(pcl_moment: Scalar) -> Scalar:
+    """The layer's moment at an instant [m^4]: sheared, a molten film is as soft as its thickness says."""
+    return pcl_moment
+
+
 @book.helper()
 def plate_depth(rotor_thickness: Scalar) -> Scalar:
     """Thickness of what is behind the layer [m]: the rotor plate."""
