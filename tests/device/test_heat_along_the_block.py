@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import POINTS, inputs_of
 from support import fine
 
 from tvimdesign.device import table_for
@@ -20,8 +19,8 @@ ALONE: dict[str, Any] = {
 }  # fmt: skip
 
 
-def far_face_time(**changed: Any) -> float:
-    model = Model(TABLE, inputs_of("compression", **{**ALONE, **changed}), POINTS, 24)
+def far_face_time(module: dict[str, Any], **changed: Any) -> float:
+    model = Model(TABLE, {**module, **ALONE, **changed}, ("cold", "hot"), 24)
     return float(fine(model).run(model.start, stages=["softening"]).values["far_face_time"])
 
 
@@ -29,27 +28,30 @@ def conducting(factor: float) -> dict[str, Any]:
     return {"pcl_conductivity_solid": 0.225 * factor, "pcl_conductivity_melt": 0.18 * factor}
 
 
-def test_a_block_that_conducts_well_takes_its_heat_over_the_flux() -> None:
+def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed: dict[str, Any]) -> None:
     # Half of I^2 R goes to the hot side; 231 kJ/kg take polycaprolactone from 22 to 100 degC, a third of it latent.
-    model = inputs_of("compression", **ALONE)
-    area = TABLE.evaluate(model, ["pcl_area"])["pcl_area"]
+    area = 12 * 14e-3 * 3.5e-3
     power = 0.5 * 1.5**2 * 3.0 * area / 1600e-6
-    time = far_face_time(**conducting(100.0))
+    time = far_face_time(squeezed, **conducting(100.0))
     assert time == pytest.approx(1145.0 * area * 7e-3 * 231e3 / power, rel=0.02)
 
 
 @pytest.mark.parametrize(("factor", "current", "low", "high"), [(100.0, 1.5, 1.98, 2.05), (1.0, 40.0, 3.3, 4.0)])
 def test_twice_the_depth_takes_twice_as_long_by_flux_and_nearly_four_times_by_diffusion(
-    factor: float, current: float, low: float, high: float
+    factor: float, current: float, low: float, high: float, squeezed: dict[str, Any]
 ) -> None:
-    times = [far_face_time(block_depth=depth, current=current, **conducting(factor)) for depth in (3e-3, 6e-3)]
+    times = [
+        far_face_time(squeezed, block_depth=depth, current=current, **conducting(factor)) for depth in (3e-3, 6e-3)
+    ]
     assert low < times[1] / times[0] < high
 
 
-def test_twice_the_depth_takes_two_to_four_times_as_long_the_more_the_stronger_the_flux() -> None:
+def test_twice_the_depth_takes_two_to_four_times_as_long_the_more_the_stronger_the_flux(
+    squeezed: dict[str, Any],
+) -> None:
     ratios = []
     for current in (0.5, 1.5, 4.0, 12.0):
-        times = [far_face_time(block_depth=depth, current=current) for depth in (3e-3, 6e-3)]
+        times = [far_face_time(squeezed, block_depth=depth, current=current) for depth in (3e-3, 6e-3)]
         ratios.append(times[1] / times[0])
     assert np.all(np.diff(ratios) > 0.0)
     assert 2.0 < ratios[0] < ratios[-1] < 4.0

@@ -10,7 +10,7 @@ from tvimdesign.study import read_study_text
 SMALL = """
 mode: compression
 module:
-  response_criterion: softening
+  response_criterion: mean
   core_radius: 8 mm
   rotor_rim: 8 mm
   pcl_inner_radius: 13 mm

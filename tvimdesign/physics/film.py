@@ -1,8 +1,8 @@
 """A block of which only a part is soft: squeezed, a molten film between stiff faces is held tighter than a whole block.
 
 Sheared, a thin molten film is as soft as its thickness says. Squeezed, it has to flow out sideways, and its shape
-factor grows as it gets thinner: the block's is S = w h/(2 L (w + h)), a film's of the share p of its depth is S/p (Gent and
-Lindley, Proc. Inst. Mech. Eng. 173 (1959) 111, of a layer of the film's own thickness between stiff faces). So
+factor grows as it gets thinner: the block's is S = w h/(2 L (w + h)), a film's of the share p of its depth is S/p (Gent
+and Lindley, Proc. Inst. Mech. Eng. 173 (1959) 111, of a layer of the film's own thickness between stiff faces). So
 K = 3 G (1 + 2 (S/p)^2) n A r^2/L with the modulus G of all slices in series, which is exact where the rest is rigid and
 where all is alike; between the two it interpolates.
 """
