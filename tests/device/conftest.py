@@ -1,4 +1,4 @@
-"""The shear module as the tests evaluate it: two operating points, its default inputs and records."""
+"""The modules as the tests evaluate them: two operating points, default inputs and records."""
 
 from typing import Any
 
@@ -15,9 +15,9 @@ from tvimdesign.study import given, read_study_text
 POINTS = ("cold", "hot")
 
 
-def inputs_of(**module: float | str) -> dict[str, Any]:
+def inputs_of(mode: str = "shear", **module: float | str) -> dict[str, Any]:
     """Inputs and choices of a module that is the default one but for what is said (SI)."""
-    found = given(read_study_text("mode: shear\n", "a test"), Catalog(), table_for("shear"))
+    found = given(read_study_text(f"mode: {mode}\n", "a test"), Catalog(), table_for(mode))
     return {**found, **module}
 
 
@@ -49,6 +49,27 @@ def simulator(unity: Model) -> Simulator:
 @pytest.fixture(scope="session")
 def switch(simulator: Simulator, unity: Model) -> Switch:
     return simulator.run(unity.start)
+
+
+@pytest.fixture(scope="session")
+def squeezed() -> dict[str, Any]:
+    """Inputs of the compression module by default."""
+    return inputs_of("compression")
+
+
+@pytest.fixture(scope="session")
+def squeezed_model(squeezed: dict[str, Any]) -> Model:
+    return Model(table_for("compression"), squeezed, POINTS, 12)
+
+
+@pytest.fixture(scope="session")
+def squeezed_simulator(squeezed_model: Model) -> Simulator:
+    return fine(squeezed_model)
+
+
+@pytest.fixture(scope="session")
+def squeezed_switch(squeezed_simulator: Simulator, squeezed_model: Model) -> Switch:
+    return squeezed_simulator.run(squeezed_model.start)
 
 
 @pytest.fixture(scope="session")

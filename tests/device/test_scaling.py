@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tvimdesign.device import Input, Supplied, Table, table_for
+from tvimdesign.device import MODES, Input, Supplied, Table, table_for
 
 # Power of the length with which a number in this unit scales; materials, angles, temperatures and frequencies stay.
 POWERS = {
@@ -17,7 +17,7 @@ POWERS = {
 SWINGS = {"damping_ratio": -1, "critical_damping": 4}
 # Rows whose formulas hold a diameter in millimetres: strength and tolerance by size.
 FIXED = {"spring_tensile_strength", "wire_range_reserve", "coil_diameter_tolerance"}
-TABLE = table_for("shear")
+TABLES = {mode: table_for(mode) for mode in MODES}
 
 
 def _power(table: Table, name: str) -> int:
@@ -27,36 +27,32 @@ def _power(table: Table, name: str) -> int:
     return SWINGS.get(row.name, POWERS.get(table.unit(name), 0))
 
 
-def _scaled(inputs: dict[str, Any], factor: float) -> dict[str, Any]:
+def _scaled(table: Table, inputs: dict[str, Any], factor: float) -> dict[str, Any]:
     return {
-        name: value * factor ** _power(TABLE, name) if isinstance(value, float) else value
+        name: value * factor ** _power(table, name) if isinstance(value, float) else value
         for name, value in inputs.items()
     }
 
 
-def _free_of_fixed_lengths(name: str) -> bool:
-    return not FIXED & {name.partition("@")[0], *TABLE.ancestors(name)}
+def _free_of_fixed_lengths(table: Table, name: str) -> bool:
+    return not FIXED & {name.partition("@")[0], *table.ancestors(name)}
 
 
 @settings(max_examples=25, deadline=None)
-@given(factor=st.floats(0.2, 5.0), transmission=st.sampled_from(["unity", "geometry"]))
+@given(factor=st.floats(0.2, 5.0), transmission=st.sampled_from(["unity", "geometry"]), mode=st.sampled_from(MODES))
 def test_outputs_scale_with_the_length_as_their_units_say(
-    factor: float, transmission: str, scaled_inputs: dict[str, Any]
+    factor: float, transmission: str, mode: str, inputs: dict[str, Any], squeezed: dict[str, Any]
 ) -> None:
+    table = TABLES[mode]
     wanted = [
         name
-        for name in TABLE.names(("cold", "hot"))
-        if _free_of_fixed_lengths(name)
-        and not any(isinstance(TABLE.row(base), Supplied) for base in (name, *TABLE.ancestors(name)))
+        for name in table.names(("cold", "hot"))
+        if _free_of_fixed_lengths(table, name)
+        and not any(isinstance(table.row(base), Supplied) for base in (name, *table.ancestors(name)))
     ]
     assert len(wanted) > 70
-    inputs = {**scaled_inputs, "transmission": transmission}
-    one, other = TABLE.evaluate(inputs, wanted), TABLE.evaluate(_scaled(inputs, factor), wanted)
+    module = {**(inputs if mode == "shear" else squeezed), "transmission": transmission}
+    one, other = table.evaluate(module, wanted), table.evaluate(_scaled(table, module, factor), wanted)
     for name in wanted:
-        expected = one[name] * factor ** _power(TABLE, name)
-        assert other[name] == pytest.approx(expected, rel=1e-9, abs=1e-12 * factor ** _power(TABLE, name)), name
-
-
-@pytest.fixture(scope="module")
-def scaled_inputs(inputs: dict[str, Any]) -> dict[str, Any]:
-    return inputs
+        expected = one[name] * factor ** _power(table, name)
+        assert other[name] == pytest.approx(expected, rel=1e-9, abs=1e-12 * factor ** _power(table, name)), name

@@ -182,10 +182,11 @@ def test_did_you_mean(problems: Refuse, text: str, hint: str) -> None:
 
 
 def test_the_mode(problems: Refuse) -> None:
-    assert problems("name: x") == ["x.yaml:1:1: mode: missing; expected 'shear'; write 'mode: shear'"]
+    assert problems("name: x") == ["x.yaml:1:1: mode: missing; expected one of shear, compression; write 'mode: shear'"]
     assert problems("mode: [shear]")[0].startswith("x.yaml:1:7: mode: a list does not fit here")
-    found = problems("mode: bending\nsolver: {starts: 0}\nmodule: {what: 3}")
-    # The one mode there is must be meant: what stands under it is told at once.
+    assert len(problems("mode: bending\nmodule: {what: 3}")) == 1
+    found = problems("mode: sheer\nsolver: {starts: 0}\nmodule: {what: 3}")
+    # Shear must be meant: what stands under it is told at once.
     assert [line.split(": ")[0] for line in found] == ["x.yaml:1:7", "x.yaml:2:18", "x.yaml:3:10"]
 
 

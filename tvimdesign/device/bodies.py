@@ -1,4 +1,4 @@
-"""Volume, mass and inertia of every part, from the same dimensions the solids are built from."""
+"""Volume, mass and inertia of the parts that all modes have, from the dimensions the solids are built from."""
 
 from __future__ import annotations
 
@@ -6,28 +6,15 @@ import numpy as np
 
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics import layer
-from tvimdesign.physics.shapes import Section, disc_at, ring, ring_notch, sector, slot
+from tvimdesign.physics.shapes import Section, disc_at, ring, ring_notch, slot
 
 book = Book("Size and weight")
 LINK_SCREWS = 4
 
 
-@book.output("mm^2", headline=True)
-def pcl_area(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
-    """Contact area of all PCL arcs together."""
-    return layer.area(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
-
-
-@book.output("mm^3")
-def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar) -> Scalar:
-    """Volume of all PCL arcs together."""
-    return pcl_area * pcl_thickness
-
-
 @book.output("mm^3")
 def peltier_volume(pcl_area: Scalar, peltier_thickness: Scalar) -> Scalar:
-    """Volume of all Peltier pads together; they have the outline of the arcs."""
+    """Volume of all Peltier pads together; they have the outline of the PCL."""
     return pcl_area * peltier_thickness
 
 
@@ -54,15 +41,6 @@ def spring_volume(wire_length: Scalar, wire_diameter: Scalar) -> Scalar:
     return 0.25 * np.pi * wire_diameter**2 * wire_length
 
 
-@book.helper()
-def window_section(
-    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar, window_ledge: Scalar
-) -> Section:
-    """Windows below the Peltier pads: the arcs, smaller by the ledge on every side."""
-    span = arc_span - 2.0 * window_ledge / pcl_inner_radius
-    return sector(span, pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge).times(arc_count)
-
-
 @book.output("mm^3")
 def skirt_volume(
     housing_inner_radius: Scalar,
@@ -80,28 +58,8 @@ def skirt_volume(
     return (skirt - notches + feet) * foot_height
 
 
-@book.output("mm^3")
-def floor_volume(
-    core_radius: Scalar,
-    running_clearance: Scalar,
-    housing_outer_radius: Scalar,
-    floor_thickness: Scalar,
-    floor_web: Scalar,
-    peltier_volume: Scalar,
-    window_section: Section,
-    spring_count: Scalar,
-    wire_diameter: Scalar,
-    tang_clearance: Scalar,
-    mount_hole: Scalar,
-) -> Scalar:
-    """Volume of the housing's floor, less bore, pad pockets, windows, tang holes and mounting holes."""
-    disc = ring(core_radius + running_clearance, housing_outer_radius).area
-    holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
-    return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_section.area * floor_web
-
-
-@book.output("mm^3")
-def housing_volume(
+@book.helper()
+def bare_housing_volume(
     skirt_volume: Scalar,
     floor_volume: Scalar,
     housing_inner_radius: Scalar,
@@ -110,21 +68,21 @@ def housing_volume(
     running_clearance: Scalar,
     hub_radius: Scalar,
     pin_top_level: Scalar,
-    pcl_thickness: Scalar,
+    rotor_bottom_level: Scalar,
     spring_count: Scalar,
     post_radius: Scalar,
     coil_end_level: Scalar,
     wire_diameter: Scalar,
 ) -> Scalar:
-    """Volume of the housing: skirt and floor, wall, hub and spring posts."""
+    """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub and spring posts."""
     wall = ring(housing_inner_radius, housing_outer_radius).area * pin_top_level
-    hub = ring(core_radius + running_clearance, hub_radius).area * pcl_thickness
+    hub = ring(core_radius + running_clearance, hub_radius).area * rotor_bottom_level
     posts = spring_count * np.pi * post_radius**2 * (coil_end_level + 0.5 * wire_diameter)
     return skirt_volume + floor_volume + wall + hub + posts
 
 
 @book.helper()
-def rotor_moments(
+def bare_rotor_moments(
     rotor_radius: Scalar,
     rotor_thickness: Scalar,
     core_radius: Scalar,
@@ -142,7 +100,7 @@ def rotor_moments(
     retainer_screw_pilot: Scalar,
     retainer_screw_depth: Scalar,
 ) -> Section:
-    """Volume and its polar moment about the axis, of the rotor: plate, core and pins less the screw holes."""
+    """Volume and its polar moment about the axis, of plate, core and pins less the screw holes."""
     prisms = (
         (ring(core_radius, rotor_radius), rotor_thickness),
         (ring(0.0, core_radius), link_bottom_level + floor_thickness + running_clearance),
@@ -225,7 +183,7 @@ def springs_mass(spring_count: Scalar, spring_volume: Scalar, spring_density: Sc
 
 @book.output("g")
 def pcl_mass(pcl_volume: Scalar, pcl_density: Scalar) -> Scalar:
-    """Mass of all PCL arcs together."""
+    """Mass of all PCL together."""
     return pcl_volume * pcl_density
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from importlib import resources
 from typing import Any, Literal, TypeVar
@@ -41,14 +41,17 @@ class Book:
                     integer=entry.get("integer", False),
                     per_point=entry.get("per_point", False),
                     source=f"{entry['status']}: {entry['source']}",
+                    mode=entry.get("mode"),
                 )
             )
 
-    def property(self, name: str, unit: str, record: tuple[str, str], description: str) -> None:
+    def property(
+        self, name: str, unit: str, record: tuple[str, str], description: str, mode: str | None = None
+    ) -> None:
         """Add a number that comes from a chosen record, (choice, field), unless the study sets it."""
         row = Input(
             name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record,
-            source=f"record: {record[1]} of the chosen {record[0]}",
+            source=f"record: {record[1]} of the chosen {record[0]}", mode=mode,
         )  # fmt: skip
         self.rows.append(row)
 
@@ -136,6 +139,15 @@ class Book:
             return function
 
         return add
+
+
+def gather(books: Iterable[Book], mode: str) -> tuple[Row, ...]:
+    """Rows of a mode from the books of its rooms, books of one group together where its first one stands."""
+    rows: dict[str, list[Row]] = {}
+    for book in books:
+        own = [row for row in book.rows if not (isinstance(row, Input) and row.mode not in {None, mode})]
+        rows.setdefault(book.group, []).extend(own)
+    return tuple(row for group in rows.values() for row in group)
 
 
 def _summary(function: Callable[..., Any]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
-from tvimdesign.device.rows import Rule, Scalar
+from tvimdesign.device.rows import Scalar, at_least
 from tvimdesign.physics.transmission import leg_direction, pin_distance
 
 book = Book("Gaps")
@@ -14,11 +14,7 @@ book = Book("Gaps")
 MM = 1e-3
 
 
-def _at_least(value: float, reason: str, exists_above: float | None = None) -> Rule:
-    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above)
-
-
-@book.output("mm", _at_least(0.0, "the springs must clear the rotor plate"))
+@book.output("mm", at_least(0.0, "the springs must clear the rotor plate"))
 def rotor_spring_gap(
     placement_radius: Scalar, spring_reach: Scalar, rotor_radius: Scalar, radial_clearance: Scalar
 ) -> Scalar:
@@ -26,7 +22,7 @@ def rotor_spring_gap(
     return placement_radius - spring_reach - rotor_radius - radial_clearance
 
 
-@book.output("mm", _at_least(0.0, "the rotor-side legs must pass above the rotor plate"))
+@book.output("mm", at_least(0.0, "the rotor-side legs must pass above the rotor plate"))
 def leg_rotor_gap(
     coil_end_level: Scalar, wire_diameter: Scalar, rotor_top_level: Scalar, axial_clearance: Scalar
 ) -> Scalar:
@@ -34,13 +30,13 @@ def leg_rotor_gap(
     return coil_end_level - 0.5 * wire_diameter - rotor_top_level - axial_clearance
 
 
-@book.output("mm", _at_least(0.0, "the pins must stand on the rotor plate"))
+@book.output("mm", at_least(0.0, "the pins must stand on the rotor plate"))
 def pin_rim_gap(rotor_radius: Scalar, pin_radius: Scalar, pin_diameter: Scalar, radial_clearance: Scalar) -> Scalar:
     """Room between the pins and the rim of the rotor plate beyond the radial clearance."""
     return rotor_radius - pin_radius - 0.5 * pin_diameter - radial_clearance
 
 
-@book.output("mm", _at_least(0.0, "the legs must clear the core"))
+@book.output("mm", at_least(0.0, "the legs must clear the core"))
 def leg_core_gap(
     placement_radius: Scalar,
     pin_radius: Scalar,
@@ -61,7 +57,7 @@ def leg_core_gap(
     return np.sqrt(beside**2 + ahead**2) - 0.5 * wire_diameter - core_radius - radial_clearance
 
 
-@book.output("mm", _at_least(0.5 * MM, "the leg would slip off its pin"))
+@book.output("mm", at_least(0.5 * MM, "the leg would slip off its pin"))
 def leg_overhang_reserve(
     placement_radius: Scalar,
     pin_radius: Scalar,
@@ -74,7 +70,7 @@ def leg_overhang_reserve(
     return leg_overhang + leg_arm - np.sqrt(pin_distance(pin_radius, placement_radius, stroke) ** 2 - leg_offset**2)
 
 
-@book.output("mm", _at_least(0.0, "the tang would press on its hole as the coil winds and unwinds"))
+@book.output("mm", at_least(0.0, "the tang would press on its hole as the coil winds and unwinds"))
 def tang_reserve(
     tang_clearance: Scalar,
     coil_diameter: Scalar,
@@ -88,49 +84,19 @@ def tang_reserve(
     return tang_clearance - coil_diameter * turned / (4.0 * np.pi * coil_count)
 
 
-@book.output("mm", _at_least(1.0 * MM, "the leg must reach its pin", 0.0))
+@book.output("mm", at_least(1.0 * MM, "the leg must reach its pin", 0.0))
 def leg_reach_gap(placement_radius: Scalar, pin_radius: Scalar, leg_offset: Scalar) -> Scalar:
     """Distance of pin and spring axis beyond the offset of the leg."""
     return placement_radius - pin_radius - leg_offset
 
 
-@book.output("mm", _at_least(0.0, "the PCL arcs must clear the hub"))
-def hub_arc_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: Scalar) -> Scalar:
-    """Room between hub and PCL arcs beyond the radial clearance."""
-    return pcl_inner_radius - hub_radius - radial_clearance
-
-
-@book.output("mm", _at_least(3.0 * MM, "the floor needs a web between two Peltier pads", 0.0))
-def arc_gap(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar) -> Scalar:
-    """Web between neighbouring PCL arcs at their inner radius."""
-    return (2.0 * np.pi / arc_count - arc_span) * pcl_inner_radius
-
-
-@book.output("mm", _at_least(5.0 * MM, "the Peltier pad needs its ledges and a window for its cold side", 0.0))
-def arc_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
-    """Radial width of the PCL arcs."""
-    return pcl_outer_radius - pcl_inner_radius
-
-
-@book.output("mm", _at_least(0.0, "a Peltier pad needs a window behind its ledges for its cold side", 0.0))
-def window_depth(arc_width: Scalar, window_ledge: Scalar) -> Scalar:
-    """Radial width of the windows below the Peltier pads."""
-    return arc_width - 2.0 * window_ledge
-
-
-@book.output("mm", _at_least(1.2 * MM, "the floor below a Peltier pad must carry it", 0.0))
-def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
-    """Thickness of the floor below the Peltier pads."""
-    return floor_thickness - peltier_thickness
-
-
-@book.output("mm", _at_least(1.0 * MM, "a thinner spring post would break", 0.0))
+@book.output("mm", at_least(1.0 * MM, "a thinner spring post would break", 0.0))
 def post_thickness(post_radius: Scalar) -> Scalar:
     """Radius of the spring posts, held against the least that can be made."""
     return post_radius
 
 
-@book.output("mm", _at_least(0.0, "neighbouring springs must clear each other"))
+@book.output("mm", at_least(0.0, "neighbouring springs must clear each other"))
 def spring_spring_gap(
     placement_radius: Scalar, spring_count: Scalar, spring_reach: Scalar, radial_clearance: Scalar
 ) -> Scalar:
@@ -138,7 +104,7 @@ def spring_spring_gap(
     return 2.0 * placement_radius * np.sin(np.pi / spring_count) - 2.0 * spring_reach - radial_clearance
 
 
-@book.output("mm", _at_least(0.0, "the retainer must stand above the ground"))
+@book.output("mm", at_least(0.0, "the retainer must stand above the ground"))
 def retainer_gap(
     foot_height: Scalar, retainer_thickness: Scalar, running_clearance: Scalar, retainer_screw_head: Scalar
 ) -> Scalar:
@@ -146,25 +112,19 @@ def retainer_gap(
     return foot_height - retainer_thickness - running_clearance - retainer_screw_head
 
 
-@book.output("mm", _at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))
-def window_width(arc_span: Scalar, pcl_inner_radius: Scalar, window_ledge: Scalar) -> Scalar:
-    """Width of the windows below the Peltier pads at their inner radius."""
-    return arc_span * pcl_inner_radius - 2.0 * window_ledge
-
-
-@book.output("mm", _at_least(1.2 * MM, "the core's wall would split under the link screws"))
+@book.output("mm", at_least(1.2 * MM, "the core's wall would split under the link screws"))
 def link_screw_wall(core_radius: Scalar, link_bolt_circle_radius: Scalar, link_screw_pilot: Scalar) -> Scalar:
     """Wall of the core outside the link screws' pilot holes."""
     return core_radius - link_bolt_circle_radius - 0.5 * link_screw_pilot
 
 
-@book.output("mm", _at_least(0.3 * MM, "the heads of the link screws must clear each other"))
+@book.output("mm", at_least(0.3 * MM, "the heads of the link screws must clear each other"))
 def link_screw_gap(link_bolt_circle_radius: Scalar, link_screw_head: Scalar) -> Scalar:
     """Room between the heads of neighbouring link screws."""
     return np.sqrt(2.0) * link_bolt_circle_radius - link_screw_head
 
 
-@book.output("mm", _at_least(1.0 * MM, "the screw holes in the core must not meet"))
+@book.output("mm", at_least(1.0 * MM, "the screw holes in the core must not meet"))
 def core_web(
     link_bottom_level: Scalar,
     floor_thickness: Scalar,
@@ -176,15 +136,7 @@ def core_web(
     return link_bottom_level + floor_thickness + running_clearance - link_screw_depth - retainer_screw_depth
 
 
-@book.output("mm", _at_least(0.0, "the feet must stand inside the skirt"))
+@book.output("mm", at_least(0.0, "the feet must stand inside the skirt"))
 def mount_wall_gap(housing_inner_radius: Scalar, placement_radius: Scalar, mount_boss_radius: Scalar) -> Scalar:
     """Room between the mounting feet and the skirt."""
     return housing_inner_radius - placement_radius - mount_boss_radius
-
-
-@book.output("mm", _at_least(0.0, "the feet must clear the Peltier pads"))
-def mount_pad_gap(
-    placement_radius: Scalar, mount_boss_radius: Scalar, pcl_outer_radius: Scalar, radial_clearance: Scalar
-) -> Scalar:
-    """Room between the mounting feet and the Peltier pads beyond the radial clearance."""
-    return placement_radius - mount_boss_radius - pcl_outer_radius - radial_clearance

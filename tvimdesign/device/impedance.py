@@ -1,4 +1,8 @@
-"""Stiffness and damping of the joint at its operating points: layer, structure and springs together."""
+"""Stiffness and damping of the joint at its operating points: PCL, structure and springs together.
+
+Each mode says in its own room what its PCL and its structure are: `pcl_stiffness` and `pcl_damping`, and for spectra
+`pcl_moment` over `pcl_depth` times the shear modulus, in series with the lossless `elastic_support`.
+"""
 
 from __future__ import annotations
 
@@ -78,14 +82,6 @@ def pcl_linear_range(pcl_linear_strain_solid: Scalar, pcl_linear_strain_melt: Sc
     return polymer.LinearRange(pcl_linear_strain_solid, pcl_linear_strain_melt)
 
 
-@book.output("m^4")
-def layer_polar_moment(
-    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
-) -> Scalar:
-    """Polar second moment of area of the PCL layer."""
-    return layer.polar_moment(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
-
-
 @book.output("1", per_point=True)
 def solid_fraction(temperature: Scalar, pcl_melting: polymer.Melting) -> Scalar:
     """Share of the PCL that is frozen, on the equilibrium melting curve."""
@@ -124,44 +120,32 @@ def loss_factor(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
     return pcl_moduli[1] / pcl_moduli[0]
 
 
-@book.output("N*m/rad", per_point=True, headline=True)
-def pcl_stiffness(storage_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar) -> Scalar:
-    """Stiffness of the PCL layer alone, K_PCL."""
-    return storage_modulus * layer_polar_moment / pcl_thickness
+@book.helper()
+def structure_shear_modulus(structure_youngs_modulus: Scalar, structure_poissons_ratio: Scalar) -> Scalar:
+    """Shear modulus of the structure [Pa]."""
+    return structure.shear_modulus(structure_youngs_modulus, structure_poissons_ratio)
 
 
-@book.output("N*m*s/rad", per_point=True, headline=True)
-def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar, frequency: Scalar) -> Scalar:
-    """Damping of the PCL layer alone, b_PCL."""
-    return loss_modulus * layer_polar_moment / pcl_thickness / (2.0 * np.pi * frequency)
+@book.helper()
+def pcl_mean_radius(pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Mean radius of the PCL [m]."""
+    return 0.5 * (pcl_inner_radius + pcl_outer_radius)
 
 
-@book.output("N*m/rad")
-def structure_stiffness(
-    structure_youngs_modulus: Scalar,
-    structure_poissons_ratio: Scalar,
-    core_radius: Scalar,
-    rotor_thickness: Scalar,
-    rotor_top_level: Scalar,
-    link_bottom_level: Scalar,
-    pcl_inner_radius: Scalar,
-    pcl_outer_radius: Scalar,
-    placement_radius: Scalar,
-    floor_web: Scalar,
-    peltier_shear_modulus: Scalar,
-    peltier_thickness: Scalar,
-    layer_polar_moment: Scalar,
+@book.helper()
+def core_stiffness(
+    structure_shear_modulus: Scalar, core_radius: Scalar, link_bottom_level: Scalar, rotor_top_level: Scalar
 ) -> Scalar:
-    """Stiffness in series with the layer: core, rotor plate, Peltier pads, and floor up to its mounting feet."""
-    modulus = structure.shear_modulus(structure_youngs_modulus, structure_poissons_ratio)
-    middle = 0.5 * (pcl_inner_radius + pcl_outer_radius)
-    return structure.series(
-        structure.shaft_stiffness(modulus, core_radius, link_bottom_level - rotor_top_level),
-        structure.ring_stiffness(modulus, rotor_thickness, core_radius, middle),
-        # The floor is weakest where pockets and windows thin it; its web counts.
-        structure.ring_stiffness(modulus, floor_web, middle, placement_radius),
-        peltier_shear_modulus * layer_polar_moment / peltier_thickness,
-    )
+    """Torsional stiffness of the core between rotor plate and output link [N*m/rad]."""
+    return structure.shaft_stiffness(structure_shear_modulus, core_radius, link_bottom_level - rotor_top_level)
+
+
+@book.helper()
+def plate_stiffness(
+    structure_shear_modulus: Scalar, rotor_thickness: Scalar, core_radius: Scalar, pcl_mean_radius: Scalar
+) -> Scalar:
+    """Torsional stiffness of the rotor plate between the core and the middle of the PCL [N*m/rad]."""
+    return structure.ring_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_mean_radius)
 
 
 @book.helper(per_point=True)
@@ -226,27 +210,6 @@ def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -
     return joint_damping_at_cold / joint_damping_at_hot
 
 
-@book.output("1", headline=True)
-def layer_strain(pcl_outer_radius: Scalar, stroke: Scalar, pcl_thickness: Scalar) -> Scalar:
-    """Shear strain of the molten layer at its outer radius at full stroke."""
-    return layer.shear_strain(pcl_outer_radius, stroke, pcl_thickness)
-
-
-@book.output("1", Rule(sense=">=", value=1.0, reason="the molten layer would tear or slip"))
-def layer_strain_safety(pcl_melt_strain_limit: Scalar, layer_strain: Scalar) -> Scalar:
-    """Strain the molten layer bears over the strain it sees."""
-    return pcl_melt_strain_limit / layer_strain
-
-
-@book.output("N*m")
-def layer_holding_torque(
-    pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
-) -> Scalar:
-    """Torque at which the frozen layer's bond, or its shear yield, gives way at its outer rim."""
-    traction = np.fmin(pcl_bond_strength, pcl_tensile_yield / np.sqrt(3.0))
-    return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
-
-
 @book.output("N*m")
 def core_holding_torque(structure_layer_strength: Scalar, core_radius: Scalar) -> Scalar:
     """Torque at which the core yields in torsion, its screw holes not counted."""
@@ -260,12 +223,6 @@ def link_holding_torque(
     """Torque at which the four screws of the output link start to press into it, friction not counted."""
     bearing = structure_strength * link_screw_pilot * link_thickness
     return 4.0 * bearing * link_bolt_circle_radius
-
-
-@book.output("N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque"))
-def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
-    """Torque the frozen joint holds: the least of what the layer, the core and the link's screws bear."""
-    return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
 
 
 @book.output(

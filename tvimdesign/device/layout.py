@@ -1,7 +1,7 @@
-"""Where everything is: the design variables of the shear module, and the radii, levels and gaps that follow.
+"""Where everything is that all modes have: the design variables, and the radii and levels that follow.
 
-The rotor axis is z. The floor's upper face, on which the PCL layer lies, is z = 0; the rotor plate stands above the
-layer, the torsion springs around it with their axes parallel to z. Levels below the floor are negative.
+The rotor axis is z. The floor's upper face is z = 0; the rotor plate stands above it, the PCL between the two, the
+torsion springs around them with their axes parallel to z. Levels below the floor are negative.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def rotor_radius(pcl_outer_radius: Scalar, rotor_rim: Scalar) -> Scalar:
 
 @book.output("mm")
 def hub_radius(core_radius: Scalar, running_clearance: Scalar, hub_wall: Scalar) -> Scalar:
-    """Outer radius of the hub that carries the rotor plate at the layer's thickness."""
+    """Outer radius of the hub that carries the rotor plate."""
     return core_radius + running_clearance + hub_wall
 
 
@@ -132,9 +132,9 @@ def leg_top_level(coil_end_level: Scalar, helix_slope: Scalar, leg_length: Scala
 
 
 @book.output("mm")
-def rotor_top_level(pcl_thickness: Scalar, rotor_thickness: Scalar) -> Scalar:
+def rotor_top_level(rotor_bottom_level: Scalar, rotor_thickness: Scalar) -> Scalar:
     """Upper face of the rotor plate."""
-    return pcl_thickness + rotor_thickness
+    return rotor_bottom_level + rotor_thickness
 
 
 @book.output("mm")

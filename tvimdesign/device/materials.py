@@ -14,7 +14,7 @@ book.record(
     "peltiers",
     "flexible_1600",
     "Peltier module under the layer",
-    only=("form", "flexible", "the pads have the outline of the PCL arcs, which a rigid module cannot be cut to"),
+    only=("form", "flexible", "the pads have the outline of the PCL, which a rigid module cannot be cut to"),
 )
 
 for name, unit, field, description in (
@@ -55,8 +55,6 @@ for name, unit, field, description in (
     ("pcl_linear_strain_solid", "%", "linear_strain_solid", "Strain at which the frozen PCL's G' has fallen 5 %"),
     ("pcl_linear_strain_melt", "%", "linear_strain_melt", "Strain at which the molten PCL's G' has fallen 5 %"),
     ("pcl_tensile_yield", "MPa", "tensile_yield", "Tensile yield strength of the frozen PCL"),
-    ("pcl_bond_strength", "MPa", "bond_strength", "Traction the bond of layer and faces bears"),
-    ("pcl_melt_strain_limit", "1", "melt_strain_limit", "Shear strain the molten layer bears without tearing"),
     (
         "pcl_decomposition_temperature",
         "degC",
@@ -74,6 +72,12 @@ for name, unit, field, description in (
     ("pcl_transport_energy", "kJ/mol", "transport_energy", "Activation energy of transport to the growing crystal"),
 ):
     book.property(name, unit, ("pcl_grade", field), description)
+
+for name, unit, field, description in (
+    ("pcl_bond_strength", "MPa", "bond_strength", "Traction the bond of layer and faces bears"),
+    ("pcl_melt_strain_limit", "1", "melt_strain_limit", "Shear strain the molten layer bears without tearing"),
+):
+    book.property(name, unit, ("pcl_grade", field), description, mode="shear")
 
 for name, unit, field, description in (
     ("peltier_seebeck", "V/K", "seebeck", "Seebeck coefficient of one Peltier module"),

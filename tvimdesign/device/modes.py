@@ -7,7 +7,7 @@ from functools import cache
 from tvimdesign.device.rows import Table
 from tvimdesign.errors import InputError
 
-MODES = ("shear",)
+MODES = ("shear", "compression")
 """The modes a study may name."""
 
 
@@ -15,7 +15,11 @@ MODES = ("shear",)
 def table_for(mode: str) -> Table:
     """Return the table of a mode; raises InputError for a mode that does not exist."""
     if mode == "shear":
-        from tvimdesign.device.shear import TABLE
+        from tvimdesign.device.shear.table import TABLE
+
+        return TABLE
+    if mode == "compression":
+        from tvimdesign.device.compression.table import TABLE
 
         return TABLE
     raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")

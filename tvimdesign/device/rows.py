@@ -37,6 +37,11 @@ class Rule:
     """The value at and below which there is no such geometry, and the equations mean nothing."""
 
 
+def at_least(value: float, reason: str, exists_above: float | None = None) -> Rule:
+    """A lower limit that belongs to the machine."""
+    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Input:
     """A number the study may set. Values are SI; `unit` is what people read and write."""
@@ -55,6 +60,8 @@ class Input:
     """Where the default comes from: `status: source`."""
     record: tuple[str, str] | None = None
     """(choice, field): where the default comes from when the study does not set it."""
+    mode: str | None = None
+    """The one mode that has it, where not all have."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -283,9 +283,11 @@ def pin_safety(
     helix_slope: Scalar,
     rotor_top_level: Scalar,
     pin_diameter: Scalar,
+    wire_diameter: Scalar,
     structure_layer_strength: Scalar,
 ) -> Scalar:
     """Bending strength of the rotor's pins, cold, over the stress under the leg at full winding."""
     force = spring_rate * spring_winding / leg_arm
-    height = coil_end_level + helix_slope * leg_arm - rotor_top_level
+    # No leg lies lower than on the plate; without that, the search is lost beyond the pole at height zero.
+    height = np.fmax(coil_end_level + helix_slope * leg_arm - rotor_top_level, 0.5 * wire_diameter)
     return structure_layer_strength / spring.bending_stress(force * height, pin_diameter, 1.0)

@@ -1,4 +1,9 @@
-"""The thermal stack of the module, and what it is like at each instant of a stage."""
+"""The thermal stack of the module, and what it is like at each instant of a stage.
+
+Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
+`plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`; and by
+`moment_now` what a partly molten layer is to the joint.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +12,6 @@ import numpy as np
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar, Stage
 from tvimdesign.physics import crystallization, heat, layer, peltier, polymer
-from tvimdesign.physics.shapes import Section
 
 POWER_ROUNDING = 0.01  # W
 """Width of the corner where the pads stop generating."""
@@ -40,49 +44,18 @@ def pads(
 
 
 @book.helper()
-def plate_beside_arcs(
-    rotor_radius: Scalar,
-    pcl_area: Scalar,
-    arc_count: Scalar,
-    arc_span: Scalar,
-    pcl_inner_radius: Scalar,
-    pcl_outer_radius: Scalar,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-    structure_density: Scalar,
-    structure_specific_heat: Scalar,
-    rotor_coefficient: Scalar,
-    surface_emissivity: Scalar,
-) -> heat.Lump:
-    """Rotor plate beside the arcs.
-
-    A strip heated at its edge: its mean temperature is a third of its width away (Incropera, Fundamentals of Heat and
-    Mass Transfer, ch. 5, quasi-steady).
-    """
-    area = np.pi * rotor_radius**2 - pcl_area
-    edge = arc_count * (2.0 * (pcl_outer_radius - pcl_inner_radius) + arc_span * (pcl_inner_radius + pcl_outer_radius))
-    return heat.Lump(
-        conductance=3.0 * structure_conductivity * rotor_thickness * edge**2 / area,
-        capacity=area * rotor_thickness * structure_density * structure_specific_heat,
-        surface=heat.Surface(area, rotor_coefficient, surface_emissivity),
-    )
-
-
-@book.helper()
 def core_and_link(
     core_radius: Scalar,
     pcl_inner_radius: Scalar,
     rotor_thickness: Scalar,
-    rotor_radius: Scalar,
+    plate_mass: Scalar,
     rotor_mass: Scalar,
     link_mass: Scalar,
     retainer_mass: Scalar,
-    structure_density: Scalar,
     structure_specific_heat: Scalar,
     structure_conductivity: Scalar,
 ) -> heat.Lump:
     """Core, link and retainer, which the plate heats through its inner ring: 2 pi k h/ln(r_i/r_c)."""
-    plate_mass = np.pi * rotor_radius**2 * rotor_thickness * structure_density
     return heat.Lump(
         conductance=2.0 * np.pi * structure_conductivity * rotor_thickness / np.log(pcl_inner_radius / core_radius),
         capacity=(rotor_mass - plate_mass + link_mass + retainer_mass) * structure_specific_heat,
@@ -98,19 +71,19 @@ def sink(
     sink_area: Scalar,
     sink_coefficient: Scalar,
     surface_emissivity: Scalar,
-    window_section: Section,
+    cold_area: Scalar,
 ) -> heat.Lump | None:
-    """Sink below the pads, seen through the windows of the floor."""
+    """Sink at the pads' cold sides, where those are open."""
     if cold_side == "open":
         return None
     surface = heat.Surface(sink_area, sink_coefficient, surface_emissivity)
-    return heat.Lump(conductance=sink_contact * window_section.area, capacity=sink_capacity, surface=surface)
+    return heat.Lump(conductance=sink_contact * cold_area, capacity=sink_capacity, surface=surface)
 
 
 @book.helper()
 def stack(
     pcl_area: Scalar,
-    pcl_thickness: Scalar,
+    pcl_depth: Scalar,
     pcl_density: Scalar,
     pcl_conductivity_solid: Scalar,
     pcl_conductivity_melt: Scalar,
@@ -120,17 +93,17 @@ def stack(
     peltier_specific_heat: Scalar,
     cold_side_coefficient: Scalar,
     surface_emissivity: Scalar,
-    window_section: Section,
+    cold_area: Scalar,
     hot_contact: Scalar,
     rotor_contact: Scalar,
-    rotor_thickness: Scalar,
+    plate_depth: Scalar,
+    plate_outside: heat.Surface,
     structure_conductivity: Scalar,
     structure_density: Scalar,
     structure_specific_heat: Scalar,
-    rotor_coefficient: Scalar,
     ambient_temperature: Scalar,
     rotor_cells: float,
-    plate_beside_arcs: heat.Lump,
+    rotor_beside: heat.Lump,
     core_and_link: heat.Lump,
     sink: heat.Lump | None,
 ) -> heat.Stack:
@@ -138,7 +111,7 @@ def stack(
     half = 0.5 * peltier_mass * peltier_specific_heat
     return heat.Stack(
         area=pcl_area,
-        thickness=pcl_thickness,
+        thickness=pcl_depth,
         density=pcl_density,
         conductivity_solid=pcl_conductivity_solid,
         conductivity_melt=pcl_conductivity_melt,
@@ -147,16 +120,16 @@ def stack(
         cold_capacity=half,
         hot_capacity=half,
         # The pads' cold sides meet the air in the windows; the ledges are plastic.
-        cold_surface=heat.Surface(window_section.area, cold_side_coefficient, surface_emissivity),
+        cold_surface=heat.Surface(cold_area, cold_side_coefficient, surface_emissivity),
         hot_contact=hot_contact,
         plate_contact=rotor_contact,
-        plate_thickness=rotor_thickness,
+        plate_thickness=plate_depth,
         plate_conductivity=structure_conductivity,
         plate_heat_capacity=structure_density * structure_specific_heat,
-        plate_surface=heat.Surface(pcl_area, rotor_coefficient, surface_emissivity),
+        plate_surface=plate_outside,
         ambient=ambient_temperature,
         plate_cells=int(rotor_cells),
-        beside=(plate_beside_arcs, core_and_link),
+        beside=(rotor_beside, core_and_link),
         sink=sink,
     )
 
@@ -207,28 +180,33 @@ def mean_temperature(stack_profile: heat.Profile) -> Scalar:
 
 
 @book.helper(instant=True)
-def layer_moduli(
+def slice_moduli(
     stack_profile: heat.Profile,
     pcl_rheology: polymer.Rheology,
     stage: Stage,
     frequency_at_hot: Scalar,
     frequency_at_cold: Scalar,
 ) -> tuple[Scalar, Scalar]:
-    """Storage and loss modulus of the layer [Pa], its slices in series, at the frequency of where the stage leads."""
+    """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the stage leads."""
     frequency = frequency_at_hot if stage.sign > 0.0 else frequency_at_cold
-    slices = polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency, pcl_rheology)
-    return layer.series_modulus(*slices)
+    return polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency, pcl_rheology)
+
+
+@book.helper(instant=True)
+def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of the layer [Pa], its slices in series."""
+    return layer.series_modulus(*slice_moduli)
 
 
 @book.output("N*m/rad", instant=True)
 def impedance_now(
     layer_moduli: tuple[Scalar, Scalar],
-    layer_polar_moment: Scalar,
-    pcl_thickness: Scalar,
-    structure_stiffness: Scalar,
+    moment_now: Scalar,
+    pcl_depth: Scalar,
+    elastic_support: Scalar,
     spring_stiffness: Scalar,
 ) -> Scalar:
     """Magnitude of the joint's dynamic stiffness at the frequency of where the stage leads."""
-    storage, loss = (modulus * layer_polar_moment / pcl_thickness for modulus in layer_moduli)
-    real, imaginary = layer.series_stiffness(storage, loss, structure_stiffness)
+    storage, loss = (modulus * moment_now / pcl_depth for modulus in layer_moduli)
+    real, imaginary = layer.series_stiffness(storage, loss, elastic_support)
     return np.sqrt((spring_stiffness + real) ** 2 + imaginary**2)

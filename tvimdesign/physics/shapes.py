@@ -57,3 +57,17 @@ def slot(half_width: Any, length: Any) -> Section:
     near_polar = 0.25 * np.pi * b**4
     far_polar = near_polar + half_disc * (reach**2 + 2.0 * reach * centroid)
     return Section(strip_area + 2.0 * half_disc, strip_polar + near_polar + far_polar)
+
+
+def radial_strip(thickness: Any, inner_radius: Any, outer_radius: Any) -> Any:
+    """Area [m^2] between two circles about the axis, a radial line and its parallel at the given distance.
+
+    Integral of r arcsin(t/r) dr = r^2/2 arcsin(t/r) + t/2 sqrt(r^2 - t^2): a plate of constant thickness let into the
+    side of an annular sector.
+    """
+
+    def up_to(radius: Any) -> Any:
+        chord = np.sqrt(radius**2 - thickness**2)
+        return 0.5 * (radius**2 * np.arcsin(thickness / radius) + thickness * chord)
+
+    return up_to(outer_radius) - up_to(inner_radius)

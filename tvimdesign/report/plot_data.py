@@ -30,7 +30,7 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
             "soft": shown("soft_threshold"),
             "stiff": shown("stiff_threshold"),
             "target": shown("target_temperature"),
-            "thickness": shown("pcl_thickness"),
+            "thickness": shown("pcl_depth"),
         },
         "impedance": {
             "sweep": answer.sweep,

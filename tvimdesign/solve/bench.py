@@ -70,7 +70,7 @@ class Case:
 
 def joint_of(rig: Rig) -> motion.Joint:
     """Inertia, springs and structure of the module on the bench."""
-    return motion.Joint(*(rig.row(name) for name in ("moving_inertia", "spring_stiffness", "structure_stiffness")))
+    return motion.Joint(*(rig.row(name) for name in ("moving_inertia", "spring_stiffness", "elastic_support")))
 
 
 def with_paper_points(rig: Rig) -> Rig:
@@ -99,7 +99,7 @@ def histories_at(rig: Rig, temperature: float) -> tuple[History, ...]:
 def cases(rig: Rig) -> list[Case]:
     """The joint at every operating point, once for each history that matters there, the nominal one first."""
     joint = joint_of(rig)
-    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "layer_polar_moment", "pcl_thickness"))
+    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "pcl_moment", "pcl_depth"))
     found = []
     for point in rig.points:
         temperature = float(rig.row(f"temperature@{point}"))

@@ -89,7 +89,7 @@ class Changing:
 
 def changing(rig: Rig, history: SliceHistory) -> Changing:
     """The slices of a module's layer over a history, all of one thickness."""
-    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "layer_polar_moment", "pcl_thickness"))
+    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "pcl_moment", "pcl_depth"))
     spectrum = polymer.spectrum(history.temperatures, history.fractions, rheology)
     modes = motion.layer_modes(spectrum, moment, thickness / len(history.temperatures))
     both = [[time for time, _ in modes], [stiffness for _, stiffness in modes]]

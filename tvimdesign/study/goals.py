@@ -56,7 +56,7 @@ def _output(reading: Reading, key: Text, path: str, name: str, points: Collectio
     add = reading.problems.add
     if row is None or (isinstance(row, Output) and row.hidden):
         names = [name.partition("@")[0] for name in reading.table.names(list(points)[:1])]
-        reading.problems.unknown(key, path, "output", base, names)
+        reading.unknown_row(key, path, "output", base, names)
     elif not isinstance(row, Output):
         add(key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`")
     elif row.instant:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,7 +16,7 @@ from tvimdesign.errors import CatalogError, InputError
 from tvimdesign.study.files import printable
 from tvimdesign.study.goals import read_minimize, read_require
 from tvimdesign.study.model import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions
-from tvimdesign.study.problems import Problems, quoted, step
+from tvimdesign.study.problems import Problems, one_of, quoted, step
 from tvimdesign.study.settings import read_module, read_points
 from tvimdesign.study.source import check_characters, read_text
 from tvimdesign.study.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
@@ -84,8 +85,8 @@ class _Reader:
         found = entries(self.problems, self.root, "", "")
         self.sections = unknown_keys(self.problems, found, "", "section", list(SECTIONS))
         plain = self._plain()
-        folder, table = self._catalog_folder(), self._table()
-        parts = self._parts(Reading(self.problems, table, self._records(folder))) if table else {}
+        folder, mode = self._catalog_folder(), self._mode()
+        parts = self._parts(Reading(self.problems, mode, self.table(mode), self._records(folder))) if mode else {}
         self.problems.stop()
         return Study(**plain, **parts, catalog_folder=folder.as_posix() if folder else None)
 
@@ -119,7 +120,7 @@ class _Reader:
         self._both_or_neither()
         self._profile_has_a_range(reading.table, vary)
         return {
-            "mode": _word(get("mode")),
+            "mode": reading.mode,
             "module": module,
             "vary": with_start(vary, module),
             "require": require,
@@ -157,9 +158,10 @@ class _Reader:
             found = f"this version of tvimdesign does not read format {version}"
             self.problems.add(node, "tvimdesign", found, str(FORMAT))
 
-    def _table(self) -> Table | None:
+    def _mode(self) -> str | None:
+        """The mode; where it is misspelt the one that must be meant, so that other mistakes are told now too."""
         node = self.sections.get("mode")
-        expected = "one of " + ", ".join(MODES) if len(MODES) > 1 else repr(MODES[0])
+        expected = one_of(list(MODES))
         if node is None:
             self.problems.add(self.root, "mode", "missing", expected, f"write 'mode: {MODES[0]}'")
             return None
@@ -167,11 +169,12 @@ class _Reader:
         if word is None:
             return None
         try:
-            return self.table(word)
+            self.table(word)
         except InputError:
             self.problems.unknown(node, "mode", f"mode: {quoted(word)}", word, MODES)
-            # Read on with the mode that must be meant, so that the other mistakes are told now and not one by one.
-            return self.table(MODES[0]) if len(MODES) == 1 else None
+            meant = get_close_matches(word.lower(), MODES, n=1)
+            return meant[0] if meant else None
+        return word
 
     def _catalog_folder(self) -> Path | None:
         node = self.sections.get("catalog")
@@ -229,7 +232,3 @@ def _says_something(node: Node | None) -> bool:
         and not (isinstance(node, Text) and node.empty)
         and not (isinstance(node, Mapping) and not node.entries)
     )
-
-
-def _word(node: Node | None) -> str:
-    return node.value.strip() if isinstance(node, Text) else ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -16,10 +17,18 @@ SCHEMA_FILE = Path(__file__).with_name("schema.json")
 _NUMBER = r"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
 _POINT = "[a-z][a-z0-9_]{0,31}"
 _Schema: TypeAlias = dict[str, Any]
+_SECTIONS = {
+    "module": "what the module is",
+    "vary": "what may change",
+    "require": "what must hold",
+    "minimize": "what is to be small, with weights",
+    "operating_points": "where stiffness and damping are wanted; `cold` and `hot` always exist",
+}
+"""The sections whose names depend on the mode, and what they are for."""
 
 
-def json_schema(table: Table, modes: tuple[str, ...] = MODES) -> _Schema:
-    """Return the schema of the studies of a table.
+def json_schema(tables: Mapping[str, Table]) -> _Schema:
+    """Return the schema of the studies of the modes, each with its table.
 
     It knows names, shapes and which values need a unit. What needs the catalogue or arithmetic - whether a record
     exists, a unit fits, a value lies in its limits - only the reader knows.
@@ -35,17 +44,17 @@ def json_schema(table: Table, modes: tuple[str, ...] = MODES) -> _Schema:
             "tvimdesign": {"const": FORMAT, "description": "format of the file"},
             "name": _text("what the study is called"),
             "description": _text("what the study is for"),
-            "mode": {"enum": list(modes), "description": "how the polymer layer is loaded"},
+            "mode": {"enum": list(tables), "description": "how the polymer is loaded"},
             "catalog": _text("folder of your own records, relative to this file"),
-            "module": _section("what the module is", {row.name: _set(row) for row in _settable(table)}),
-            "vary": _section("what may change", {row.name: _vary(row) for row in _settable(table) if _varies(row)}),
-            "require": _section("what must hold", {}, _by_output(table, _require)),
-            "minimize": _minimize(table),
-            "operating_points": _points(table),
+            **{section: {"description": about} for section, about in _SECTIONS.items()},
             "profile": _options(ProfileOptions),
             "solver": _options(SolverOptions),
             "write": _options(WriteOptions),
         },
+        "allOf": [
+            {"if": {"properties": {"mode": {"const": mode}}}, "then": {"properties": _of_mode(table)}}
+            for mode, table in tables.items()
+        ],
         "definitions": {
             "quantity": {"type": "string", "pattern": rf"^\s*{_NUMBER} ?[^\s0-9.,_].*$"},
             "number": {"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^\s*{_NUMBER}( ?%)?\s*$"}]},
@@ -54,14 +63,27 @@ def json_schema(table: Table, modes: tuple[str, ...] = MODES) -> _Schema:
     }
 
 
+def _of_mode(table: Table) -> _Schema:
+    """The sections that depend on the mode."""
+    settable = _settable(table)
+    about = _SECTIONS
+    return {
+        "module": _section(about["module"], {row.name: _set(row) for row in settable}),
+        "vary": _section(about["vary"], {row.name: _vary(row) for row in settable if _varies(row)}),
+        "require": _section(about["require"], {}, _by_output(table, _require)),
+        "minimize": _minimize(table),
+        "operating_points": _points(table),
+    }
+
+
 def write_schema(path: Path = SCHEMA_FILE) -> None:
-    """Write the schema of the shear table, as it ships."""
-    path.write_text(schema_text(table_for("shear")), encoding="utf-8")
+    """Write the schema of all modes, as it ships."""
+    path.write_text(schema_text(), encoding="utf-8")
 
 
-def schema_text(table: Table) -> str:
-    """Return the schema as the text of its file."""
-    return json.dumps(json_schema(table), indent=2, ensure_ascii=False) + "\n"
+def schema_text() -> str:
+    """Return the schema of all modes as the text of its file."""
+    return json.dumps(json_schema({mode: table_for(mode) for mode in MODES}), indent=2, ensure_ascii=False) + "\n"
 
 
 def _text(description: str) -> _Schema:
@@ -129,14 +151,14 @@ def _require(row: Output) -> _Schema:
 def _minimize(table: Table) -> _Schema:
     weights = _by_output(table, lambda row: {"description": _about(row), "$ref": "#/definitions/number"})
     names = "|".join(pattern[1:-1] for pattern in weights)
-    section = _section("what is to be small, with weights", {}, weights)
+    section = _section(_SECTIONS["minimize"], {}, weights)
     return {"anyOf": [section, {"type": "string", "pattern": f"^({names})$"}]}
 
 
 def _points(table: Table) -> _Schema:
     rows = [row for row in table.inputs if row.per_point]
     point = _section("one operating point", {row.name: _set(row) for row in rows})
-    return _section("where stiffness and damping are wanted; `cold` and `hot` always exist", {}, {f"^{_POINT}$": point})
+    return _section(_SECTIONS["operating_points"], {}, {f"^{_POINT}$": point})
 
 
 def _options(options: type[BaseModel]) -> _Schema:

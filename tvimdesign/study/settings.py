@@ -34,7 +34,7 @@ def read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
         elif row is not None:
             reading.problems.add(key, path, "is a result and cannot be set", "an input", "limit it under `require`")
         else:
-            reading.problems.unknown(key, path, "input or choice", name, names)
+            reading.unknown_row(key, path, "input or choice", name, names)
         if read is not None:
             found[name] = read
     return found

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tvimdesign.catalog import Catalog, Record
-from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
 from tvimdesign.errors import CatalogError, UnitError
-from tvimdesign.study.problems import Problems, quoted, step
+from tvimdesign.study.problems import Place, Problems, quoted, step
 from tvimdesign.study.yaml_text import Broken, Mapping, Node, Sequence, Text
 from tvimdesign.units import format_quantity, parse_quantity
 
@@ -26,8 +27,23 @@ class Reading:
     """What the sections are read against, and where their problems go."""
 
     problems: Problems
+    mode: str
     table: Table
     catalog: Catalog
+
+    def unknown_row(self, place: Place, path: str, what: str, name: str, known: Iterable[str]) -> None:
+        """Note a name that is no such row; of a row that only another mode has, which one."""
+        others = [mode for mode in MODES if mode != self.mode and _has(mode, name)]
+        if others and not _has(self.mode, name):
+            self.problems.add(place, path, f"{name} is of {others[0]} mode, this study is {self.mode} mode")
+        else:
+            self.problems.unknown(place, path, what, name, known)
+
+
+def _has(mode: str, name: str) -> bool:
+    """Whether a mode has a row of that name that a study may say."""
+    row = table_for(mode).by_name.get(name)
+    return row is not None and not (isinstance(row, Output) and row.hidden)
 
 
 def entries(problems: Problems, node: Node | None, path: str, expected: str) -> dict[str, tuple[Text, Node]]:

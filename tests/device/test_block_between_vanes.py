@@ -1,0 +1,125 @@
+"""Blocks, vanes and springs put together once more: by quadrature over the sector, with complex numbers, by hand."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tvimdesign.device import table_for
+
+TABLE = table_for("compression")
+HERTZ = 3.0
+
+
+@pytest.fixture(scope="module")
+def joint(squeezed: dict[str, Any]) -> dict[str, Any]:
+    given = {**squeezed, "frequency@cold": HERTZ, "frequency@hot": HERTZ, "block_height": 10e-3, "block_depth": 5e-3}
+    names = [name for name in TABLE.names(("cold", "hot")) if TABLE.output(name).group == "Impedance"]
+    more = ["link_bottom_level", "rotor_top_level", "housing_vane_angle", "elastic_support", "pcl_moment"]
+    return {**given, **TABLE.evaluate(given, [*names, *more])}
+
+
+def apparent(joint: dict[str, Any], point: str) -> complex:
+    """Apparent modulus: the incompressible block by its shape, and the volume as [Gent and Lindley] give it, in series.
+
+    E = 411 MPa and nu = 0.45 at 23 degC make a bulk modulus of 1370 MPa. The mean pressure is a share of the stress.
+    """
+    shear = complex(joint[f"storage_modulus@{point}"], joint[f"loss_modulus@{point}"])
+    width, height, depth = 14e-3, 10e-3, 5e-3
+    shape = width * height / (2.0 * (width + height) * depth)
+    whole = 1.0 + 2.0 * shape**2
+    pressure = (1.0 / 3.0 + 2.0 * shape**2) / whole
+    return 1.0 / (1.0 / (3.0 * shear * whole) + pressure**2 / 1370e6)
+
+
+@pytest.mark.parametrize("point", ["cold", "hot"])
+def test_six_of_twelve_blocks_push_each_with_its_pressure_at_every_radius(joint: dict[str, Any], point: str) -> None:
+    # A sector of the angle a is strained by theta/a at every radius: torque = E theta/a times the integral of r h dr.
+    angle = 5e-3 / 33e-3
+    arm, _ = quad(lambda r: r * 10e-3, 26e-3, 40e-3)
+    star = 6 * apparent(joint, point) / angle * arm
+    assert joint[f"pcl_stiffness@{point}"] == pytest.approx(star.real, rel=1e-9)
+    assert joint[f"pcl_damping@{point}"] == pytest.approx(star.imag / (2.0 * np.pi * HERTZ), rel=1e-9)
+
+
+@pytest.mark.parametrize("point", ["cold", "hot"])
+def test_joint_is_the_springs_parallel_to_blocks_and_structure_in_series(joint: dict[str, Any], point: str) -> None:
+    springs = TABLE.evaluate(joint, ["spring_stiffness"])["spring_stiffness"]
+    omega = 2.0 * np.pi * HERTZ
+    blocks = complex(joint[f"pcl_stiffness@{point}"], omega * joint[f"pcl_damping@{point}"])
+    star = springs + 1.0 / (1.0 / blocks + 1.0 / joint["structure_stiffness"])
+    assert joint[f"joint_stiffness@{point}"] == pytest.approx(star.real, rel=1e-9)
+    assert joint[f"joint_damping@{point}"] == pytest.approx(star.imag / omega, rel=1e-9)
+    # What the simulations use: shear modes in series with one elastic support, structure and volume together.
+    shear = complex(joint[f"storage_modulus@{point}"], joint[f"loss_modulus@{point}"])
+    modes = shear * joint["pcl_moment"] / 5e-3
+    again = springs + 1.0 / (1.0 / modes + 1.0 / joint["elastic_support"])
+    assert again == pytest.approx(star, rel=1e-9)
+
+
+def test_a_molten_film_softens_the_joint_as_a_block_of_its_own_depth_would(squeezed: dict[str, Any]) -> None:
+    storage, loss = np.full(12, 1e15), np.zeros(12)
+    storage[:3], loss[:3] = 2e4, 3e4  # a quarter has melted, the rest is rigid
+    names = ["impedance_now", "spring_stiffness", "elastic_support"]
+    found = TABLE.evaluate({**squeezed, "slice_moduli": (storage, loss)}, names)
+    width, height, thick = 14e-3, 3.5e-3, 0.25 * 7e-3
+    shape = width * height / (2.0 * thick * (width + height))
+    film = 6 * 3.0 * complex(2e4, 3e4) * (1.0 + 2.0 * shape**2) * width * height * 33e-3**2 / thick
+    star = found["spring_stiffness"] + 1.0 / (1.0 / film + 1.0 / found["elastic_support"])
+    assert found["impedance_now"] == pytest.approx(abs(star), rel=1e-6)
+
+
+def test_structure_is_core_plate_vanes_pads_and_floor_in_series(joint: dict[str, Any]) -> None:
+    shear = 2.1e9 / (2.0 * 1.38)
+    mean = 33e-3
+
+    def ring(thickness: float, inner: float, outer: float) -> float:
+        return float(quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * thickness * shear), inner, outer, epsabs=0.0)[0])
+
+    def vane(width: float, thickness: float) -> float:
+        """Compliance of one vane of 10.4 mm, even load: Timoshenko's line of deflection, averaged."""
+        height, bending, area = 10.4e-3, 2.1e9 * width * thickness**3 / 12.0, width * thickness
+        line = quad(lambda x: (x**4 - 4 * height * x**3 + 6 * height**2 * x**2) / (24 * bending)
+                    + (height * x - 0.5 * x**2) / (5 / 6 * shear * area), 0.0, height, epsabs=0.0)[0]  # fmt: skip
+        return float(line / height**2)
+
+    open_angle = joint["housing_vane_angle"] - 2.0 * np.arcsin(1.5e-3 / mean)
+    core = (joint["link_bottom_level"] - joint["rotor_top_level"]) / (shear * 0.5 * np.pi * 10e-3**4)
+    vanes = (vane(14e-3, 5e-3) + vane(7e-3, open_angle * mean)) / (6 * mean**2)
+    floor = ring(4e-3 * (1.0 - 6 * open_angle / (2.0 * np.pi)), mean, 57e-3)
+    pads = 1.5e-3 / (300e6 * 6 * 140e-6 * mean**2)
+    whole = core + ring(4e-3, 10e-3, mean) + vanes + floor + pads
+    assert joint["structure_stiffness"] == pytest.approx(1.0 / whole, rel=1e-9)
+
+
+def test_rigid_structure_and_a_slender_incompressible_block_leave_three_times_the_shear_modulus(
+    squeezed: dict[str, Any],
+) -> None:
+    ideal = {
+        **squeezed, "pcl_poissons_ratio": 0.5 - 1e-9, "block_height": 1e-6, "structure_youngs_modulus": 1e20,
+        "peltier_shear_modulus": 1e20, "preload_angle": 0.15,
+    }  # fmt: skip
+    found = TABLE.evaluate(
+        ideal, ["joint_stiffness@hot", "spring_stiffness", "storage_modulus@hot", "joint_damping@hot"]
+    )
+    blocks = 6 * 3.0 * found["storage_modulus@hot"] * 14e-3 * 1e-6 * 33e-3**2 / 7e-3
+    assert found["joint_stiffness@hot"] - found["spring_stiffness"] == pytest.approx(blocks, rel=1e-4)
+
+
+def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
+    # 16 MPa on six faces of 14 x 10 mm at 33 mm.
+    assert joint["block_holding_torque"] == pytest.approx(6 * 16e6 * 140e-6 * 33e-3, rel=1e-9)
+    parts = [joint[f"{part}_holding_torque"] for part in ("block", "rotor_vane", "housing_vane", "core", "link")]
+    assert joint["holding_torque"] == min(parts)
+    for part, width, thickness in (
+        ("rotor_vane", 14e-3, 5e-3),
+        ("housing_vane", 7e-3, joint["housing_vane_thickness"]),
+    ):
+        force = joint[f"{part}_holding_torque"] / (6 * 33e-3)
+        bending = force * 5.4e-3 / (width * thickness**2 / 6.0)
+        assert bending**2 + 3.0 * (force / (width * thickness)) ** 2 == pytest.approx((31e6) ** 2, rel=1e-9), part
+
+
+def test_stroke_squeezes_the_block_by_its_share_of_the_depth(joint: dict[str, Any]) -> None:
+    assert joint["block_strain"] == pytest.approx(0.104 * 33.0 / 5.0, rel=1e-9)

@@ -1,0 +1,71 @@
+"""How long it takes to heat a block: by the flux alone, by diffusion, and in between, as its depth doubles."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from support import fine
+
+from tvimdesign.device import table_for
+from tvimdesign.solve.model import Model
+
+TABLE = table_for("compression")
+# Nothing but block and pads takes heat, and nothing loses it.
+ALONE: dict[str, Any] = {
+    "structure_specific_heat": 1.0, "structure_conductivity": 1e-3, "rotor_coefficient": 1e-3,
+    "surface_emissivity": 0.0, "peltier_specific_heat": 5.0, "hot_contact": 1e6, "rotor_contact": 1e5,
+    "peltier_conductance": 0.0, "peltier_seebeck": 0.0, "cold_side_coefficient": 1e3, "horizon": 1e5,
+    "response_criterion": "far_face",
+}  # fmt: skip
+
+
+def far_face_time(module: dict[str, Any], **changed: Any) -> float:
+    model = Model(TABLE, {**module, **ALONE, **changed}, ("cold", "hot"), 24)
+    return float(fine(model).run(model.start, stages=["softening"]).values["far_face_time"])
+
+
+def conducting(factor: float) -> dict[str, Any]:
+    return {"pcl_conductivity_solid": 0.225 * factor, "pcl_conductivity_melt": 0.18 * factor}
+
+
+def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed: dict[str, Any]) -> None:
+    # Half of I^2 R goes to the hot side; 231 kJ/kg take polycaprolactone from 22 to 100 degC, a third of it latent.
+    area = 12 * 14e-3 * 3.5e-3
+    power = 0.5 * 1.5**2 * 3.0 * area / 1600e-6
+    time = far_face_time(squeezed, **conducting(100.0))
+    assert time == pytest.approx(1145.0 * area * 7e-3 * 231e3 / power, rel=0.02)
+
+
+@pytest.mark.parametrize(("factor", "current", "low", "high"), [(100.0, 1.5, 1.98, 2.05), (1.0, 40.0, 3.3, 4.0)])
+def test_twice_the_depth_takes_twice_as_long_by_flux_and_nearly_four_times_by_diffusion(
+    factor: float, current: float, low: float, high: float, squeezed: dict[str, Any]
+) -> None:
+    times = [
+        far_face_time(squeezed, block_depth=depth, current=current, **conducting(factor)) for depth in (3e-3, 6e-3)
+    ]
+    assert low < times[1] / times[0] < high
+
+
+def test_twice_the_depth_takes_two_to_four_times_as_long_the_more_the_stronger_the_flux(
+    squeezed: dict[str, Any],
+) -> None:
+    ratios = []
+    for current in (0.5, 1.5, 4.0, 12.0):
+        times = [far_face_time(squeezed, block_depth=depth, current=current) for depth in (3e-3, 6e-3)]
+        ratios.append(times[1] / times[0])
+    assert np.all(np.diff(ratios) > 0.0)
+    assert 2.0 < ratios[0] < ratios[-1] < 4.0
+
+
+def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, Any]) -> None:
+    found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
+    stack = found["stack"]
+    vanes = stack.plate_heat_capacity * stack.area * stack.plate_thickness
+    parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
+    assert vanes + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
+
+
+def test_cold_sides_are_open_where_the_slots_are(squeezed: dict[str, Any]) -> None:
+    stack = TABLE.evaluate(squeezed, ["stack"])["stack"]
+    # Twelve pads, 7 of 14 mm wide, from the floor's side to 2 mm below the top of 3.5 mm.
+    assert stack.cold_surface.area == pytest.approx(12 * 7e-3 * 1.5e-3, rel=1e-9)

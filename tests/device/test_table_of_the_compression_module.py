@@ -1,0 +1,55 @@
+"""Every row of the compression module is said in words and units, every input is used, and its default can be made."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tvimdesign.device import Choice, Input, Output, Supplied, table_for
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Switch
+from tvimdesign.units import to_si
+
+TABLE = table_for("compression")
+OWN = [row for row in TABLE.rows if row.name not in table_for("shear").by_name and not isinstance(row, Choice)]
+
+
+@pytest.mark.parametrize("row", OWN, ids=lambda row: row.name)
+def test_row_is_described_and_has_a_unit_that_can_be_read(row: Input | Output) -> None:
+    assert len(row.description) >= 8
+    assert np.isfinite(to_si(1.0, row.unit))
+    if isinstance(row, Input):
+        status, _, source = row.source.partition(": ")
+        assert status == "assumed"
+        assert len(source) > 3
+        assert row.default is not None
+        assert row.lower <= row.default <= row.upper
+
+
+def test_every_input_and_intermediate_result_is_used() -> None:
+    used = {name for row in TABLE.outputs for name in TABLE.ancestors(row.name)}
+    used |= {"horizon", "current_slew", "state_rates", *(stage.drive for stage in TABLE.stages)}
+    used |= {row.record[0] for row in TABLE.inputs if row.record}
+    assert {row.name for row in TABLE.rows if not isinstance(row, Output) or row.hidden} <= used
+
+
+def test_nothing_of_the_shear_module_is_left_in_it() -> None:
+    assert not {"pcl_thickness", "arc_span", "arc_count", "layer_strain", "arc_width"} & TABLE.by_name.keys()
+
+
+def test_the_default_module_keeps_every_rule(squeezed_model: Model, squeezed_switch: Switch) -> None:
+    values = squeezed_model.values(squeezed_model.start, squeezed_switch.values)
+    for row in TABLE.outputs:
+        for rule in row.rules:
+            value = values[row.name]
+            assert value <= rule.value if rule.sense == "<=" else value >= rule.value, row.name
+
+
+def test_floats_and_symbols_give_the_same_outputs(
+    squeezed: dict[str, Any], squeezed_model: Model, squeezed_switch: Switch
+) -> None:
+    wanted = [name for name in TABLE.names(("cold", "hot")) if not isinstance(TABLE.row(name), Supplied)]
+    floats = TABLE.evaluate({**squeezed, **squeezed_switch.values}, wanted)
+    symbols = squeezed_model.values(squeezed_model.start, squeezed_switch.values)
+    for name, value in floats.items():
+        assert float(value) == pytest.approx(symbols[name], rel=1e-12, abs=1e-300), name

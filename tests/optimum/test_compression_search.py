@@ -1,0 +1,49 @@
+"""The optimum of a compression module: the same from anywhere, and kept by a simulation of its own."""
+
+import numpy as np
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.search import optimize
+from tvimdesign.study import read_study_text
+
+SMALL = """
+mode: compression
+module:
+  response_criterion: mean
+  core_radius: 8 mm
+  rotor_rim: 8 mm
+  pcl_inner_radius: 13 mm
+  block_height: 11 mm
+  block_depth: 4 mm
+  vane_thickness: 4 mm
+  coil_diameter: 12 mm
+  coil_count: 6.7
+vary:
+  coil_diameter: [10 mm, 16 mm]
+  coil_count: [4, 9]
+  pcl_outer_radius: [18 mm, 30 mm]
+  block_height: [4 mm, 14 mm]
+  block_depth: [2 mm, 8 mm]
+  vane_thickness: [2 mm, 6 mm]
+  current: [0.5 A, 2.5 A]
+require:
+  spring_stiffness: ">= 5 N.m/rad"
+  holding_torque: ">= 8 N.m"
+  peltier_temperature_reserve: ">= 0 K"
+minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
+solver: {starts: 7, seed: 1}
+"""
+
+
+def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
+    solution = optimize(read_study_text(SMALL, "test"), Catalog(), table_for("compression"), lambda _: None)
+    assert solution.status == "optimal"
+    assert solution.feasible
+    assert all(start.converged for start in solution.starts)
+    objectives = [start.objective for start in solution.starts]
+    assert max(objectives) - min(objectives) <= 1e-4 * min(objectives)
+    for name, value in solution.starts[0].end.items():
+        assert np.allclose([start.end[name] for start in solution.starts], value, rtol=1e-3), name
+    # The mode's own price: the stroke squeezes the block, so its depth cannot be less than twice the way of the vane.
+    assert 0.49 < solution.values["block_strain"] < 0.5005

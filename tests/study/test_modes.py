@@ -1,0 +1,53 @@
+"""A study says its mode, and the names it may use are those of that mode."""
+
+import jsonschema
+import pytest
+import yaml
+
+from tvimdesign.device import MODES, Output, table_for
+from tvimdesign.study import StudyError, read_study_text
+from tvimdesign.study.schema import json_schema
+
+TABLES = {mode: table_for(mode) for mode in MODES}
+OF_THE_OTHER = [
+    ("shear", "compression", "module: {block_depth: 5 mm}"),
+    ("shear", "compression", "vary: {block_height: [3 mm, 5 mm]}\nminimize: module_mass"),
+    ("shear", "compression", "require: {block_strain: '<= 0.4'}"),
+    ("compression", "shear", "module: {pcl_thickness: 1 mm}"),
+    ("compression", "shear", "module: {pcl_bond_strength: 3 MPa}"),
+    ("compression", "shear", "vary: {arc_span: [30 deg, 40 deg]}\nminimize: module_mass"),
+    ("compression", "shear", "vary: {current: [1 A, 2 A]}\nminimize: layer_strain"),
+]
+
+
+@pytest.mark.parametrize(("mode", "other", "text"), OF_THE_OTHER)
+def test_a_name_of_the_other_mode_is_told_as_such(mode: str, other: str, text: str) -> None:
+    with pytest.raises(StudyError) as caught:
+        read_study_text(f"mode: {mode}\n{text}\n", "x.yaml")
+    (problem,) = caught.value.problems
+    assert problem.message.endswith(f"is of {other} mode, this study is {mode} mode")
+
+
+@pytest.mark.parametrize(("mode", "other", "text"), OF_THE_OTHER)
+def test_the_schema_takes_a_name_in_its_own_mode_only(mode: str, other: str, text: str) -> None:
+    validator = jsonschema.Draft7Validator(json_schema(TABLES))
+    assert validator.is_valid(yaml.safe_load(f"mode: {other}\n{text}"))
+    assert not validator.is_valid(yaml.safe_load(f"mode: {mode}\n{text}"))
+
+
+def test_a_name_of_no_mode_is_told_with_the_nearest() -> None:
+    with pytest.raises(StudyError, match="did you mean 'block_depth'"):
+        read_study_text("mode: compression\nmodule: {block_deph: 5 mm}\n")
+
+
+def test_rows_of_one_name_mean_the_same_in_both_modes() -> None:
+    shear, compression = (TABLES[mode].by_name for mode in ("shear", "compression"))
+    shared = shear.keys() & compression.keys()
+    assert len(shared) > 200
+    for name in shared:
+        one, other = shear[name], compression[name]
+        assert type(one) is type(other), name
+        assert getattr(one, "unit", "") == getattr(other, "unit", ""), name
+        assert one.group == other.group, name
+        if isinstance(one, Output) and isinstance(other, Output):
+            assert (one.per_point, one.instant, one.headline) == (other.per_point, other.instant, other.headline), name

@@ -1,0 +1,102 @@
+"""Volumes of what only the compression module has: blocks, vanes on rotor and housing, and slots."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.bodies import book as shared
+from tvimdesign.device.book import Book
+from tvimdesign.device.rows import Scalar
+from tvimdesign.physics.shapes import Section, radial_strip, ring, sector
+
+book = Book(shared.group)
+
+
+@book.output("mm^2")
+def block_area(block_width: Scalar, block_height: Scalar) -> Scalar:
+    """Face of one block, and of one Peltier pad."""
+    return block_width * block_height
+
+
+@book.output("mm^2", headline=True)
+def pcl_area(vane_count: Scalar, block_area: Scalar) -> Scalar:
+    """Area of all PCL blocks together towards their pads."""
+    return 2.0 * vane_count * block_area
+
+
+@book.output("mm^3")
+def pcl_volume(pcl_area: Scalar, block_depth: Scalar) -> Scalar:
+    """Volume of all PCL blocks together; a sector has its depth at the mean radius throughout."""
+    return pcl_area * block_depth
+
+
+@book.helper()
+def slot_section(
+    vane_count: Scalar,
+    housing_vane_angle: Scalar,
+    slot_inner_radius: Scalar,
+    slot_outer_radius: Scalar,
+    peltier_thickness: Scalar,
+) -> Scalar:
+    """Area of the slots in plan view [m^2]: sectors of the vanes, less the pads on either side."""
+    whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
+    return vane_count * (whole - 2.0 * radial_strip(peltier_thickness, slot_inner_radius, slot_outer_radius))
+
+
+@book.output("mm^3")
+def housing_vanes_volume(
+    vane_count: Scalar,
+    housing_vane_angle: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    vane_height: Scalar,
+    block_height: Scalar,
+    window_ledge: Scalar,
+    peltier_thickness: Scalar,
+    slot_section: Scalar,
+) -> Scalar:
+    """Volume of the housing's vanes, less the pads let into them and their slots."""
+    whole = sector(housing_vane_angle, pcl_inner_radius, pcl_outer_radius).area * vane_height
+    pads = 2.0 * radial_strip(peltier_thickness, pcl_inner_radius, pcl_outer_radius) * block_height
+    return vane_count * (whole - pads) - slot_section * (vane_height - window_ledge)
+
+
+@book.output("mm^3")
+def floor_volume(
+    core_radius: Scalar,
+    running_clearance: Scalar,
+    housing_outer_radius: Scalar,
+    floor_thickness: Scalar,
+    slot_section: Scalar,
+    spring_count: Scalar,
+    wire_diameter: Scalar,
+    tang_clearance: Scalar,
+    mount_hole: Scalar,
+) -> Scalar:
+    """Volume of the housing's floor, less bore, slots, tang holes and mounting holes."""
+    disc = ring(core_radius + running_clearance, housing_outer_radius).area
+    holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
+    return (disc - spring_count * holes - slot_section) * floor_thickness
+
+
+@book.output("mm^3")
+def housing_volume(bare_housing_volume: Scalar, housing_vanes_volume: Scalar) -> Scalar:
+    """Volume of the housing: skirt and floor, wall, hub, spring posts and vanes."""
+    return bare_housing_volume + housing_vanes_volume
+
+
+@book.helper()
+def rotor_vanes(
+    vane_count: Scalar, rotor_vane_angle: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
+) -> Section:
+    """Plan view of the rotor's vanes."""
+    return sector(rotor_vane_angle, pcl_inner_radius, pcl_outer_radius).times(vane_count)
+
+
+@book.helper()
+def rotor_moments(bare_rotor_moments: Section, rotor_vanes: Section, vane_height: Scalar) -> Section:
+    """Volume and its polar moment about the axis, of the rotor with its vanes."""
+    return Section(
+        bare_rotor_moments.area + rotor_vanes.area * vane_height,
+        bare_rotor_moments.polar + rotor_vanes.polar * vane_height,
+    )

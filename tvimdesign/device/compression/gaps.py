@@ -1,0 +1,56 @@
+"""What must hold for the vanes, blocks, pads and slots of the compression module."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.book import Book
+from tvimdesign.device.gaps import MM
+from tvimdesign.device.gaps import book as shared
+from tvimdesign.device.rows import Scalar, at_least
+
+book = Book(shared.group)
+
+
+@book.output("mm", at_least(0.0, "blocks and vanes must clear the hub"))
+def hub_block_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: Scalar) -> Scalar:
+    """Room between the hub and the blocks and vanes beyond the radial clearance."""
+    return pcl_inner_radius - hub_radius - radial_clearance
+
+
+@book.output("mm", at_least(3.0 * MM, "blocks and pads need a width", 0.0))
+def block_breadth(block_width: Scalar) -> Scalar:
+    """Radial width of the blocks, held against the least that can be made."""
+    return block_width
+
+
+@book.output("mm", at_least(2.0 * MM, "air must pass between the two pads of a housing vane", 0.0))
+def slot_opening(housing_vane_angle: Scalar, slot_inner_radius: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Distance of the two pads of a housing vane around the axis, at the inner end of the slot."""
+    return slot_inner_radius * (housing_vane_angle - 2.0 * np.arcsin(peltier_thickness / slot_inner_radius))
+
+
+@book.output("mm", at_least(1.0 * MM, "the pads' cold sides must be open somewhere", 0.0))
+def slot_reach(slot_height: Scalar) -> Scalar:
+    """Height of the pads' open cold sides, held against the least that lets air in."""
+    return slot_height
+
+
+@book.output("mm", at_least(1.2 * MM, "the housing's vanes must carry their pads beside the slot", 0.0))
+def slot_web(block_width: Scalar, slot_width: Scalar) -> Scalar:
+    """Radial width of what a housing vane has on either side of its slot."""
+    return 0.5 * (block_width - slot_width)
+
+
+@book.output("mm", at_least(1.2 * MM, "a thinner rotor vane would break"))
+def vane_root(rotor_vane_angle: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+    """Thickness of the rotor's vanes at their inner end, where they are thinnest."""
+    return rotor_vane_angle * pcl_inner_radius
+
+
+@book.output("mm", at_least(0.0, "the feet must clear the slots"))
+def mount_slot_gap(
+    placement_radius: Scalar, mount_boss_radius: Scalar, slot_outer_radius: Scalar, radial_clearance: Scalar
+) -> Scalar:
+    """Room between the mounting feet and the slots in the floor beyond the radial clearance."""
+    return placement_radius - mount_boss_radius - slot_outer_radius - radial_clearance

@@ -1,0 +1,12 @@
+"""The table of the compression-mode module, put together from the rooms that write the rows."""
+
+from __future__ import annotations
+
+from tvimdesign.device.book import gather
+from tvimdesign.device.compression import bodies, gaps, impedance, layout, thermal
+from tvimdesign.device.rows import Table
+from tvimdesign.device.shared import BOOKS
+from tvimdesign.device.stages import STAGES
+
+ROOMS = (layout, impedance, thermal, bodies, gaps)
+TABLE = Table(gather([*BOOKS, *(room.book for room in ROOMS)], "compression"), STAGES)

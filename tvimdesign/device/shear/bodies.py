@@ -1,0 +1,66 @@
+"""Volumes of what only the shear module has: arcs of PCL, a floor with pockets for the pads and windows below them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.bodies import book as shared
+from tvimdesign.device.book import Book
+from tvimdesign.device.rows import Scalar
+from tvimdesign.physics import layer
+from tvimdesign.physics.shapes import Section, ring, sector
+
+book = Book(shared.group)
+
+
+@book.output("mm^2", headline=True)
+def pcl_area(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Contact area of all PCL arcs together."""
+    return layer.area(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+
+
+@book.output("mm^3")
+def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Volume of all PCL arcs together."""
+    return pcl_area * pcl_thickness
+
+
+@book.helper()
+def window_section(
+    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar, window_ledge: Scalar
+) -> Section:
+    """Windows below the Peltier pads: the arcs, smaller by the ledge on every side."""
+    span = arc_span - 2.0 * window_ledge / pcl_inner_radius
+    return sector(span, pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge).times(arc_count)
+
+
+@book.output("mm^3")
+def floor_volume(
+    core_radius: Scalar,
+    running_clearance: Scalar,
+    housing_outer_radius: Scalar,
+    floor_thickness: Scalar,
+    floor_web: Scalar,
+    peltier_volume: Scalar,
+    window_section: Section,
+    spring_count: Scalar,
+    wire_diameter: Scalar,
+    tang_clearance: Scalar,
+    mount_hole: Scalar,
+) -> Scalar:
+    """Volume of the housing's floor, less bore, pad pockets, windows, tang holes and mounting holes."""
+    disc = ring(core_radius + running_clearance, housing_outer_radius).area
+    holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
+    return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_section.area * floor_web
+
+
+@book.output("mm^3")
+def housing_volume(bare_housing_volume: Scalar) -> Scalar:
+    """Volume of the housing: skirt and floor, wall, hub and spring posts."""
+    return bare_housing_volume
+
+
+@book.helper()
+def rotor_moments(bare_rotor_moments: Section) -> Section:
+    """Volume and its polar moment about the axis, of the rotor."""
+    return bare_rotor_moments

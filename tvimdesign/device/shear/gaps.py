@@ -1,0 +1,56 @@
+"""What must hold for the arcs of the shear module, the pads under them and the windows below those."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.book import Book
+from tvimdesign.device.gaps import MM
+from tvimdesign.device.gaps import book as shared
+from tvimdesign.device.rows import Scalar, at_least
+
+book = Book(shared.group)
+
+
+@book.output("mm", at_least(0.0, "the PCL arcs must clear the hub"))
+def hub_arc_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: Scalar) -> Scalar:
+    """Room between hub and PCL arcs beyond the radial clearance."""
+    return pcl_inner_radius - hub_radius - radial_clearance
+
+
+@book.output("mm", at_least(3.0 * MM, "the floor needs a web between two Peltier pads", 0.0))
+def arc_gap(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+    """Web between neighbouring PCL arcs at their inner radius."""
+    return (2.0 * np.pi / arc_count - arc_span) * pcl_inner_radius
+
+
+@book.output("mm", at_least(5.0 * MM, "the Peltier pad needs its ledges and a window for its cold side", 0.0))
+def arc_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+    """Radial width of the PCL arcs."""
+    return pcl_outer_radius - pcl_inner_radius
+
+
+@book.output("mm", at_least(0.0, "a Peltier pad needs a window behind its ledges for its cold side", 0.0))
+def window_depth(arc_width: Scalar, window_ledge: Scalar) -> Scalar:
+    """Radial width of the windows below the Peltier pads."""
+    return arc_width - 2.0 * window_ledge
+
+
+@book.output("mm", at_least(1.2 * MM, "the floor below a Peltier pad must carry it", 0.0))
+def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Thickness of the floor below the Peltier pads."""
+    return floor_thickness - peltier_thickness
+
+
+@book.output("mm", at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))
+def window_width(arc_span: Scalar, pcl_inner_radius: Scalar, window_ledge: Scalar) -> Scalar:
+    """Width of the windows below the Peltier pads at their inner radius."""
+    return arc_span * pcl_inner_radius - 2.0 * window_ledge
+
+
+@book.output("mm", at_least(0.0, "the feet must clear the Peltier pads"))
+def mount_pad_gap(
+    placement_radius: Scalar, mount_boss_radius: Scalar, pcl_outer_radius: Scalar, radial_clearance: Scalar
+) -> Scalar:
+    """Room between the mounting feet and the Peltier pads beyond the radial clearance."""
+    return placement_radius - mount_boss_radius - pcl_outer_radius - radial_clearance

@@ -1,0 +1,93 @@
+"""The PCL layer of the shear module and what it works against: stiffness, damping, strain, and the torque it holds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.book import Book
+from tvimdesign.device.impedance import book as shared
+from tvimdesign.device.rows import Rule, Scalar
+from tvimdesign.physics import layer, structure
+
+book = Book(shared.group)
+
+
+@book.output("m^4")
+def layer_polar_moment(
+    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
+) -> Scalar:
+    """Polar second moment of area of the PCL layer."""
+    return layer.polar_moment(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+
+
+@book.output("N*m/rad", per_point=True, headline=True)
+def pcl_stiffness(storage_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Stiffness of the PCL layer alone, K_PCL."""
+    return storage_modulus * layer_polar_moment / pcl_thickness
+
+
+@book.output("N*m*s/rad", per_point=True, headline=True)
+def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar, frequency: Scalar) -> Scalar:
+    """Damping of the PCL layer alone, b_PCL."""
+    return loss_modulus * layer_polar_moment / pcl_thickness / (2.0 * np.pi * frequency)
+
+
+@book.output("N*m/rad")
+def structure_stiffness(
+    core_stiffness: Scalar,
+    plate_stiffness: Scalar,
+    structure_shear_modulus: Scalar,
+    pcl_mean_radius: Scalar,
+    placement_radius: Scalar,
+    floor_web: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    layer_polar_moment: Scalar,
+) -> Scalar:
+    """Stiffness in series with the layer: core, rotor plate, Peltier pads, and floor up to its mounting feet."""
+    return structure.series(
+        core_stiffness,
+        plate_stiffness,
+        # The floor is weakest where pockets and windows thin it; its web counts.
+        structure.ring_stiffness(structure_shear_modulus, floor_web, pcl_mean_radius, placement_radius),
+        peltier_shear_modulus * layer_polar_moment / peltier_thickness,
+    )
+
+
+@book.helper()
+def pcl_moment(layer_polar_moment: Scalar) -> Scalar:
+    """What the PCL's shear modulus over its depth is multiplied with [m^4]: the layer's polar moment."""
+    return layer_polar_moment
+
+
+@book.helper()
+def elastic_support(structure_stiffness: Scalar) -> Scalar:
+    """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure."""
+    return structure_stiffness
+
+
+@book.output("1", headline=True)
+def layer_strain(pcl_outer_radius: Scalar, stroke: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Shear strain of the molten layer at its outer radius at full stroke."""
+    return layer.shear_strain(pcl_outer_radius, stroke, pcl_thickness)
+
+
+@book.output("1", Rule(sense=">=", value=1.0, reason="the molten layer would tear or slip"))
+def layer_strain_safety(pcl_melt_strain_limit: Scalar, layer_strain: Scalar) -> Scalar:
+    """Strain the molten layer bears over the strain it sees."""
+    return pcl_melt_strain_limit / layer_strain
+
+
+@book.output("N*m")
+def layer_holding_torque(
+    pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
+) -> Scalar:
+    """Torque at which the frozen layer's bond, or its shear yield, gives way at its outer rim."""
+    traction = np.fmin(pcl_bond_strength, pcl_tensile_yield / np.sqrt(3.0))
+    return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
+
+
+@book.output("N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque"))
+def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
+    """Torque the frozen joint holds: the least of what the layer, the core and the link's screws bear."""
+    return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)

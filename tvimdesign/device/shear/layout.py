@@ -1,0 +1,21 @@
+"""Where the rotor plate stands in the shear module: on the PCL layer, which lies on the floor."""
+
+from __future__ import annotations
+
+from tvimdesign.device.book import Book
+from tvimdesign.device.layout import book as shared
+from tvimdesign.device.rows import Scalar
+
+book = Book(shared.group)
+
+
+@book.output("mm")
+def rotor_bottom_level(pcl_thickness: Scalar) -> Scalar:
+    """Lower face of the rotor plate, which lies on the layer."""
+    return pcl_thickness
+
+
+@book.output("mm")
+def pcl_depth(pcl_thickness: Scalar) -> Scalar:
+    """Way of heat and load through the PCL."""
+    return pcl_thickness

@@ -1,0 +1,29 @@
+"""A vane: a short cantilever of rectangular section, pressed on one of its faces.
+
+Sources: [T] Timoshenko, Strength of Materials, part I, 3rd ed., ch. 5 (cantilevers under an even load, deflection by
+bending and by shear); [M] Mises' criterion of yield.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+SHEAR_COEFFICIENT = 5.0 / 6.0  # rectangular section [T]
+
+
+def stiffness(youngs_modulus: Any, shear_modulus: Any, width: Any, thickness: Any, height: Any) -> Any:
+    """Force, spread evenly over the face, over the face's mean deflection [N/m] [T].
+
+    1/k = h^3/(20 E I) + h/(3 kappa G A), I = w t^3/12, A = w t, kappa = 5/6.
+    """
+    bending = height**3 / (20.0 * youngs_modulus * width * thickness**3 / 12.0)
+    shearing = height / (3.0 * SHEAR_COEFFICIENT * shear_modulus * width * thickness)
+    return 1.0 / (bending + shearing)
+
+
+def force_at_yield(strength: Any, width: Any, thickness: Any, arm: Any) -> Any:
+    """Force [N] at a distance from the root at which the root yields, F = sigma w t/sqrt((6 a/t)^2 + 3) [T, M].
+
+    Bending stress 6 F a/(w t^2) at the surface and mean shear stress F/(w t) taken at one point, which is safe.
+    """
+    return strength * width * thickness / ((6.0 * arm / thickness) ** 2 + 3.0) ** 0.5
