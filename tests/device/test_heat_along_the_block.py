@@ -60,6 +60,13 @@ def test_twice_the_depth_takes_two_to_four_times_as_long_the_more_the_stronger_t
 def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, Any]) -> None:
     found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
     stack = found["stack"]
+    assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
+    # Six roots of 14 by 5 mm, the mean of a vane of 3.9 mm heated all along is a third of its height away.
+    assert stack.beside[0].conductance == pytest.approx(0.24 * 6 * 14e-3 * 5e-3 / (3.9e-3 / 3.0), rel=1e-9)
+    # Half a vane's rims, two of 3.5 mm and one of 14 mm, lose 5 W/m2 K.
+    rims = 12 * (2 * 3.5e-3 + 14e-3) * 2.5e-3
+    assert stack.plate_surface.area * stack.plate_surface.coefficient == pytest.approx(5.0 * rims, rel=1e-9)
+    assert stack.plate_surface.area * stack.plate_surface.emissivity == pytest.approx(0.9 * rims, rel=1e-9)
     vanes = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
     assert vanes + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)

@@ -30,7 +30,7 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
             "soft": shown("soft_threshold"),
             "stiff": shown("stiff_threshold"),
             "target": shown("target_temperature"),
-            "thickness": shown("pcl_depth"),
+            "thickness": from_si(table.evaluate(design.values, ["pcl_depth"])["pcl_depth"], "mm"),
         },
         "impedance": {
             "sweep": answer.sweep,

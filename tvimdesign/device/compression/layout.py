@@ -11,9 +11,9 @@ from tvimdesign.device.rows import Scalar
 book = Book(shared.group)
 
 
-@book.output("mm")
+@book.helper()
 def rotor_bottom_level(block_height: Scalar, running_clearance: Scalar) -> Scalar:
-    """Lower face of the rotor plate: a running clearance below and above the blocks."""
+    """Lower face of the rotor plate [m]: a running clearance below and above the blocks."""
     return block_height + 2.0 * running_clearance
 
 
@@ -23,9 +23,9 @@ def vane_height(block_height: Scalar, running_clearance: Scalar) -> Scalar:
     return block_height + running_clearance
 
 
-@book.output("mm")
+@book.helper()
 def pcl_depth(block_depth: Scalar) -> Scalar:
-    """Way of heat and load through the PCL."""
+    """Way of heat and load through the PCL [m]."""
     return block_depth
 
 

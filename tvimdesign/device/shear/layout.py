@@ -9,13 +9,13 @@ from tvimdesign.device.rows import Scalar
 book = Book(shared.group)
 
 
-@book.output("mm")
+@book.helper()
 def rotor_bottom_level(pcl_thickness: Scalar) -> Scalar:
-    """Lower face of the rotor plate, which lies on the layer."""
+    """Lower face of the rotor plate, which lies on the layer [m]."""
     return pcl_thickness
 
 
-@book.output("mm")
+@book.helper()
 def pcl_depth(pcl_thickness: Scalar) -> Scalar:
-    """Way of heat and load through the PCL."""
+    """Way of heat and load through the PCL [m]."""
     return pcl_thickness
