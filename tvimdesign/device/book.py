@@ -23,6 +23,12 @@ class Book:
         """`group` is the heading under which reports list the rows."""
         self.group = group
         self.rows: list[Row] = []
+        self.anchors: dict[int, str] = {}
+        """Of the rows that stand after a certain row of the group, by their place here, that row's name."""
+
+    def after(self, name: str) -> None:
+        """Let the next rows stand after a row that another book of the group wrote, where reports list them."""
+        self.anchors[len(self.rows)] = name
 
     def inputs(self) -> None:
         """Add the inputs that `inputs.yaml` lists under this group."""
@@ -145,8 +151,14 @@ def gather(books: Iterable[Book], mode: str) -> tuple[Row, ...]:
     """Rows of a mode from the books of its rooms, books of one group together where its first one stands."""
     rows: dict[str, list[Row]] = {}
     for book in books:
-        own = [row for row in book.rows if not (isinstance(row, Input) and row.mode not in {None, mode})]
-        rows.setdefault(book.group, []).extend(own)
+        group = rows.setdefault(book.group, [])
+        place = len(group)
+        for i, row in enumerate(book.rows):
+            if i in book.anchors:
+                place = 1 + next(k for k, other in enumerate(group) if other.name == book.anchors[i])
+            if not (isinstance(row, Input) and row.mode not in {None, mode}):
+                group.insert(place, row)
+                place += 1
     return tuple(row for group in rows.values() for row in group)
 
 

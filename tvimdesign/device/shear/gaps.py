@@ -12,6 +12,9 @@ from tvimdesign.device.rows import Scalar, at_least
 book = Book(shared.group)
 
 
+book.after("leg_reach_gap")
+
+
 @book.output("mm", at_least(0.0, "the PCL arcs must clear the hub"))
 def hub_arc_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: Scalar) -> Scalar:
     """Room between hub and PCL arcs beyond the radial clearance."""
@@ -42,10 +45,16 @@ def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
     return floor_thickness - peltier_thickness
 
 
+book.after("retainer_gap")
+
+
 @book.output("mm", at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))
 def window_width(arc_span: Scalar, pcl_inner_radius: Scalar, window_ledge: Scalar) -> Scalar:
     """Width of the windows below the Peltier pads at their inner radius."""
     return arc_span * pcl_inner_radius - 2.0 * window_ledge
+
+
+book.after("mount_wall_gap")
 
 
 @book.output("mm", at_least(0.0, "the feet must clear the Peltier pads"))
