@@ -90,8 +90,7 @@ def main() -> None:
     # Matplotlib is slow and single-threaded: two processes with it loaded share the plots. Taking the interpreter down
     # in order would take as long as two plots, so they leave at once.
     other = os.fork()
-    last = len(drawings) - 1
-    _draw(figures, folder, [drawing for i, drawing in enumerate(drawings) if (i == last) != bool(other)])
+    _draw(figures, folder, drawings[int(bool(other)) :: 2])
     if not other or os.waitpid(other, 0)[1] == 0:
         os._exit(0)
     raise SystemExit(1)
