@@ -16,8 +16,8 @@ from tvimdesign.solve.drive import Drive
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.stage_model import StageModel
 
-STEPS = 25  # samples of one stretch of time
-TOLERANCE = 1e-5  # with these, times of events are within 1e-4 of what they converge to
+STEPS = 50  # samples of one stretch of time
+TOLERANCE = 1e-6  # with these, values are within 2e-4 of what they converge to (test)
 FIRST_STRETCH = 120.0  # s; each after it is twice as long
 SHOWN_STRETCHES = 4  # of a stage that is to be drawn
 STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
