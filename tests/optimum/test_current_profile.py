@@ -10,7 +10,6 @@ import pytest
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.errors import InputError
-from tvimdesign.solve.drive import Drive
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.simulate import Simulator, Trajectory
 from tvimdesign.solve.solution import Held, Solution
@@ -60,10 +59,6 @@ def with_pieces(pieces: int, text: str = HEATING) -> str:
     return text.replace("softening: 0", f"softening: {pieces}")
 
 
-def steepest(drive: Drive) -> float:
-    return float(np.max(np.abs(np.diff(drive.currents))) * (len(drive.currents) - 1) / drive.duration)
-
-
 def terminals(solution: Solution, stage: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Voltage, hot and cold side over a stage, by the Peltier equations from temperatures and currents."""
     line, model = solution.switch.trajectories[stage], solution.model
@@ -95,9 +90,13 @@ def test_the_limits_hold_all_along_the_simulated_heating() -> None:
     assert np.max(voltage) <= 7.6 * (1.0 + TOLERANCE)
     assert np.max(voltage * line.currents) <= 15.0 * (1.0 + TOLERANCE)
     assert np.max(hot) <= 398.15 + 100.0 * TOLERANCE
-    assert np.min(line.currents) >= 0.3
+    drive = solution.drives["softening"]
+    assert (drive.moments[0], drive.currents[0]) == (0.0, 0.0)
+    ramped = line.times >= drive.moments[1]
+    assert drive.moments[1] == pytest.approx(drive.currents[1] / 0.2)
+    assert np.min(line.currents[ramped]) >= 0.3
     assert np.max(line.currents) <= 3.0
-    assert steepest(solution.drives["softening"]) <= 0.2 * (1.0 + 1e-6)
+    assert solution.drives["softening"].steepest <= 0.2 * (1.0 + 1e-6)
     # The limits that are said to hold it do: one is met.
     assert max(np.max(voltage) / 7.6, np.max(voltage * line.currents) / 15.0) > 0.99
     assert np.max(hot) > 398.15 - 0.3
@@ -110,11 +109,14 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
     assert np.max(voltage * solution.switch.trajectories["softening"].currents) <= 20.0 * (1.0 + TOLERANCE)
     assert np.max(hot) <= 403.15 + 100.0 * TOLERANCE
     voltage, _, _ = terminals(solution, "stiffening")
-    cooling = solution.switch.trajectories["stiffening"].currents
+    drive = solution.drives["stiffening"]
+    assert drive.currents[0] == 0.0
+    line = solution.switch.trajectories["stiffening"]
+    cooling = line.currents[line.times >= drive.moments[1]]
     assert np.max(voltage) <= 6.0 * (1.0 + TOLERANCE)
     assert np.max(cooling) <= -0.05
     assert np.min(cooling) >= -2.5
-    assert all(steepest(drive) <= 0.5 * (1.0 + 1e-6) for drive in solution.drives.values())
+    assert all(drive.steepest == pytest.approx(0.5, rel=1e-9) for drive in solution.drives.values())
 
 
 def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
@@ -122,7 +124,7 @@ def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
     again = Simulator(solution.model).run_to_show(solution.inputs, solution.drives)
     for stage, event in (("softening", "response_time"), ("stiffening", "stiffening_time")):
         assert again.values[event] == pytest.approx(solution.values[event], rel=1e-9)
-        assert solution.drives[stage].duration == pytest.approx(again.values[event], rel=1e-3)
+        assert solution.drives[stage].moments[-1] == pytest.approx(again.values[event], rel=1e-3)
         assert abs(solution.drives[stage].mean) == pytest.approx(
             solution.inputs[solution.model.index[TABLE.stage(stage).drive]], rel=1e-12
         )
@@ -135,14 +137,16 @@ def test_a_cycle_with_profiles_is_no_longer_than_one_with_constant_currents() ->
 
 @pytest.mark.slow
 def test_a_slow_supply_costs_time_and_is_told() -> None:
-    slow, eased = (solve(CYCLE.replace("0.5 A/s", f"{slew} A/s")) for slew in ("0.01", "0.0101"))
+    tighter, slow, eased = (solve(CYCLE.replace("0.5 A/s", f"{slew} A/s")) for slew in ("0.0792", "0.08", "0.0808"))
     assert slow.status == "optimal"
     assert slow.values["cycle_time"] > solve(CYCLE).values["cycle_time"]
-    assert max(steepest(drive) for drive in slow.drives.values()) == pytest.approx(0.01, rel=1e-4)
-    # Both studies start from the same module, so that their objectives are one measure.
-    saved = 100.0 * (slow.objective - eased.objective) / slow.objective
-    assert one(slow, "current_slew <=").price > 1e-3
-    assert saved == pytest.approx(one(slow, "current_slew <=").price, rel=0.1)
+    assert max(drive.steepest for drive in slow.drives.values()) == pytest.approx(0.08, rel=1e-4)
+    # All studies start from the same module, so that their objectives are one measure. The solver's own are taken:
+    # what a hundredth saves is not far above the simulator's tolerance.
+    ends = [solution.starts[0].objective for solution in (tighter, slow, eased)]
+    price = one(slow, "current_slew <=").price
+    assert price > 1e-3
+    assert 50.0 * (ends[0] - ends[2]) / ends[1] == pytest.approx(price, rel=0.05)
 
 
 def one(solution: Solution, name: str) -> Held:

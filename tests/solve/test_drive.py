@@ -11,21 +11,34 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from support import fine
 
-from tvimdesign.solve.drive import Drive
+from tvimdesign.solve.drive import Drive, ramp_time
 from tvimdesign.solve.model import Model
 
 currents = st.lists(st.floats(-20.0, 20.0), min_size=1, max_size=9).map(tuple)
 durations = st.floats(0.5, 5000.0)
 
 
+def evenly(duration: float, sizes: tuple[float, ...]) -> Drive:
+    return Drive.in_pieces(0.0, duration, sizes)
+
+
+def test_a_profile_begins_with_a_ramp_from_zero() -> None:
+    assert ramp_time(1.5, 0.5) == pytest.approx(3.0)
+    drive = Drive.in_pieces(2.0, 10.0, (-1.0, -0.5, -0.5))
+    assert drive.at(np.array([0.0, 1.0, 2.0, 4.5, 7.0, 50.0])) == pytest.approx([0.0, -0.5, -1.0, -0.75, -0.5, -0.5])
+    assert drive.steepest == pytest.approx(0.5)
+    assert drive.next_corner(0.0) == pytest.approx(2.0)
+    assert drive.mean == pytest.approx((-1.0 - 3.75 - 2.5) / 12.0)
+
+
 def test_a_profile_is_straight_between_its_nodes_and_its_last_current_lasts() -> None:
-    drive = Drive(120.0, (2.0, 1.0, 1.5))
+    drive = evenly(120.0, (2.0, 1.0, 1.5))
     assert drive.at(np.array([0.0, 30.0, 60.0, 90.0, 120.0, 500.0])) == pytest.approx([2.0, 1.5, 1.0, 1.25, 1.5, 1.5])
     assert drive.mean == pytest.approx((60.0 * 1.5 + 60.0 * 1.25) / 120.0)
 
 
 def test_the_corners_of_a_profile_come_one_after_the_other_and_end() -> None:
-    drive, time, corners = Drive(90.0, (1.0, 2.0, 0.5, 0.5)), 0.0, []
+    drive, time, corners = evenly(90.0, (1.0, 2.0, 0.5, 0.5)), 0.0, []
     while np.isfinite(time := drive.next_corner(time)):
         corners.append(time)
     assert corners == pytest.approx([30.0, 60.0, 90.0])
@@ -35,7 +48,7 @@ def test_the_corners_of_a_profile_come_one_after_the_other_and_end() -> None:
 
 @given(duration=durations, pieces=st.integers(1, 64))
 def test_going_from_corner_to_corner_meets_each_once(duration: float, pieces: int) -> None:
-    drive, time, corners = Drive(duration, (1.0,) * (pieces + 1)), 0.0, []
+    drive, time, corners = evenly(duration, (1.0,) * (pieces + 1)), 0.0, []
     while np.isfinite(time := drive.next_corner(time)) and len(corners) < 100:
         corners.append(time)
     assert corners == pytest.approx(list(np.linspace(0.0, duration, pieces + 1)[1:]), rel=1e-9)
@@ -50,7 +63,7 @@ def test_a_constant_current_has_no_corners() -> None:
 
 @given(duration=durations, sizes=currents)
 def test_the_mean_is_the_integral_over_the_duration(duration: float, sizes: tuple[float, ...]) -> None:
-    drive = Drive(duration, sizes)
+    drive = evenly(duration, sizes)
     nodes = np.linspace(0.0, duration, max(len(sizes), 2))
     total = sum(quad(lambda t: float(drive.at(np.array(t))), a, b)[0] for a, b in pairwise(nodes))
     assert drive.mean == pytest.approx(total / duration, rel=1e-9, abs=1e-9)
@@ -58,13 +71,13 @@ def test_the_mean_is_the_integral_over_the_duration(duration: float, sizes: tupl
 
 @given(duration=durations, sizes=currents)
 def test_a_profile_comes_back_from_plain_data(duration: float, sizes: tuple[float, ...]) -> None:
-    drive = Drive(duration, sizes)
+    drive = evenly(duration, sizes)
     assert Drive.from_plain(drive.plain()) == drive
 
 
 def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., Model]) -> None:
     model = build()
-    drive = Drive(100.0, (0.8, 2.4, 1.2, 2.0, 1.6))
+    drive = evenly(100.0, (0.8, 2.4, 1.2, 2.0, 1.6))
     another = AnotherStack(value_of(model))
     target = model.start[model.index["target_temperature"]] - 273.15
 
@@ -93,7 +106,7 @@ def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., Model])
 
 def test_a_profile_that_is_flat_is_the_constant_current(build: Callable[..., Model]) -> None:
     model = build()
-    flat = fine(model).run(model.start, {"softening": Drive(80.0, (1.5,) * 5)}).values
+    flat = fine(model).run(model.start, {"softening": evenly(80.0, (1.5,) * 5)}).values
     constant = fine(model).run(model.start).values
     for name in ("response_time", "switch_energy", "peak_pcl_temperature", "stiffening_time", "hold_power"):
         assert flat[name] == pytest.approx(constant[name], rel=1e-6), name
@@ -102,7 +115,7 @@ def test_a_profile_that_is_flat_is_the_constant_current(build: Callable[..., Mod
 def test_the_end_of_a_switch_within_a_profile_does_not_depend_on_what_comes_later(build: Callable[..., Model]) -> None:
     model = build()
     simulator = fine(model)
-    early = simulator.run(model.start, {"softening": Drive(400.0, (2.0,) * 5)}).values["response_time"]
-    late = simulator.run(model.start, {"softening": Drive(400.0, (2.0, 2.0, 2.0, 0.1, 0.1))}).values["response_time"]
+    early = simulator.run(model.start, {"softening": evenly(400.0, (2.0,) * 5)}).values["response_time"]
+    late = simulator.run(model.start, {"softening": evenly(400.0, (2.0, 2.0, 2.0, 0.1, 0.1))}).values["response_time"]
     assert early < 200.0
     assert late == pytest.approx(early, rel=1e-7)

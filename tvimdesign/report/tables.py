@@ -86,12 +86,12 @@ def drive_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]]:
     for name, plain in design.drives.items():
         vary = design.study["vary"][table.stage(name).drive]
         currents = plain["currents"]
-        for i, exact in enumerate(currents):
+        for i, (seconds, exact) in enumerate(zip(plain["moments"], currents, strict=True)):
             size = abs(exact)
             end = "at its upper end" if size > 0.999 * vary["upper"] else "at its lower end"
             inside = 1.001 * vary["lower"] + 1e-3 * vary["upper"] < size < 0.999 * vary["upper"]
             current = exact if size > 1e-4 * vary["upper"] else 0.0
-            moment = number(plain["duration"] * i / (len(currents) - 1), 3)
+            moment = number(seconds, 3)
             rows.append((name if i == 0 else "", moment, number(current, 3), "" if inside else end))
     return rows
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from typing import Literal
 
 import numpy as np
@@ -121,14 +120,11 @@ def _held_by_currents(optimizer: Optimizer, run: Run) -> list[Held]:
 def _held_by_slew(optimizer: Optimizer, run: Run) -> list[Held]:
     if not optimizer.currents:
         return []
-    first = optimizer.problem.equation_count + len(optimizer.problem.limits)
-    prices = run.multipliers[first : first + optimizer.problem.slope_count]
-    value = float(optimizer.model.start[optimizer.model.index["current_slew"]])
+    place = optimizer.model.index["current_slew"]
+    value = float(optimizer.model.start[place])
     limit = make_limit(optimizer.table, "current_slew", "<=", value, "module")
-    steepest = max(
-        abs(b - a) * (len(drive.currents) - 1) / drive.duration / value - 1.0
-        for drive in run.drives.values()
-        for a, b in itertools.pairwise(drive.currents)
-    )
-    price = float(np.sum(prices)) / (run.start.objective or 1.0)
-    return [Held(limit.name, in_words(limit, optimizer.table), steepest, price, limit.step, "module")]
+    steepest = max(drive.steepest for drive in run.drives.values())
+    # The supply's ramps are part of the equations: what they cost is the objective's derivative by the slew itself,
+    # which CasADi gives with the sign of what easing it saves.
+    price = float(run.parameter_multipliers[place]) * value / (run.start.objective or 1.0)
+    return [Held(limit.name, in_words(limit, optimizer.table), steepest / value - 1.0, price, limit.step, "module")]

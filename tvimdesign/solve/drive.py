@@ -1,8 +1,8 @@
-"""The current through the pads over one stage: constant, or straight pieces between evenly spaced moments."""
+"""The current through the pads over one stage: constant, or straight between given moments."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,42 +14,60 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Drive:
-    """Current [A] at evenly spaced moments from the start to `duration` [s], straight between; the last one lasts."""
+    """Current [A] at some moments [s] from the stage's start, straight between them; the last one lasts."""
 
-    duration: float
+    moments: tuple[float, ...]
+    """Rising from zero."""
     currents: tuple[float, ...]
 
     @classmethod
     def constant(cls, current: float) -> Drive:
         """One current for good."""
-        return cls(np.inf, (current,))
+        return cls((0.0,), (current,))
+
+    @classmethod
+    def in_pieces(cls, ramp: float, duration: float, currents: Sequence[float]) -> Drive:
+        """From zero in a ramp of some seconds to the first of `currents`, which follow evenly spaced over `duration`
+        seconds; without a ramp that is there from the start."""
+        evenly = ramp + np.linspace(0.0, duration, len(currents))
+        if ramp == 0.0:
+            return cls(tuple(evenly.tolist()), tuple(currents))
+        return cls((0.0, *evenly.tolist()), (0.0, *currents))
 
     @classmethod
     def from_plain(cls, data: Mapping[str, Any]) -> Drive:
         """The drive that `plain` describes."""
-        return cls(float(data["duration"]), tuple(float(current) for current in data["currents"]))
+        return cls(*(tuple(float(number) for number in data[name]) for name in ("moments", "currents")))
 
     def plain(self) -> dict[str, Any]:
         """As plain data, SI."""
-        return {"duration": self.duration, "currents": list(self.currents)}
+        return {"moments": list(self.moments), "currents": list(self.currents)}
 
     def at(self, times: Array) -> Array:
         """Current at some times."""
-        if len(self.currents) == 1:
-            return np.full(np.shape(times), self.currents[0])
-        return np.asarray(np.interp(times, np.linspace(0.0, self.duration, len(self.currents)), self.currents))
+        return np.asarray(np.interp(times, self.moments, self.currents))
 
     def next_corner(self, time: float) -> float:
         """The first moment after `time` at which the current changes its slope; infinite where there is none."""
-        if len(self.currents) == 1:
-            return np.inf
-        step = self.duration / (len(self.currents) - 1)
-        corner = (np.floor(time / step + 1e-9) + 1.0) * step
-        return float(corner) if corner <= self.duration * (1.0 + 1e-9) else np.inf
+        soon = 1e-9 * self.moments[-1]
+        return next((moment for moment in self.moments if moment > time + soon), np.inf)
+
+    @property
+    def steepest(self) -> float:
+        """Fastest change [A/s]."""
+        return float(np.max(np.abs(np.diff(self.currents)) / np.diff(self.moments), initial=0.0))
 
     @property
     def mean(self) -> float:
-        """Mean current over the duration."""
+        """Mean current up to its last moment."""
         if len(self.currents) == 1:
             return self.currents[0]
-        return float(np.mean(0.5 * (np.array(self.currents[1:]) + np.array(self.currents[:-1]))))
+        return float(np.trapezoid(self.currents, self.moments) / self.moments[-1])
+
+
+def ramp_time(size: Any, slew: Any) -> Any:
+    """Time [s] a supply needs to a current of some size [A]; floats and symbols.
+
+    A current is cut at once, and its direction changed while there is none: every stage begins at zero.
+    """
+    return size / slew

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
 from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.drive import Drive
+from tvimdesign.solve.drive import Drive, ramp_time
 from tvimdesign.solve.limits import Limit, impossible, in_words, is_constant, limits_of, on_switch
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
@@ -29,6 +30,8 @@ Progress = Callable[[str], None]
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
+RAMP_ELEMENT = 15.0  # s, the longest element of a ramp: as long as those of a switch of two minutes
+SHORTEST = 0.1  # s; with a slow supply all of a stage may be its ramp, and the pieces after it next to nothing
 MAX_DRAWS = 100
 EXPAND_FROM = 4
 """Runs from which on it pays to expand the problem to scalar operations: slower to build, four times faster to run."""
@@ -64,6 +67,8 @@ class Run:
     unknowns: Array
     multipliers: Array
     bound_multipliers: Array
+    parameter_multipliers: Array
+    """What the objective falls with every parameter of the problem, per unit."""
 
 
 class Optimizer:
@@ -124,7 +129,9 @@ class Optimizer:
         row = self.table.stage(stage).drive
         vary = self.study.vary[row]
         assert isinstance(vary, Range)  # the reader sees to that
-        return FreeCurrent(stage, row, pieces, vary.lower, vary.upper)
+        slew = float(self.model.start[self.model.index["current_slew"]])
+        ramp_elements = math.ceil(ramp_time(vary.upper, slew) / RAMP_ELEMENT)
+        return FreeCurrent(stage, row, pieces, vary.lower, vary.upper, ramp_elements)
 
     def _problem(self, limits: list[Limit]) -> Problem:
         """The problem without the limits that nothing free can change; those are checked here and now."""
@@ -225,17 +232,19 @@ class Optimizer:
         """Unknowns at a point: the free numbers, and the switch simulated there (as far as it goes where it stalls)."""
         switch = self._trial(inputs) or self.start_switch
         parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.free])]
+        sizes = {c.stage: float(np.clip(inputs[self.model.index[c.row]], c.lower, c.upper)) for c in self.currents}
+        slew = float(inputs[self.model.index["current_slew"]])
+        ramps = {c.stage: (c.ramp_elements, ramp_time(sizes[c.stage], slew)) for c in self.currents}
         for block in self.problem.blocks:
             trajectory = switch.trajectories.get(block.stage.stage.name)
             if trajectory is None:  # a stage that does not begin: as it would stand after the first
                 trajectory = self._standing(block.stage, switch)
             end = switch.values[block.event]
             end = end if np.isfinite(end) else trajectory.times[-1]
-            points = guess(trajectory, self.problem.elements(block.stage.stage.name)).ravel(order="F")
+            name = block.stage.stage.name
+            points = guess(trajectory, self.problem.elements(name), ramps.get(name, (0, 0.0))).ravel(order="F")
             parts += [points, np.array([np.log(max(end, 1e-3))])]
-        for current in self.currents:
-            size = np.clip(inputs[self.model.index[current.row]], current.lower, current.upper)
-            parts.append(np.full(current.nodes, size / current.upper))
+        parts += [np.full(current.nodes, sizes[current.stage] / current.upper) for current in self.currents]
         for balance in self.problem.balances:
             begin = switch.balances.get(balance.stage)
             last = switch.trajectories[balance.stage]
@@ -285,9 +294,8 @@ class Optimizer:
             begin=self.free_values(inputs), end=self.free_values(end),
         )  # fmt: skip
         drives = self._drives_of(unknowns)
-        return Run(
-            start, end, drives, unknowns, np.asarray(answer["lam_g"]).ravel(), np.asarray(answer["lam_x"]).ravel()
-        )
+        multipliers = (np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p"))
+        return Run(start, end, drives, unknowns, *multipliers)
 
     def _bounds(self, fixed: Mapping[str, float]) -> tuple[Array, Array]:
         lower = np.full(self.problem.unknown_count, -np.inf)
@@ -297,6 +305,11 @@ class Optimizer:
             lower[i], upper[i] = free.to_unknown(low), free.to_unknown(high)
         for current, place in self.places_of_currents():
             lower[place], upper[place] = current.lower / current.upper, 1.0
+        last = len(self.free)
+        for block in self.problem.blocks:
+            last += block.unknowns.numel()
+            if block.stage.stage.name in self.study.profile.pieces():
+                lower[last - 1] = np.log(SHORTEST)
         return lower, upper
 
     def places_of_currents(self) -> Iterator[tuple[FreeCurrent, slice]]:
@@ -312,11 +325,16 @@ class Optimizer:
         for block in self.problem.blocks:
             first += block.unknowns.numel()
             times[block.event] = float(np.exp(unknowns[first - 1]))
-        drives = {}
-        for current, place in self.places_of_currents():
-            stage = self.table.stage(current.stage)
-            sizes = np.clip(unknowns[place] * current.upper, current.lower, current.upper)
-            drives[stage.name] = Drive(times[stage.ends], tuple(float(stage.sign * size) for size in sizes))
+        sizes = {
+            current.stage: np.clip(unknowns[place] * current.upper, current.lower, current.upper)
+            for current, place in self.places_of_currents()
+        }
+        slew = float(self.model.start[self.model.index["current_slew"]])
+        drives: dict[str, Drive] = {}
+        for name, nodes in sizes.items():
+            stage = self.table.stage(name)
+            signed = [float(stage.sign * size) for size in nodes]
+            drives[name] = Drive.in_pieces(ramp_time(float(nodes[0]), slew), times[stage.ends], signed)
         return drives
 
     def _inputs_of(self, unknowns: Array) -> Array:

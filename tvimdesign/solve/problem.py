@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.errors import InputError
 from tvimdesign.solve.backend import ca
+from tvimdesign.solve.drive import ramp_time
 from tvimdesign.solve.limits import Limit
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.transcription import Block, at_each, stage_block
@@ -56,6 +57,8 @@ class FreeCurrent:
     pieces: int
     lower: float
     upper: float
+    ramp_elements: int
+    """Count of elements for its rise from zero to the first node."""
 
     @property
     def nodes(self) -> int:
@@ -195,8 +198,17 @@ class Problem:
             else:
                 start = stage.begin(blocks[self.model.stages[after].stage.ends].states[:, -1], inputs)
             nodes = self.currents_at_nodes(row.stage, inputs)
-            blocks[event] = stage_block(stage, event, self.elements(row.stage), inputs, start, nodes)
+            ramp = self._ramp(row.stage, inputs)
+            blocks[event] = stage_block(stage, event, self.elements(row.stage), inputs, start, nodes, ramp)
         return list(blocks.values())
+
+    def _ramp(self, stage: str, inputs: Any) -> tuple[int, Any]:
+        """Elements and time [s] a free current takes to its first node; a constant one is there from the start."""
+        for current in self.free_currents:
+            if current.stage == stage:
+                first = current.upper * self._nodes[stage][0]
+                return current.ramp_elements, ramp_time(first, inputs[self.model.index["current_slew"]])
+        return 0, 0.0
 
     def _write_balances(self, inputs: Any) -> list[Balance]:
         needed = self._needed()
@@ -218,7 +230,7 @@ class Problem:
             for current in self.free_currents:
                 if block.event == self.model.stages[current.stage].stage.ends:
                     step = current.upper * ca.diff(self._nodes[current.stage])
-                    slope = step * current.pieces / (block.final_time * allowed)
+                    slope = step * current.pieces / (block.pieces_time * allowed)
                     rows += [slope - 1.0, -slope - 1.0]
         return ca.vertcat(*rows)
 
@@ -240,7 +252,7 @@ class Problem:
             watch = stage.watch([row.name])
             samples = at_each(stage, watch, block.every, block.currents, self._device_inputs)
             if row.reduce == "integral":
-                values[row.name] = block.final_time * ca.mtimes(samples[1:], block.weights)
+                values[row.name] = ca.mtimes(samples[1:], block.weights)
             else:
                 scale = self.peak_scale(row)
                 peaks[row.name] = ca.MX.sym(row.name)

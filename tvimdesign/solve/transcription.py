@@ -1,8 +1,8 @@
 """One stage as equations: direct collocation of the heat equation over an unknown final time.
 
-Radau points of order three on equal elements, time scaled by the final time, which is itself unknown; the last point of
-an element is the start of the next, so the states need no continuity equations. States have no bounds. The current is
-straight between evenly spaced nodes.
+Radau points of order three on equal elements over an unknown time; the last point of an element is the start of the
+next, so the states need no continuity equations. States have no bounds. The current is straight between evenly spaced
+nodes; a ramp to the first of them, as long as the supply's slew makes it, has elements of its own before the others.
 Source: Biegler, Nonlinear Programming (2010), ch. 10.
 """
 
@@ -40,20 +40,27 @@ class Block:
     states: Any
     """MX, one column a collocation point."""
     log_time: Any
-    """MX, the logarithm of the final time in seconds."""
+    """MX, the logarithm of the time in seconds that the equal elements take."""
+    ramp: Any
+    """MX or 0, the length [s] of the ramp before them."""
     equations: Any
     """MX, zero on a solution: the heat equation at every point, and the event at the last."""
     every: Any
     """MX, the states at the start and at every point, one column each."""
     currents: Any
     """MX, the current at the start and at every point, one row."""
-    weights: Array
-    """Quadrature weights of the points, in units of the final time; the start has none."""
+    weights: Any
+    """MX, quadrature weights [s] of the points; the start has none."""
+
+    @property
+    def pieces_time(self) -> Any:
+        """Time [s] after the ramp."""
+        return ca.exp(self.log_time)
 
     @property
     def final_time(self) -> Any:
         """[s]"""
-        return ca.exp(self.log_time)
+        return self.ramp + self.pieces_time
 
     @property
     def unknowns(self) -> Any:
@@ -61,45 +68,67 @@ class Block:
         return ca.vertcat(ca.vec(self.states), self.log_time)
 
 
-def fractions(elements: int) -> Array:
-    """The collocation points as fractions of the final time."""
+def moments(elements: int, duration: float, ramp: tuple[int, float] = (0, 0.0)) -> Array:
+    """The collocation points [s] of equal elements over a duration, after those of a ramp: its elements and seconds."""
+    count, before = ramp
+    rising = _evenly(count) * before if count else np.zeros(0)
+    return np.concatenate([rising, before + _evenly(elements) * duration])
+
+
+def _evenly(elements: int) -> Array:
+    """The points of equal elements as fractions of their time."""
     return np.concatenate([(element + radau()[0]) / elements for element in range(elements)])
 
 
-def between_nodes(elements: int, nodes: int) -> Array:
-    """Matrix that takes currents at evenly spaced nodes to the start and every collocation point [nodes, points]."""
-    at = np.concatenate([[0.0], fractions(elements)])
-    if nodes == 1:
-        return np.ones((1, len(at)))
+def between_nodes(elements: int, nodes: int, ramp_elements: int) -> Array:
+    """Matrix that takes currents at evenly spaced nodes to the start and every collocation point [nodes, points].
+
+    With a ramp, the start is at zero current and the ramp's elements lead to the first node.
+    """
     places = np.linspace(0.0, 1.0, nodes)
-    return np.array([np.interp(at, places, row) for row in np.eye(nodes)])
+    found = np.array([np.interp(_evenly(elements), places, row) for row in np.eye(nodes)])
+    rising = np.append(0.0, _evenly(ramp_elements)) if ramp_elements else np.ones(1)
+    return np.hstack([np.eye(nodes)[:, :1] * rising, found])
 
 
-def stage_block(stage: StageModel, event: str, elements: int, inputs: Any, start: Any, nodes: Any) -> Block:
-    """Write the equations of a stage for symbolic inputs, starting state and currents at the nodes (MX)."""
+def stage_block(
+    stage: StageModel,
+    event: str,
+    elements: int,
+    inputs: Any,
+    start: Any,
+    nodes: Any,
+    ramp: tuple[int, Any] = (0, 0.0),
+) -> Block:
+    """Write the equations of a stage for symbolic inputs, starting state and currents at the nodes (MX).
+
+    A current that is not there from the start rises from zero to its first node over a `ramp`: elements and seconds.
+    """
     _, derivative, weights = radau()
-    count = elements * ORDER
-    states = ca.MX.sym(f"states_{event}", stage.state_size, count)
     log_time = ca.MX.sym(f"log_time_{event}")
-    currents = ca.mtimes(nodes.T, between_nodes(elements, nodes.numel()))
+    ramp_elements, ramp_time = ramp
+    lengths = [ramp_time / ramp_elements] * ramp_elements if ramp_elements else []
+    lengths += [ca.exp(log_time) / elements] * elements
+    states = ca.MX.sym(f"states_{event}", stage.state_size, len(lengths) * ORDER)
+    currents = ca.mtimes(nodes.T, between_nodes(elements, nodes.numel(), ramp_elements))
     rates = at_each(stage, stage.rates, states, currents[:, 1:], inputs)
-    step = ca.exp(log_time) / elements
     equations = []
-    for element in range(elements):
+    for element, length in enumerate(lengths):
         columns = slice(element * ORDER, (element + 1) * ORDER)
         before = start if element == 0 else states[:, element * ORDER - 1]
         slopes = ca.mtimes(ca.horzcat(before, states[:, columns]), derivative)
-        equations.append(ca.vec(slopes - step * rates[:, columns]))
+        equations.append(ca.vec(slopes - length * rates[:, columns]))
     gap = stage.watch([event])(states[:, -1], currents[:, -1], inputs)
     return Block(
         event=event,
         stage=stage,
         states=states,
         log_time=log_time,
+        ramp=ramp_time,
         equations=ca.vertcat(*equations, gap),
         every=ca.horzcat(start, states),
         currents=currents,
-        weights=np.tile(weights, elements) / elements,
+        weights=ca.vertcat(*(length * weights for length in lengths)),
     )
 
 
@@ -110,6 +139,7 @@ def at_each(stage: StageModel, function: Any, states: Any, currents: Any, inputs
     return varying.map(count)(states, currents, ca.repmat(constants(inputs), 1, count))
 
 
-def guess(trajectory: Trajectory, elements: int) -> Array:
-    """Values for a block's states from a simulated trajectory, one column a point."""
-    return trajectory.at(fractions(elements))
+def guess(trajectory: Trajectory, elements: int, ramp: tuple[int, float] = (0, 0.0)) -> Array:
+    """Values for a block's states from a simulated trajectory, one column a point, with the ramp drawn in."""
+    times = moments(elements, trajectory.times[-1], ramp)
+    return trajectory.at(times / times[-1])
