@@ -135,7 +135,9 @@ def test_a_study_becomes_parts_that_pass_every_check(tvimdesign: Command, tmp_pa
     assert done.returncode == 0, done.stderr
     cad = tmp_path / "out/cad"
     assert all(check["ok"] for check in json.loads((cad / "checks.json").read_text())["checks"])
-    for part in ("housing", "rotor", "link", "retainer", "pcl_arc", "peltier_pad", "spring_left", "spring_right"):
+    mode = json.loads((tmp_path / "out/design.json").read_text())["mode"]
+    pcl = {"shear": "pcl_arc", "compression": "pcl_block"}[mode]
+    for part in ("housing", "rotor", "link", "retainer", pcl, "peltier_pad", "spring_left", "spring_right"):
         for ending in ("step", "stl"):
             assert (cad / "parts" / f"{part}.{ending}").stat().st_size > 500
     assert (cad / "assembly.step").stat().st_size > 10_000
