@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import radians
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tvimdesign.cad import CadReport
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
@@ -88,3 +90,34 @@ class Made(NamedTuple):
     design: Design
     report: CadReport
     steps: list[str]
+
+
+def random_blocks(seed: int) -> Design:
+    """The first design of the compression module that keeps the rules, among random ones."""
+    draw = np.random.default_rng(seed).uniform
+    while True:
+        inner, stroke = draw(9.0, 24.0), draw(0.03, 0.16)
+        outer = inner + draw(4.0, 16.0)
+        wire = draw(0.8, 2.4)
+        coil = wire * draw(4.5, 9.0)
+        ring = outer + draw(2.0, 8.0)
+        lengths = {
+            "wire_diameter": wire, "coil_diameter": coil, "placement_radius": ring + 0.5 * coil + 2.0 * wire,
+            "pcl_inner_radius": inner, "pcl_outer_radius": outer, "core_radius": inner - draw(4.5, 6.0),
+            "rotor_rim": draw(1.0, 6.0), "block_height": draw(2.0, 15.0), "vane_thickness": draw(2.0, 6.0),
+            # Squeezed by a fifth to a half of its depth.
+            "block_depth": 0.5 * (inner + outer) * stroke / draw(0.2, 0.5),
+            "floor_thickness": draw(2.0, 6.0), "running_clearance": draw(0.2, 0.5), "window_ledge": draw(1.0, 2.5),
+            "radial_clearance": 0.6, "pin_diameter": draw(2.0, 4.0), "wall_thickness": draw(1.5, 4.0), "hub_wall": 2.0,
+        }  # fmt: skip
+        numbers = {
+            "stroke": stroke, "coil_count": draw(4.0, 10.0), "preload_angle": stroke + draw(0.02, 0.1),
+            "pin_radius_ratio": draw(0.4, 0.6), "slot_share": draw(0.3, 0.7),
+            "vane_count": float(round(draw(2.0, 8.0))), "spring_pairs": float(round(draw(1.0, 3.0))),
+        }  # fmt: skip
+        small = {name: value for name, value in WRIST.items() if "screw" in name or name == "notch_width"}
+        overrides = small | {name: value * MM for name, value in lengths.items()} | numbers
+        with np.errstate(invalid="ignore"):
+            found = design_of(f"random {seed}", overrides, "compression")
+        if broken_rules(found) == [] and all(np.isfinite(value) for value in found.values.values()):
+            return found

@@ -5,10 +5,13 @@ from __future__ import annotations
 import cadquery as cq
 import numpy as np
 import pytest
+from cad_designs import random_blocks
 
-from tvimdesign.cad.assembly import build
-from tvimdesign.cad.checks import interference_checks, size_checks
+from tvimdesign.cad.assembly import build, drawn_parts
+from tvimdesign.cad.checks import all_checks, interference_checks, size_checks
 from tvimdesign.cad.dimensions import dimensions
+from tvimdesign.cad.export import stl_bytes
+from tvimdesign.cad.mesh import solid_mesh
 from tvimdesign.cad.shapes import sector, turned
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import Design
@@ -131,3 +134,16 @@ def test_what_cannot_be_drawn_names_the_part(blocks: Design, row: str, value: fl
     design = blocks.model_copy(update={"values": blocks.values | {row: value}})
     with pytest.raises(GeometryError, match=words):
         build(design)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(6))
+def test_a_random_module_that_keeps_the_rules_passes_every_check(seed: int) -> None:
+    design = random_blocks(seed)
+    dims = dimensions(design)
+    drawn = drawn_parts(dims)
+    checks = all_checks(design, dims, drawn)
+    assert [check.text for check in checks if not check.ok] == []
+    assert max(abs(check.value) for check in checks if check.name.endswith(("_volume", "_inertia", "_mass"))) < 1e-5
+    for name, solid in drawn.items():
+        assert len(stl_bytes(name, solid_mesh(solid))) > 500
