@@ -44,6 +44,16 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     assert {"housing", "rotor", "spring_right"} <= set(steps)
 
 
+def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made: Made) -> None:
+    pairs = {
+        "shear": {"rotor | spring_right_1", "housing | spring_left_2"},
+        "compression": {"rotor | pcl_block_1", "peltier_pad_2 | pcl_block_1", "housing | pcl_block_1"},
+    }
+    told = {check.name for check in made.report.checks}
+    for angle in ("-0.1040", "-0.0520", "+0.0520", "+0.1040"):
+        assert {f"{pair} at {angle} rad" for pair in pairs[made.design.mode]} <= told
+
+
 def test_step_and_stl_read_back_as_the_parts(made: Made) -> None:
     for kind in MODULES[made.design.mode].kinds:
         copies = COPIES[made.design.mode] if kind in ("pcl_arc", "pcl_block", "peltier_pad") else 1
