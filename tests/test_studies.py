@@ -91,6 +91,19 @@ def test_the_wrist_is_half_the_size_and_takes_wire_one_can_buy(runs: dict[str, P
     assert min(abs(wire - gauge) for gauge in gauges) < 1e-6
 
 
+def test_both_wrists_are_asked_the_same_and_given_the_same(runs: dict[str, Path]) -> None:
+    shear, compression = (json.loads((runs[name] / "study.resolved.json").read_text())
+                          for name in ("wrist_joint", "wrist_compression"))  # fmt: skip
+    for what in ("require", "minimize", "operating_points", "profile", "catalog_folder"):
+        assert shear[what] == compression[what], what
+    # What is free starts where it suits the mode; all else that both have is the same, in value and by default.
+    free = {*shear["vary"], *compression["vary"]}
+    both = {name for name in {*shear["module"], *compression["module"]} - free if name != "vane_count"}
+    assert {name: shear["module"].get(name) for name in both} == {
+        name: compression["module"].get(name) for name in both
+    }
+
+
 def test_the_csv_holds_what_the_json_holds(runs: dict[str, Path]) -> None:
     import csv
 
