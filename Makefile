@@ -44,9 +44,15 @@ format: $(STAMP)  ## let ruff put the code in form
 schema: $(STAMP)  ## write the study's JSON Schema from the table
 	$(BIN)/python -m tvimdesign.study.schema
 
-cad: $(STAMP)  ## write the reference parts in cad/ from studies/paper_shear.yaml
+# Of the compression module what is not in cad/ is made from its design.json: meshes and assembly would be 5 MB.
+cad: $(STAMP)  ## write the reference parts in cad/ from the studies of the paper's modules
 	$(BIN)/tvimdesign run studies/paper_shear.yaml --out results/reference --overwrite --no-plots --no-cad
 	$(BIN)/tvimdesign cad results/reference/design.json --out cad/paper_shear --overwrite
+	$(BIN)/tvimdesign run studies/paper_compression.yaml --out results/reference_compression --overwrite --no-plots
+	mkdir -p cad/paper_compression/parts
+	cp results/reference_compression/design.json results/reference_compression/cad/checks.json \
+	  results/reference_compression/cad/preview.png cad/paper_compression/
+	cp results/reference_compression/cad/parts/*.step cad/paper_compression/parts/
 
 clean:  ## remove the environment and all results
 	rm -rf $(VENV) results build *.egg-info

@@ -216,20 +216,6 @@ def test_an_interrupt_ends_the_run_with_130_and_a_folder_that_can_be_used_again(
     assert again.returncode == 0, again.stderr
 
 
-def test_parts_of_compression_mode_are_said_not_to_be_possible_yet(tvimdesign: Command, tmp_path: Path) -> None:
-    study = "studies/paper_compression.yaml"
-    done = tvimdesign("run", study, "--no-plots", "--json", "--out", tmp_path / "run")
-    assert done.returncode == 4
-    assert json.loads(done.stdout)["not_done"] == [
-        "parts of compression mode cannot be made yet; all its numbers are there"
-    ]
-    again = tvimdesign("cad", tmp_path / "run/design.json", "--out", tmp_path / "cad")
-    assert again.returncode == 4
-    assert "cannot be made yet" in again.stderr
-    assert "Traceback" not in again.stderr
-    assert tvimdesign("run", study, "--no-plots", "--no-cad", "--out", tmp_path / "numbers").returncode == 0
-
-
 def test_cad_refuses_what_is_no_design(tvimdesign: Command, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.json")
     (tmp_path / "zero.json").symlink_to("/dev/zero")

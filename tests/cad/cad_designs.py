@@ -1,10 +1,13 @@
-"""Designs to make parts of: the paper's module, one for a wrist, and one whose coils end at an odd angle."""
+"""Designs to make parts of, in either mode: the paper's size, a wrist's, and one whose coils end at an odd angle."""
 
 from __future__ import annotations
 
 from math import radians
-from typing import Any
+from typing import Any, NamedTuple
 
+import numpy as np
+
+from tvimdesign.cad import CadReport
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.device.rows import Event
@@ -12,7 +15,6 @@ from tvimdesign.device.rows import Path as SwitchPath
 from tvimdesign.study.design import Design
 
 MM = 1e-3
-TABLE = table_for("shear")
 WRIST = {
     "wire_diameter": 1.4 * MM, "coil_diameter": 9.0 * MM, "coil_count": 4.25, "placement_radius": 26.5 * MM,
     "pcl_inner_radius": 11.5 * MM, "pcl_outer_radius": 18.5 * MM, "arc_span": radians(60.0), "pcl_thickness": 0.6 * MM,
@@ -24,15 +26,31 @@ WRIST = {
     "retainer_screw_depth": 6.0 * MM, "notch_width": 8.0 * MM,
 }  # fmt: skip
 ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_angle": 0.21}
-CASES: dict[str, dict[str, float]] = {"paper": {}, "wrist": WRIST, "odd": ODD}
+BLOCKS = {
+    "coil_diameter": 12.0198 * MM, "coil_count": 6.6, "core_radius": 8.0 * MM, "pcl_inner_radius": 13.0 * MM,
+    "pcl_outer_radius": 24.0 * MM, "rotor_rim": 7.5 * MM, "block_height": 11.964 * MM, "block_depth": 4.0 * MM,
+    "vane_thickness": 4.0 * MM,
+}  # fmt: skip
+WRIST_BLOCKS = {name: value for name, value in WRIST.items() if name not in {"arc_span", "pcl_thickness"}} | {
+    "coil_diameter": 7.0 * MM, "coil_count": 6.2, "pcl_inner_radius": 9.5 * MM, "pcl_outer_radius": 16.0 * MM,
+    "rotor_rim": 3.5 * MM, "vane_count": 4, "block_height": 5.5 * MM, "block_depth": 3.0 * MM,
+    "vane_thickness": 2.5 * MM,
+}  # fmt: skip
+ODD_BLOCKS = WRIST_BLOCKS | {"spring_pairs": 3, "vane_count": 3, "coil_count": 6.7, "preload_angle": 0.21,
+                             "slot_share": 0.6}  # fmt: skip
+CASES: dict[str, tuple[str, dict[str, float]]] = {
+    "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
+    "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
+    "odd blocks": ("compression", ODD_BLOCKS),
+}  # fmt: skip
 
 
-def given(overrides: dict[str, float]) -> dict[str, Any]:
-    """Every input and choice of the table at its default, but for the overrides."""
-    catalog = Catalog()
+def given(overrides: dict[str, float], mode: str) -> dict[str, Any]:
+    """Every input and choice of a mode at its default, but for the overrides."""
+    catalog, table = Catalog(), table_for(mode)
     known: dict[str, Any] = {row.name: catalog.record(row.shelf, row.default) if row.shelf else row.default
-                             for row in TABLE.choices}  # fmt: skip
-    for row in TABLE.inputs:
+                             for row in table.choices}  # fmt: skip
+    for row in table.inputs:
         if row.name in overrides:
             known[row.name] = overrides[row.name]
         elif row.record:
@@ -42,25 +60,64 @@ def given(overrides: dict[str, float]) -> dict[str, Any]:
     return known
 
 
-def design_of(name: str, overrides: dict[str, float]) -> Design:
+def design_of(name: str, overrides: dict[str, float], mode: str = "shear") -> Design:
     """A design with every row of the geometry."""
-    known = given(overrides)
+    known, table = given(overrides, mode), table_for(mode)
     geometry = ("Layout", "Gaps", "Size and weight", "Springs")
-    simple = [row for row in TABLE.outputs if not (row.hidden or row.per_point or row.instant)]
+    simple = [row for row in table.outputs if not (row.hidden or row.per_point or row.instant)]
     wanted = [row.name for row in simple if row.group in geometry and not isinstance(row, Event | SwitchPath)]
     values = {key: float(value) for key, value in known.items() if isinstance(value, int | float)}
-    values |= {key: float(value) for key, value in TABLE.evaluate(known, wanted).items()}
-    choices = {row.name: row.default for row in TABLE.choices}
+    values |= {key: float(value) for key, value in table.evaluate(known, wanted).items()}
+    choices = {row.name: row.default for row in table.choices}
     return Design(
-        tvimdesign="0", name=name, mode="shear", status="evaluated", choices=choices, values=values, study={}
+        tvimdesign="0", name=name, mode=mode, status="evaluated", choices=choices, values=values, study={}
     )  # fmt: skip
 
 
 def broken_rules(design: Design) -> list[str]:
     """Rules of the layout that a design breaks."""
     return [
-        row.name for row in TABLE.outputs
+        row.name for row in table_for(design.mode).outputs
         if row.group == "Gaps" and row.name in design.values
         for rule in row.rules
         if (design.values[row.name] - rule.value) * (1 if rule.sense == ">=" else -1) < -1e-12
     ]  # fmt: skip
+
+
+class Made(NamedTuple):
+    """Parts as the child process makes them, and what it said on the way."""
+
+    design: Design
+    report: CadReport
+    steps: list[str]
+
+
+def random_blocks(seed: int) -> Design:
+    """The first design of the compression module that keeps the rules, among random ones."""
+    draw = np.random.default_rng(seed).uniform
+    while True:
+        inner, stroke = draw(9.0, 24.0), draw(0.03, 0.16)
+        outer = inner + draw(4.0, 16.0)
+        wire = draw(0.8, 2.4)
+        coil = wire * draw(4.5, 9.0)
+        ring = outer + draw(2.0, 8.0)
+        lengths = {
+            "wire_diameter": wire, "coil_diameter": coil, "placement_radius": ring + 0.5 * coil + 2.0 * wire,
+            "pcl_inner_radius": inner, "pcl_outer_radius": outer, "core_radius": inner - draw(4.5, 6.0),
+            "rotor_rim": draw(1.0, 6.0), "block_height": draw(2.0, 15.0), "vane_thickness": draw(2.0, 6.0),
+            # Squeezed by a fifth to a half of its depth.
+            "block_depth": 0.5 * (inner + outer) * stroke / draw(0.2, 0.5),
+            "floor_thickness": draw(2.0, 6.0), "running_clearance": draw(0.2, 0.5), "window_ledge": draw(1.0, 2.5),
+            "radial_clearance": 0.6, "pin_diameter": draw(2.0, 4.0), "wall_thickness": draw(1.5, 4.0), "hub_wall": 2.0,
+        }  # fmt: skip
+        numbers = {
+            "stroke": stroke, "coil_count": draw(4.0, 10.0), "preload_angle": stroke + draw(0.02, 0.1),
+            "pin_radius_ratio": draw(0.4, 0.6), "slot_share": draw(0.3, 0.7),
+            "vane_count": float(round(draw(2.0, 8.0))), "spring_pairs": float(round(draw(1.0, 3.0))),
+        }  # fmt: skip
+        small = {name: value for name, value in WRIST.items() if "screw" in name or name == "notch_width"}
+        overrides = small | {name: value * MM for name, value in lengths.items()} | numbers
+        with np.errstate(invalid="ignore"):
+            found = design_of(f"random {seed}", overrides, "compression")
+        if broken_rules(found) == [] and all(np.isfinite(value) for value in found.values.values()):
+            return found

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from cad_designs import CASES, design_of
+from cad_designs import BLOCKS, CASES, Made, design_of
 
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.study.design import Design, write_design
@@ -14,7 +14,8 @@ from tvimdesign.study.design import Design, write_design
 
 @pytest.fixture(scope="session", params=CASES)
 def design(request: pytest.FixtureRequest) -> Design:
-    return design_of(request.param, CASES[request.param])
+    mode, overrides = CASES[request.param]
+    return design_of(request.param, overrides, mode)
 
 
 @pytest.fixture(scope="session")
@@ -23,12 +24,18 @@ def paper() -> Design:
 
 
 @pytest.fixture(scope="session")
-def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[CadReport, list[str]]:
-    """The paper's parts, made by the child process, and what it said on the way."""
+def blocks() -> Design:
+    return design_of("blocks", BLOCKS, "compression")
+
+
+@pytest.fixture(scope="session", params=["paper", "blocks"])
+def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
+    """The parts of the paper's size in either mode."""
     folder = tmp_path_factory.mktemp("cad")
-    write_design(design_of("paper", {}), folder / "design.json")
+    design: Design = request.getfixturevalue(request.param)
+    write_design(design, folder / "design.json")
     steps: list[str] = []
-    return make_cad(folder / "design.json", folder / "cad", 120.0, steps.append), steps
+    return Made(design, make_cad(folder / "design.json", folder / "cad", 120.0, steps.append), steps)
 
 
 @pytest.fixture

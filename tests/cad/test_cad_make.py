@@ -13,17 +13,19 @@ import matplotlib.image
 import numpy as np
 import pytest
 import trimesh
-from cad_designs import design_of
+from cad_designs import Made
 
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.kinds import KINDS
 from tvimdesign.cad.make import _report
+from tvimdesign.cad.modes import MODULES
 from tvimdesign.cad.part21 import in_fixed_order
 from tvimdesign.cad.step import Product, write_assembly
 from tvimdesign.errors import GeometryError, InputError
 from tvimdesign.study.design import write_design
 
-Made = tuple[CadReport, list[str]]
+COPIES = {"shear": 4, "compression": 12}
+"""Pads, and pieces of PCL, of the paper's size."""
 
 
 def test_importing_cad_does_not_load_the_kernel() -> None:
@@ -32,33 +34,42 @@ def test_importing_cad_does_not_load_the_kernel() -> None:
 
 
 def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
-    report, steps = made
+    design, report, steps = made
     assert report.failed == ()
     assert report.notes == ()
-    expected = {f"parts/{kind}.{suffix}" for kind in KINDS for suffix in ("step", "stl")}
+    expected = {f"parts/{kind}.{suffix}" for kind in MODULES[design.mode].kinds for suffix in ("step", "stl")}
     assert set(report.files) == expected | {"assembly.step", "assembly.glb", "preview.png"}
     found = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}
     assert found == set(report.files)
     assert {"housing", "rotor", "spring_right"} <= set(steps)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_step_and_stl_read_back_as_the_part(made: Made, kind: str) -> None:
-    values = design_of("paper", {}).values
-    copies = 4 if kind in ("pcl_arc", "peltier_pad") else 1
-    expected = 1e9 * values[KINDS[kind].volume] / copies
-    solid = cq.importers.importStep(str(made[0].folder / f"parts/{kind}.step")).val()
-    assert isinstance(solid, cq.Solid)
-    assert solid.Volume() == pytest.approx(expected, rel=1e-5)
-    mesh = trimesh.load_mesh(made[0].folder / f"parts/{kind}.stl")
-    assert mesh.is_watertight
-    assert mesh.volume == pytest.approx(expected, rel=5e-3)
+def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made: Made) -> None:
+    pairs = {
+        "shear": {"rotor | spring_right_1", "housing | spring_left_2"},
+        "compression": {"rotor | pcl_block_1", "peltier_pad_2 | pcl_block_1", "housing | pcl_block_1"},
+    }
+    told = {check.name for check in made.report.checks}
+    for angle in ("-0.1040", "-0.0520", "+0.0520", "+0.1040"):
+        assert {f"{pair} at {angle} rad" for pair in pairs[made.design.mode]} <= told
+
+
+def test_step_and_stl_read_back_as_the_parts(made: Made) -> None:
+    for kind in MODULES[made.design.mode].kinds:
+        copies = COPIES[made.design.mode] if kind in ("pcl_arc", "pcl_block", "peltier_pad") else 1
+        expected = 1e9 * made.design.values[KINDS[kind].volume] / copies
+        solid = cq.importers.importStep(str(made.report.folder / f"parts/{kind}.step")).val()
+        assert isinstance(solid, cq.Solid)
+        assert solid.Volume() == pytest.approx(expected, rel=1e-5), kind
+        mesh = trimesh.load_mesh(made.report.folder / f"parts/{kind}.stl")
+        assert mesh.is_watertight, kind
+        assert mesh.volume == pytest.approx(expected, rel=5e-3), kind
 
 
 def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
-    path = made[0].folder / "assembly.step"
+    path = made.report.folder / "assembly.step"
     parts = {name: (shape, colour) for shape, name, _, colour in cq.Assembly.importStep(str(path))}
-    assert len(parts) == 16
+    assert len(parts) == 8 + 2 * COPIES[made.design.mode]
     for name, (shape, colour) in parts.items():
         kind = name.split("/")[-1].rstrip("_0123456789")
         assert isinstance(shape, cq.Solid)
@@ -70,15 +81,15 @@ def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
 
 
 def test_glb_is_the_module_in_metres_with_y_up(made: Made) -> None:
-    scene = trimesh.load_scene(made[0].folder / "assembly.glb")
-    values = design_of("paper", {}).values
+    scene = trimesh.load_scene(made.report.folder / "assembly.glb")
+    values = made.design.values
     width, height = values["envelope_diameter"], values["envelope_height"]
     assert scene.extents == pytest.approx([width, height, width], rel=1e-3)
-    assert {"housing", "spring_left_4", "pcl_arc_2"} <= set(scene.graph.nodes_geometry)
+    assert {"housing", "spring_left_4", f"peltier_pad_{COPIES[made.design.mode]}"} <= set(scene.graph.nodes_geometry)
 
 
 def test_picture_shows_the_parts(made: Made) -> None:
-    image = matplotlib.image.imread(made[0].folder / "preview.png")[:700, :, :3]
+    image = matplotlib.image.imread(made.report.folder / "preview.png")[:700, :, :3]
     drawn = np.any(np.abs(image - 1.0) > 0.05, axis=2)
     assert 0.2 < drawn.mean() < 0.9
     for colour in ((0.92, 0.62, 0.20), (0.95, 0.93, 0.82), (0.15, 0.48, 0.38)):
@@ -87,10 +98,10 @@ def test_picture_shows_the_parts(made: Made) -> None:
 
 @pytest.mark.slow
 def test_the_same_design_gives_the_same_bytes(made: Made, tmp_path: Path) -> None:
-    write_design(design_of("paper", {}), tmp_path / "design.json")
+    write_design(made.design, tmp_path / "design.json")
     again = make_cad(tmp_path / "design.json", tmp_path / "again")
-    for name in made[0].files:
-        first, second = ((folder / name).read_bytes() for folder in (made[0].folder, again.folder))
+    for name in made.report.files:
+        first, second = ((folder / name).read_bytes() for folder in (made.report.folder, again.folder))
         assert hashlib.sha256(first).digest() == hashlib.sha256(second).digest(), name
 
 

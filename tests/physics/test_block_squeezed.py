@@ -1,5 +1,6 @@
 """The squeezed block at the ends of its shapes, and against what is known of cubes and of torques."""
 
+import numpy as np
 import pytest
 
 from tvimdesign.physics import block
@@ -28,3 +29,9 @@ def test_stiffness_is_force_times_arm_over_angle() -> None:
     assert block.stiffness(400e6, 2, 1e-4, 20e-3, 5e-3) * 1e-3 == pytest.approx(6.4, rel=1e-12)
     assert block.strain(20e-3, 1e-3, 5e-3) == pytest.approx(4e-3, rel=1e-12)
     assert block.torque_at_stress(1.6e6, 2, 1e-4, 20e-3) == pytest.approx(6.4, rel=1e-12)
+
+
+def test_a_block_squeezed_to_half_its_angle_needs_twice_its_plan_width_in_square_of_radius() -> None:
+    # From 6 to 8 mm: 64 - 36 = 28 mm2 of squared radius become 56, and 36 + 56 = 92.
+    assert block.squeezed_outer_radius(6e-3, 8e-3, 0.2, 0.1) == pytest.approx(np.sqrt(92e-6), rel=1e-12)
+    assert block.squeezed_outer_radius(6e-3, 8e-3, 0.2, 0.0) == pytest.approx(8e-3, rel=1e-12)

@@ -10,20 +10,14 @@ import cadquery as cq
 
 from tvimdesign.cad import parts
 from tvimdesign.cad.dimensions import Dimensions, dimensions
+from tvimdesign.cad.kinds import TURNING
+from tvimdesign.cad.modes import MODULES
 from tvimdesign.cad.shapes import polar, turned
 from tvimdesign.cad.springs import Coil, free_coil, installed_coil, spring_solid
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import Design
 
 Progress = Callable[[str], None]
-_DRAWN = {
-    "housing": parts.housing,
-    "rotor": parts.rotor,
-    "link": parts.link,
-    "retainer": parts.retainer,
-    "pcl_arc": parts.pcl_arc,
-    "peltier_pad": parts.peltier_pad,
-}
 
 
 def build(design: Design, rotor_angle: float = 0.0, progress: Progress | None = None) -> dict[str, cq.Solid]:
@@ -40,7 +34,7 @@ def drawn_parts(dims: Dimensions, progress: Progress | None = None) -> dict[str,
     """Build one of every part but the springs, in the module's coordinates, by kind."""
     if dims.count("spring_count") % 2:
         raise GeometryError(f"spring_count is {dims.spring_count:g}; half of them are left-hand, so it must be even")
-    return {name: _built(name, partial(draw, dims), progress) for name, draw in _DRAWN.items()}
+    return {name: _built(name, partial(draw, dims), progress) for name, draw in MODULES[dims.mode].drawn.items()}
 
 
 def free_springs(dims: Dimensions, progress: Progress | None = None) -> dict[str, cq.Solid]:
@@ -81,11 +75,9 @@ def place(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0, progress: Progress | None = None
 ) -> dict[str, cq.Solid]:
     """Place the drawn parts, and the springs built for the rotor's angle, by name."""
-    placed = {name: turned(drawn[name], 0.0 if name == "housing" else rotor_angle)
-              for name in ("housing", "rotor", "link", "retainer")}  # fmt: skip
-    for kind in ("peltier_pad", "pcl_arc"):
-        for index, azimuth in enumerate(parts.arc_azimuths(dims)):
-            placed[f"{kind}_{index + 1}"] = turned(drawn[kind], azimuth)
+    placed = {"housing": turned(drawn["housing"], 0.0)}
+    placed |= {name: turned(drawn[name], rotor_angle) for name in TURNING}
+    placed |= MODULES[dims.mode].stand(dims, drawn, rotor_angle)
     return placed | installed_springs(dims, rotor_angle, progress)
 
 

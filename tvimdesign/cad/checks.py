@@ -15,6 +15,7 @@ from OCP.GProp import GProp_GProps
 from tvimdesign.cad.assembly import place
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import KINDS, SPRINGS, TURNING, kind_of
+from tvimdesign.cad.modes import MODULES
 from tvimdesign.cad.outcome import Check
 from tvimdesign.cad.springs import installed_coil
 from tvimdesign.physics.transmission import pin_distance
@@ -25,7 +26,6 @@ MODEL_TOLERANCE = 0.005
 ENVELOPE_TOLERANCE = 1e-6
 TOUCHING = 0.01
 """Common volume [mm^3] up to which two parts touch rather than cut each other."""
-_FIXED = ("housing", "peltier_pad", "pcl_arc")
 _MM3, _MM5 = 1e-9, 1e-15
 
 
@@ -44,13 +44,13 @@ def all_checks(
         angle = share * dims.stroke
         say(f"interference at {angle:+.4f} rad")
         moved = place(dims, drawn, angle, progress)
-        found += interference_checks(moved, f"at {angle:+.4f} rad", lambda a, b: _group(a) != _group(b))
+        found += interference_checks(moved, f"at {angle:+.4f} rad", lambda a, b: not _together(dims.mode, a, b))
     return found
 
 
 def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:
     """Volume, mass and inertia of the solids against the rows of the design."""
-    by_kind: dict[str, list[cq.Solid]] = {kind: [] for kind in KINDS}
+    by_kind: dict[str, list[cq.Solid]] = {kind: [] for kind in MODULES[design.mode].kinds}
     for name, solid in placed.items():
         by_kind[kind_of(name)].append(solid)
     mass = inertia = 0.0
@@ -115,10 +115,10 @@ def _common_volume(first: cq.Solid, second: cq.Solid) -> float:
     return float(cq.Shape.cast(operation.Shape()).Volume())
 
 
-def _group(name: str) -> str:
-    """Parts of one group do not move against each other; each spring is its own."""
-    kind = kind_of(name)
-    return "fixed" if kind in _FIXED else "turning" if kind in TURNING else name
+def _together(mode: str, first: str, second: str) -> bool:
+    """Whether two parts both stand, or both turn, so that they are to each other as they were at rest."""
+    kinds = {kind_of(first), kind_of(second)}
+    return kinds <= set(MODULES[mode].fixed) or kinds <= set(TURNING)
 
 
 def _against(name: str, built: float, model: float, tolerance: float = MODEL_TOLERANCE) -> Check:

@@ -20,8 +20,9 @@ _MOST = 64
 class Dimensions:
     """The design's lengths [mm], angles [rad] and counts by the names of the table: `dims.wire_diameter`."""
 
-    def __init__(self, values: Mapping[str, float]) -> None:
+    def __init__(self, mode: str, values: Mapping[str, float]) -> None:
         """`values` are in mm, rad and plain numbers by row name."""
+        self.mode = mode
         self._values = dict(values)
 
     def __getattr__(self, name: str) -> float:
@@ -49,8 +50,15 @@ class Dimensions:
 
 
 def dimensions(design: Design) -> Dimensions:
-    """Convert a design's values to the units of CAD."""
+    """Convert a design's values to the units of CAD; dimensions that only other rows use are worked out first."""
     table = table_for(design.mode)
     rows: list[Input | Output] = [*table.inputs, *table.outputs]
     units = {row.name: row.unit for row in rows if row.unit in _SCALE}
-    return Dimensions({name: value * _SCALE[units[name]] for name, value in design.values.items() if name in units})
+    values = design.values | table.evaluate(design.values, [row.name for row in table.outputs if _unprinted(row)])
+    lengths = {name: value * _SCALE[units[name]] for name, value in values.items() if name in units}
+    return Dimensions(design.mode, lengths)
+
+
+def _unprinted(row: Output) -> bool:
+    """Whether a row is a dimension that no report shows."""
+    return row.hidden and row.unit == "mm"

@@ -35,11 +35,12 @@ KINDS = {
     "link": _kind((0.16, 0.36, 0.62), *_STRUCTURE, "link_volume"),
     "retainer": _kind((0.42, 0.28, 0.50), *_STRUCTURE, "retainer_volume"),
     "pcl_arc": _kind((0.95, 0.93, 0.82), "pcl_grade", "pcl_density", "pcl_volume"),
+    "pcl_block": _kind((0.95, 0.93, 0.82), "pcl_grade", "pcl_density", "pcl_volume"),
     "peltier_pad": _kind((0.72, 0.20, 0.18), "peltier_module", "peltier_density", "peltier_volume"),
     "spring_right": _kind((0.15, 0.48, 0.38), *_SPRING),
     "spring_left": _kind((0.45, 0.70, 0.30), *_SPRING),
 }
-"""By name; a placed part is named after its kind, with a number where there are several."""
+"""Of all modes, by name; a placed part is named after its kind, with a number where there are several."""
 TURNING = ("rotor", "link", "retainer")
 """The kinds that turn together."""
 SPRINGS = ("spring_right", "spring_left")

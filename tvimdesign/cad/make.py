@@ -17,9 +17,7 @@ from typing import IO, Any
 import tvimdesign
 from tvimdesign.cad.outcome import CadReport, Check
 from tvimdesign.errors import GeometryError, InputError
-from tvimdesign.study.design import read_design
 
-MODES_WITH_PARTS = ("shear",)
 TIMEOUT = 300.0
 """Seconds; a module takes about ten."""
 
@@ -33,9 +31,6 @@ def make_cad(
     at what collides. Raises GeometryError, naming the part, where one cannot be built, the process crashes or
     `timeout_s` [s] have passed; InputError where the design cannot be read.
     """
-    mode = read_design(design_path).mode
-    if mode not in MODES_WITH_PARTS:
-        raise GeometryError(f"parts of {mode} mode cannot be made yet; all its numbers are there")
     out.mkdir(parents=True, exist_ok=True)
     state: dict[str, Any] = {"progress": "starting"}
     with tempfile.TemporaryFile() as talk:

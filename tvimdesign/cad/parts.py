@@ -1,21 +1,17 @@
-"""The drawn parts in the module's coordinates: rotor axis z, the floor's upper face z = 0. Not the springs."""
+"""The drawn parts that all modes share: rotor axis z, the floor's upper face z = 0. A mode adds its own; no springs."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import atan2, hypot, pi, sqrt
 
 import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
-from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, sector, slot, turned
+from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, slot, turned
 from tvimdesign.cad.springs import installed_coil
 
 LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
-
-
-def arc_azimuths(dims: Dimensions) -> list[float]:
-    """Middles of the PCL arcs [rad]: between the springs where there are as many of both."""
-    return [azimuth + pi / dims.count("spring_count") for azimuth in dims.azimuths("arc_count")]
 
 
 def hand_of(index: int) -> str:
@@ -34,33 +30,27 @@ def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
     ]
 
 
-def housing(dims: Dimensions) -> cq.Shape:
-    """Floor, hub, wall, skirt, spring posts and feet; less bore, pockets, windows, tang and screw holes, notches."""
+def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable[cq.Shape]) -> cq.Shape:
+    """Floor, hub, wall, skirt, spring posts, feet and what the mode adds.
+
+    Less bore, the mode's openings, tang and screw holes, and notches.
+    """
     floor_bottom = -dims.floor_thickness
     floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
     ground, rim = floor_bottom - dims.foot_height, dims.pin_top_level
     wall = ring(dims.housing_inner_radius, dims.housing_outer_radius, ground, rim)
-    hub = cylinder(dims.hub_radius, 0, dims.pcl_thickness)
+    hub = cylinder(dims.hub_radius, 0, dims.rotor_bottom_level)
     post_top = dims.coil_end_level + 0.5 * dims.wire_diameter
     posts = [
         cylinder(dims.post_radius, 0, post_top, polar(dims.placement_radius, azimuth))
         for azimuth in dims.azimuths("spring_count")
     ]
-    bore = cylinder(dims.core_radius + dims.running_clearance, floor_bottom, dims.pcl_thickness)
-    pocket = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
-    window = sector(
-        dims.pcl_inner_radius + dims.window_ledge,
-        dims.pcl_outer_radius - dims.window_ledge,
-        dims.arc_span - 2.0 * dims.window_ledge / dims.pcl_inner_radius,
-        floor_bottom,
-        -dims.peltier_thickness,
-    )
-    openings = [turned(shape, azimuth) for azimuth in arc_azimuths(dims) for shape in (pocket, window)]
+    bore = cylinder(dims.core_radius + dims.running_clearance, floor_bottom, dims.rotor_bottom_level)
     hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
     tang_holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
     feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
     mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
-    body = join(floor, [wall, hub, *posts, *feet])
+    body = join(floor, [wall, hub, *posts, *feet, *added])
     return body.cut(bore, *openings, *tang_holes, *mount_holes, *notches(dims))
 
 
@@ -78,10 +68,10 @@ def notches(dims: Dimensions) -> list[cq.Shape]:
     return [turned(opening, azimuth) for azimuth in dims.azimuths("spring_count")]
 
 
-def rotor(dims: Dimensions) -> cq.Shape:
-    """Plate that lies on the PCL, core that turns in the hub and carries the link, pins that the springs bear on."""
+def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = ()) -> cq.Shape:
+    """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds."""
     core_bottom = -dims.floor_thickness - dims.running_clearance
-    plate = cylinder(dims.rotor_radius, dims.pcl_thickness, dims.rotor_top_level)
+    plate = cylinder(dims.rotor_radius, dims.rotor_bottom_level, dims.rotor_top_level)
     core = cylinder(dims.core_radius, core_bottom, dims.link_bottom_level)
     pins = [
         cylinder(0.5 * dims.pin_diameter, dims.rotor_top_level, dims.pin_top_level, polar(dims.pin_radius, azimuth))
@@ -91,7 +81,7 @@ def rotor(dims: Dimensions) -> cq.Shape:
     pilot_bottom = core_top - dims.link_screw_depth
     pilots = [cylinder(0.5 * dims.link_screw_pilot, pilot_bottom, core_top, at) for at in link_screws(dims)]
     retainer_pilot = cylinder(0.5 * dims.retainer_screw_pilot, core_bottom, core_bottom + dims.retainer_screw_depth)
-    return join(plate, [core, *pins]).cut(retainer_pilot, *pilots)
+    return join(plate, [core, *pins, *added]).cut(retainer_pilot, *pilots)
 
 
 def link(dims: Dimensions) -> cq.Shape:
@@ -107,16 +97,6 @@ def retainer(dims: Dimensions) -> cq.Shape:
     top = -dims.floor_thickness - dims.running_clearance
     radius = dims.core_radius + dims.retainer_lip
     return ring(0.5 * dims.retainer_screw_clearance, radius, top - dims.retainer_thickness, top)
-
-
-def pcl_arc(dims: Dimensions) -> cq.Shape:
-    """One arc of PCL between floor and rotor, centred on the x axis."""
-    return sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, 0, dims.pcl_thickness)
-
-
-def peltier_pad(dims: Dimensions) -> cq.Shape:
-    """One Peltier pad in its pocket under an arc, centred on the x axis."""
-    return sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
 
 
 def link_screws(dims: Dimensions) -> list[tuple[float, float]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -28,6 +28,7 @@ from vtkmodules.vtkRenderingCore import (
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import KINDS, Rgb, kind_of
 from tvimdesign.cad.mesh import Array, Instance, Mesh, solid_mesh
+from tvimdesign.cad.modes import MODULES
 from tvimdesign.study.design import write_whole
 
 _SIZE = (1800, 800)
@@ -50,7 +51,7 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
         renderer = _view(shown, dims)
         renderer.SetViewport(left, _LEGEND_HEIGHT, right, 1.0)
         window.AddRenderer(renderer)
-    window.AddRenderer(_legend())
+    window.AddRenderer(_legend(MODULES[dims.mode].kinds))
     window.Render()
     image = vtkWindowToImageFilter()
     image.SetInput(window)
@@ -148,15 +149,15 @@ def _poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
     return data
 
 
-def _legend() -> vtkRenderer:
+def _legend(kinds: Sequence[str]) -> vtkRenderer:
     """A strip with the names of the parts in their colours."""
     renderer = vtkRenderer()
     renderer.SetViewport(0.0, 0.0, 1.0, _LEGEND_HEIGHT)
     renderer.SetBackground(1.0, 1.0, 1.0)
-    width = _SIZE[0] / len(KINDS)
-    for index, (kind, made_of) in enumerate(KINDS.items()):
+    width = _SIZE[0] / len(kinds)
+    for index, kind in enumerate(kinds):
         x, y = round((index + 0.12) * width), 30
-        renderer.AddViewProp(_text("     ", x, y, made_of.colour))
+        renderer.AddViewProp(_text("     ", x, y, KINDS[kind].colour))
         renderer.AddViewProp(_text(kind.replace("_", " "), x + 42, y, None))
     return renderer
 

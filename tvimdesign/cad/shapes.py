@@ -82,6 +82,6 @@ def join(body: cq.Shape, others: Iterable[cq.Shape]) -> cq.Shape:
     return body.fuse(*others).clean()
 
 
-def turned(shape: cq.Shape, azimuth: float) -> cq.Shape:
-    """The shape turned about the axis; the copy shares its geometry with the original."""
-    return shape.moved(cq.Location(cq.Vector(), _UP, azimuth * 180.0 / pi))
+def turned(shape: cq.Shape, azimuth: float, beside: float = 0.0) -> cq.Shape:
+    """The shape moved along y, then turned about the axis; the copy shares its geometry with the original."""
+    return shape.moved(cq.Location(cq.Vector(*polar(beside, azimuth + 0.5 * pi)), _UP, azimuth * 180.0 / pi))

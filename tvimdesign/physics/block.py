@@ -77,6 +77,14 @@ def strain(radius: Any, angle: Any, depth: Any) -> Any:
     return radius * angle / depth
 
 
+def squeezed_outer_radius(inner_radius: Any, outer_radius: Any, span: Any, squeeze: Any) -> Any:
+    """Outer radius [m] of a sector of the angle `span` [rad] squeezed by an angle, were it to give way outwards alone.
+
+    Its volume stays, h a (r_o^2 - r_i^2)/2, as that of any incompressible body; textbook.
+    """
+    return np.sqrt(inner_radius**2 + (outer_radius**2 - inner_radius**2) * span / (span - squeeze))
+
+
 def stress(torque: Any, count: Any, area: Any, radius: Any) -> Any:
     """Mean pressure on the faces under a torque [Pa], T/(n A r); textbook."""
     return torque / (count * area * radius)

@@ -20,4 +20,12 @@ radius, so a block is strained alike from its inner to its outer end and K = n E
 - Rotor vanes hang at azimuths 0, 360/N, ... degrees, housing vanes stand half a pitch further.
 
 The blocks touch both faces at rest and are bonded to at most one of them. They do not slip there while pressed.
+
+Turned by an angle, the solids stand like this: each block stays on its pad. The one ahead of a rotor vane is drawn as
+the sector that the vane leaves of it, so block and vane touch in one radial face; the one behind keeps its shape, and
+between it and the vane is air. What is squeezed gives way to its free sides, and that bulge is not drawn: it has the
+running clearances, the gap to the hub, and outside all the room up to the springs, which `squeezed_block_gap` tells.
+
+It goes together from above: pads into their pockets, which are open upwards, the wires down through the slots; blocks
+beside them; then the rotor, whose vanes come down between the blocks. So no part reaches over another in the chamber.
 """

@@ -7,7 +7,8 @@ import numpy as np
 from tvimdesign.device.book import Book
 from tvimdesign.device.gaps import MM
 from tvimdesign.device.gaps import book as shared
-from tvimdesign.device.rows import Scalar, at_least
+from tvimdesign.device.rows import Rule, Scalar, at_least
+from tvimdesign.physics import block
 
 book = Book(shared.group)
 
@@ -46,6 +47,26 @@ def slot_web(block_width: Scalar, slot_width: Scalar) -> Scalar:
 def vane_root(rotor_vane_angle: Scalar, pcl_inner_radius: Scalar) -> Scalar:
     """Thickness of the rotor's vanes at their inner end, where they are thinnest."""
     return rotor_vane_angle * pcl_inner_radius
+
+
+_PRESSED_OUT = "what is squeezed out of the blocks' places could reach the springs, were all of it to go outwards"
+
+
+@book.output("mm", advice=(Rule(sense=">=", value=0.0, reason=_PRESSED_OUT),))
+def squeezed_block_gap(
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    block_angle: Scalar,
+    stroke: Scalar,
+    placement_radius: Scalar,
+    spring_reach: Scalar,
+    radial_clearance: Scalar,
+) -> Scalar:
+    """Room between springs and fully squeezed blocks, all of which gives way outwards, beyond the radial clearance."""
+    # A block squeezed by half needs half its own volume beside its place. Some of that goes inwards, and into the
+    # running clearances; so this is advice.
+    squeezed = block.squeezed_outer_radius(pcl_inner_radius, pcl_outer_radius, block_angle, stroke)
+    return placement_radius - spring_reach - squeezed - radial_clearance
 
 
 @book.output("mm", at_least(0.0, "the feet must clear the slots"))

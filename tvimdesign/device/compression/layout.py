@@ -11,9 +11,9 @@ from tvimdesign.device.rows import Scalar
 book = Book(shared.group)
 
 
-@book.helper()
+@book.output("mm", hidden=True)
 def rotor_bottom_level(block_height: Scalar, running_clearance: Scalar) -> Scalar:
-    """Lower face of the rotor plate [m]: a running clearance below and above the blocks."""
+    """Lower face of the rotor plate: a running clearance below and above the blocks."""
     return block_height + 2.0 * running_clearance
 
 

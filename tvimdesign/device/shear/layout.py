@@ -9,9 +9,9 @@ from tvimdesign.device.rows import Scalar
 book = Book(shared.group)
 
 
-@book.helper()
+@book.output("mm", hidden=True)
 def rotor_bottom_level(pcl_thickness: Scalar) -> Scalar:
-    """Lower face of the rotor plate, which lies on the layer [m]."""
+    """Lower face of the rotor plate, which lies on the layer."""
     return pcl_thickness
 
 

@@ -1,0 +1,160 @@
+"""Vanes, blocks and pads as solids: where they stand, what the stroke makes of them, and that the checks bite."""
+
+from __future__ import annotations
+
+import cadquery as cq
+import numpy as np
+import pytest
+from cad_designs import random_blocks
+
+from tvimdesign.cad.assembly import build, drawn_parts
+from tvimdesign.cad.checks import all_checks, interference_checks, size_checks
+from tvimdesign.cad.dimensions import dimensions
+from tvimdesign.cad.export import stl_bytes
+from tvimdesign.cad.mesh import solid_mesh
+from tvimdesign.cad.shapes import sector, turned
+from tvimdesign.errors import GeometryError
+from tvimdesign.study.design import Design
+
+MM = 1e-3
+
+
+@pytest.fixture(scope="module")
+def rest(blocks: Design) -> dict[str, cq.Solid]:
+    """The parts at rest; tests replace parts in copies of it."""
+    return build(blocks)
+
+
+def at(radius: float, degrees: float, level: float) -> cq.Vector:
+    return cq.Vector(radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees)), level)
+
+
+def holders(parts: dict[str, cq.Solid], point: cq.Vector) -> list[str]:
+    return [name for name, solid in parts.items() if solid.isInside(point, 1e-6)]
+
+
+def failed(parts: dict[str, cq.Solid]) -> set[str]:
+    return {check.name for check in interference_checks(parts, "here") if not check.ok}
+
+
+@pytest.mark.parametrize(
+    ("degrees", "level", "expected"),
+    [
+        # At the mean radius of 18.5 mm a degree is 0.323 mm: vanes of 4 mm end at 6.19 degrees, blocks of 4 mm at
+        # 18.58, pads of 1 mm at 21.68; the housing's vane has its middle at 30.
+        (0.0, 6.0, "rotor"), (6.0, 6.0, "rotor"), (6.4, 6.0, "pcl_block_1"), (-6.4, 6.0, "pcl_block_2"),
+        (18.4, 6.0, "pcl_block_1"), (18.8, 6.0, "peltier_pad_2"), (41.2, 6.0, "peltier_pad_1"),
+        (21.5, 6.0, "peltier_pad_2"), (30.0, 11.9, "housing"), (60.0, 6.0, "rotor"),
+        # Levels: 0.4 mm of air, 11.964 mm of block and pad, 0.4 mm of air, 4 mm of plate; floor below zero.
+        (0.0, 0.3, None), (0.0, 0.5, "rotor"), (12.0, 0.3, None), (12.0, 0.5, "pcl_block_1"),
+        (12.0, 12.3, "pcl_block_1"), (12.0, 12.5, None), (30.0, 12.5, None), (30.0, 12.9, "rotor"),
+        (20.0, 0.2, "housing"), (20.0, 0.5, "peltier_pad_2"),
+        # The slot reaches through the floor, and up to 2 mm below the vane's top at 12.364 mm.
+        (30.0, 6.0, None), (30.0, -2.0, None), (30.0, 10.3, None), (30.0, 10.5, "housing"), (12.0, -2.0, "housing"),
+    ],
+)  # fmt: skip
+def test_vanes_blocks_and_pads_stand_where_the_drawing_in_words_says(
+    rest: dict[str, cq.Solid], degrees: float, level: float, expected: str | None
+) -> None:
+    assert holders(rest, at(18.5, degrees, level)) == ([expected] if expected else [])
+
+
+def test_the_slot_takes_the_middle_of_the_vane_and_leaves_its_ends(rest: dict[str, cq.Solid]) -> None:
+    housing = rest["housing"]
+    # Half of 11 mm of width: from 15.75 to 21.25 mm.
+    inside = [housing.isInside(at(radius, 30.0, 5.0)) for radius in (13.1, 15.6, 15.9, 21.1, 21.4, 23.9)]
+    assert inside == [True, True, False, False, True, True]
+
+
+def test_every_part_but_housing_and_rotor_is_there_as_often_as_the_vanes_ask(rest: dict[str, cq.Solid]) -> None:
+    assert sum(name.startswith("pcl_block") for name in rest) == 12
+    assert sum(name.startswith("peltier_pad") for name in rest) == 12
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_stroke_squeezes_the_block_ahead_of_a_vane_and_parts_from_the_one_behind(
+    blocks: Design, rest: dict[str, cq.Solid], side: float
+) -> None:
+    angle = side * 0.104
+    parts = build(blocks, angle)
+    ahead, behind = ("pcl_block_1", "pcl_block_2") if side > 0.0 else ("pcl_block_2", "pcl_block_1")
+    whole = rest["pcl_block_1"].Volume()
+    # 4 mm at 18.5 mm are 0.21622 rad; the vane takes 0.104 of them.
+    assert parts[ahead].Volume() == pytest.approx(whole * (1.0 - 0.104 / (4.0 / 18.5)), rel=1e-9)
+    assert parts[behind].Volume() == pytest.approx(whole, rel=1e-9)
+    assert parts["rotor"].distance(parts[ahead]) == pytest.approx(0.0, abs=1e-6)
+    # The vane took its face from 6.19 degrees to 0.23; from there to the block behind is air.
+    behind_at = -side * np.array([-0.5, 0.5, 5.9, 6.5, 18.0])
+    held = [holders(parts, at(18.5, degrees, 6.0)) for degrees in behind_at]
+    assert held == [["rotor"], [], [], [behind], [behind]]
+    assert parts["peltier_pad_2"].distance(parts["pcl_block_1"]) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_the_room_of_squeezed_blocks_is_what_a_solid_of_their_volume_leaves_up_to_the_springs(
+    blocks: Design, rest: dict[str, cq.Solid]
+) -> None:
+    # Springs of 12.02 mm and wire of 2.413 mm at 57 mm reach in to 49.32 mm, and 1 mm is to stay.
+    outer = 57.0 - 7.683 - 1.0 - 1e3 * blocks.values["squeezed_block_gap"]
+    bulged = sector(13.0, outer, 4.0 / 18.5 - 0.104, 0.4, 12.364)
+    assert bulged.Volume() == pytest.approx(rest["pcl_block_1"].Volume(), rel=1e-4)
+
+
+def test_a_vane_in_a_block_is_found(rest: dict[str, cq.Solid]) -> None:
+    moved = rest | {"rotor": turned(rest["rotor"], 0.01)}
+    assert {f"rotor | pcl_block_{index} here" for index in range(1, 12, 2)} <= failed(moved)
+
+
+def test_a_housing_vane_in_a_pad_is_found(rest: dict[str, cq.Solid]) -> None:
+    moved = rest | {"housing": turned(rest["housing"], 0.01)}
+    assert {f"housing | peltier_pad_{index} here" for index in range(1, 12, 2)} <= failed(moved)
+
+
+def test_a_block_that_does_not_give_way_is_found(blocks: Design, rest: dict[str, cq.Solid]) -> None:
+    moved = build(blocks, 0.05)
+    stiff = moved | {name: solid for name, solid in rest.items() if name.startswith("pcl_block")}
+    assert {f"rotor | pcl_block_{index} here" for index in range(1, 12, 2)} == failed(stiff)
+
+
+def test_a_block_wider_than_the_rim_of_its_pocket_is_found(blocks: Design, rest: dict[str, cq.Solid]) -> None:
+    dims = dimensions(blocks)
+    wide = sector(dims.pcl_inner_radius, dims.placement_radius, 0.1, dims.running_clearance, dims.vane_height)
+    assert any(name.startswith("pcl_block_1 | spring") for name in failed(rest | {"pcl_block_1": wide}))
+
+
+def test_a_stroke_through_the_block_names_it(blocks: Design) -> None:
+    with pytest.raises(GeometryError, match=r"pcl_block: of 0\.2162 rad, the rotor's vane takes 0\.3 rad"):
+        build(blocks, 0.3)
+
+
+@pytest.mark.parametrize("row", ["housing_volume", "rotor_inertia", "pcl_volume", "peltier_volume", "rotor_volume"])
+def test_a_wrong_model_is_found(blocks: Design, rest: dict[str, cq.Solid], row: str) -> None:
+    wrong = blocks.model_copy(update={"values": blocks.values | {row: 1.006 * blocks.values[row]}})
+    assert not all(check.ok for check in size_checks(wrong, rest))
+
+
+@pytest.mark.parametrize(
+    ("row", "value", "words"),
+    [
+        ("vane_count", 2.5, "whole number"),
+        ("housing_vane_angle", -0.1, "housing: span"),
+        ("rotor_vane_angle", 0.0, "rotor: span"),
+        ("block_angle", float("nan"), "pcl_block: block_angle is nan"),
+    ],
+)
+def test_what_cannot_be_drawn_names_the_part(blocks: Design, row: str, value: float, words: str) -> None:
+    design = blocks.model_copy(update={"values": blocks.values | {row: value}})
+    with pytest.raises(GeometryError, match=words):
+        build(design)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(6))
+def test_a_random_module_that_keeps_the_rules_passes_every_check(seed: int) -> None:
+    design = random_blocks(seed)
+    dims = dimensions(design)
+    drawn = drawn_parts(dims)
+    checks = all_checks(design, dims, drawn)
+    assert [check.text for check in checks if not check.ok] == []
+    assert max(abs(check.value) for check in checks if check.name.endswith(("_volume", "_inertia", "_mass"))) < 1e-5
+    for name, solid in drawn.items():
+        assert len(stl_bytes(name, solid_mesh(solid))) > 500
