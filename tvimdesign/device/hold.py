@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics import block, one_sided
+from tvimdesign.physics import block, hold, one_sided
 from tvimdesign.physics.motion import Modes
 from tvimdesign.physics.one_sided import Touching
 
@@ -31,7 +31,7 @@ def hold_angle(
     hold_torque: Scalar, hold_time: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
 ) -> Scalar:
     """Angle to which the load has turned the joint at the end of the hold."""
-    return block.loaded_angle(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
+    return hold.loaded_angle(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
 
 
 @book.output("1", per_point=True)
@@ -41,10 +41,11 @@ def pcl_relaxation(hold_time: Scalar, pcl_modes: Modes) -> Scalar:
 
 
 @book.output("rad", per_point=True)
-def set_angle(hold_angle: Scalar, hold_time: Scalar, elastic_support: Scalar, pcl_modes: Modes) -> Scalar:
-    """Angle at which the PCL is free of stress right after the hold; before, it was at rest."""
-    taken = hold_angle * block.held_share(hold_time, elastic_support, pcl_modes)
-    return block.backlash(taken, hold_time, pcl_modes)
+def set_angle(
+    hold_torque: Scalar, hold_time: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
+) -> Scalar:
+    """Angle at which the PCL is free of stress right after the hold; before, that was at rest."""
+    return hold.set_angle(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
 
 
 @book.output("rad", per_point=True, headline=True)
@@ -61,7 +62,7 @@ def relaxation_loss(
 
     A bonded layer that has relaxed takes the whole torque of such a turn: it starts from the stress it has.
     """
-    return block.impedance_loss(hold_angle, backlash, spring_stiffness, elastic_support, pcl_modes)
+    return hold.impedance_loss(hold_angle, backlash, spring_stiffness, elastic_support, pcl_modes)
 
 
 @book.swing("1")

@@ -110,25 +110,6 @@ def held_share(time: Any, structure: Any, modes: Modes) -> Any:
     return structure / (structure + relaxation_modulus(time, modes))
 
 
-def loaded_angle(torque: Any, time: Any, springs: Any, structure: Any, modes: Modes) -> Any:
-    """Angle [rad] of a link a time [s] after a torque [N*m] came on, T/(K_s + S K(t)/(S + K(t))).
-
-    Springs K_s stand beside the modes, which are in series with the structure S [N*m/rad]. Quasi-elastic like
-    `held_share`: exact at once and when the modes are elastic or gone, in between up to a tenth too much (tests).
-    """
-    return torque / (springs + held_share(time, structure, modes) * relaxation_modulus(time, modes))
-
-
-def impedance_loss(angle: Any, gap: Any, springs: Any, structure: Any, modes: Modes) -> Any:
-    """Share [1] of the torque of a quick turn from rest to an angle [rad] that is lost to a gap on its way [rad].
-
-    Without the gap the turn takes (K_s + B) theta, behind it K_s theta + B (theta - g): lost is B g/((K_s + B) theta),
-    with B = S K(0+)/(S + K(0+)) of structure and modes in series, before anything relaxes (textbook).
-    """
-    branch = held_share(0.0, structure, modes) * relaxation_modulus(0.0, modes)
-    return branch * gap / ((springs + branch) * angle)
-
-
 def backlash(angle: Any, time: Any, modes: Modes, precompression: Any = 0.0) -> Any:
     """Angle over which no block touches right after a hold at an angle [rad]: all that springs back at once has.
 

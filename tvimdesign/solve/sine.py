@@ -135,7 +135,7 @@ def _findings(rig: Rig, found: Sequence[Swung]) -> list[Finding]:
             ("contact_lost", "1", "Share of the last period in which no PCL is in contact",
              [one.contact_lost for one in here]),
             ("cycle_energy", "J", "Energy turned into heat in one cycle", [one.dissipated for one in here]),
-            ("frequency_domain_difference", "1", "Complex stiffness, seen here against that of small motions, of its size",
+            ("frequency_domain_difference", "1", "Complex stiffness as seen against that of small motions, of its size",
              [one.apart for one in here]),
         ):  # fmt: skip
             numbers.append(finding(f"{name}@{point}", unit, meaning, values))

@@ -11,7 +11,7 @@ import numpy as np
 from tvimdesign.device.book import Book
 from tvimdesign.device.impedance import book as shared
 from tvimdesign.device.rows import Rule, Scalar
-from tvimdesign.physics import block, layer, structure, vane
+from tvimdesign.physics import block, hold, layer, structure, vane
 from tvimdesign.physics.motion import Modes
 
 book = Book(shared.group)
@@ -222,7 +222,7 @@ def holding_torque(
     return np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
 
 
-@book.output("1")
+@book.output("1", headline=True)
 def parting_share() -> Scalar:
     """Share of the PCL that can part from what presses on it: all, a block pushes and never pulls.
 
@@ -242,5 +242,5 @@ def block_pressure(
     pcl_mean_radius: Scalar,
 ) -> Scalar:
     """Highest mean pressure on the blocks' faces in a hold: when the load has just come on."""
-    first = block.loaded_angle(hold_torque, 0.0, spring_stiffness, elastic_support, pcl_modes)
+    first = hold.first_angle(hold_torque, spring_stiffness, elastic_support, pcl_modes)
     return block.stress(hold_torque - spring_stiffness * first, vane_count, block_area, pcl_mean_radius)

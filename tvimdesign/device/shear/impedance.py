@@ -7,7 +7,7 @@ import numpy as np
 from tvimdesign.device.book import Book
 from tvimdesign.device.impedance import book as shared
 from tvimdesign.device.rows import Rule, Scalar
-from tvimdesign.physics import block, layer, structure
+from tvimdesign.physics import hold, layer, structure
 from tvimdesign.physics.motion import Modes
 
 book = Book(shared.group)
@@ -94,7 +94,7 @@ def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, li
     return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
 
 
-@book.output("1")
+@book.output("1", headline=True)
 def parting_share() -> Scalar:
     """Share of the PCL that can part from what presses on it: none, the layer is bonded to both its faces.
 
@@ -113,5 +113,5 @@ def bond_traction(
     pcl_outer_radius: Scalar,
 ) -> Scalar:
     """Highest traction on the layer's bond in a hold: at its outer rim, when the load has just come on."""
-    first = block.loaded_angle(hold_torque, 0.0, spring_stiffness, structure_stiffness, pcl_modes)
+    first = hold.first_angle(hold_torque, spring_stiffness, structure_stiffness, pcl_modes)
     return layer.traction(hold_torque - spring_stiffness * first, layer_polar_moment, pcl_outer_radius)
