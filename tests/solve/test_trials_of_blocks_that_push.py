@@ -114,6 +114,15 @@ def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(name: str, rig: Rig, 
     assert 0.9 * gap < way <= gap * (1.0 + 1e-9)
 
 
+def test_loop_that_is_drawn_is_the_first_swing(trial: Callable[[str], Trial]) -> None:
+    release = trial("release")
+    assert all(line.sheet.endswith("_first_swing") for line in release.panels[2].lines)
+    whole = sheet(release, "release_melting_nominal").column("time").values
+    swing = sheet(release, "release_melting_nominal_first_swing").column("time").values
+    assert np.array_equal(swing, whole[: len(swing)])
+    assert swing[-1] == pytest.approx(1.0 / value(release, "ringing_frequency@melting"), rel=1e-9)
+
+
 def test_events_are_where_the_columns_change(trial: Callable[[str], Trial]) -> None:
     release = trial("release")
     one, events = sheet(release, "release_cold"), sheet(release, "release_cold_events")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -76,7 +76,7 @@ def release(rig: Rig, angle: float = ANGLE, hold: float | None = None, kelvin_vo
             Panel(
                 "Torque", "time after release, s", "torque over that at release", _lines(shown, "time", y), log_x=True
             ),
-            Panel("Torque over angle", "angle, rad", "torque over that at release", _lines(shown, x, y)),
+            Panel(_loop_title(shown), "angle, rad", "torque over that at release", _lines(shown, x, y)),
         ),
         findings=tuple(_findings(rig, found)),
         notes=(
@@ -156,13 +156,28 @@ def _sheets(one: Released) -> tuple[Sheet, ...]:
             Column("torque_kelvin_voigt", "N*m", torque),
             Column("torque_share_kelvin_voigt", "1", torque / abs(torque[0])),
         ]
-    return (Sheet(name, tuple(columns)), *touch.event_sheets(name, one.found))
+    events = touch.event_sheets(name, one.found)
+    return (Sheet(name, tuple(columns)), *(_first_swing(one, columns) if one.case.one_sided else ()), *events)
+
+
+def _first_swing(one: Released, columns: Sequence[Column]) -> tuple[Sheet]:
+    """The first swing alone, whose loop shows the backlash; later ones lie over it."""
+    count = int(np.searchsorted(one.motion.times, one.found.first_swing(), side="right"))
+    return (Sheet(_loop_name(one), tuple(replace(column, values=column.values[:count]) for column in columns)),)
+
+
+def _loop_name(one: Released) -> str:
+    return f"release_{one.case.name}" + ("_first_swing" if one.case.one_sided else "")
+
+
+def _loop_title(found: Sequence[Released]) -> str:
+    return "Torque over angle" + (", first swing" if found[0].case.one_sided else "")
 
 
 def _lines(found: Sequence[Released], x: str, y: str) -> tuple[Line, ...]:
     lines = []
     for one in found:
-        sheet = f"release_{one.case.name}"
+        sheet = _loop_name(one) if x == "angle" else f"release_{one.case.name}"
         held = f"{abs(one.motion.torque[0]):.3g} N·m at release"
         lines.append(Line(sheet, x, y, f"{one.case.label} ({held})" if y == "torque_share" else one.case.label))
         if one.simple and not one.case.history.name:
