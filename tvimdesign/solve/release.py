@@ -85,8 +85,17 @@ def release(rig: Rig, angle: float = ANGLE, hold: float | None = None, kelvin_vo
             "Torque is that of the module on the link.",
             *notes_for([one.case for one in found]),
             *overload_notes(rig, [(one.case, float(abs(one.motion.torque[0]))) for one in found]),
+            *_unsettled(found),
         ),
     )
+
+
+def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
+    """Where a link that rattles between its blocks was not followed until it settles."""
+    points = ", ".join(dict.fromkeys(one.case.point for one in found if not np.isfinite(one.settling)))
+    if not points:
+        return ()
+    return (f"At {points} the link still swings where its curve ends: it settles later, if it does.",)
 
 
 def contact_seen(rig: Rig, angle: float = ANGLE) -> dict[str, tuple[float, float, float]]:
