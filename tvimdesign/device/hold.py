@@ -26,12 +26,18 @@ def hold_torque(hold_share: Scalar, spring_stiffness: Scalar, stroke: Scalar) ->
     return hold_share * spring_stiffness * stroke
 
 
-@book.output("rad", per_point=True)
-def hold_angle(
+@book.helper(per_point=True)
+def held(
     hold_torque: Scalar, hold_time: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
-) -> Scalar:
+) -> hold.Held:
+    """Joint and PCL at the end of the hold."""
+    return hold.held(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
+
+
+@book.output("rad", per_point=True)
+def hold_angle(held: hold.Held) -> Scalar:
     """Angle to which the load has turned the joint at the end of the hold."""
-    return hold.loaded_angle(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
+    return held.angle
 
 
 @book.output("1", per_point=True)
@@ -41,11 +47,9 @@ def pcl_relaxation(hold_time: Scalar, pcl_modes: Modes) -> Scalar:
 
 
 @book.output("rad", per_point=True)
-def set_angle(
-    hold_torque: Scalar, hold_time: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
-) -> Scalar:
+def set_angle(held: hold.Held) -> Scalar:
     """Angle at which the PCL is free of stress right after the hold; before, that was at rest."""
-    return hold.set_angle(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
+    return held.set_angle
 
 
 @book.output("rad", per_point=True, headline=True)

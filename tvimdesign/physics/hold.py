@@ -9,36 +9,45 @@ ed., ch. 2 (the correspondence principle, by which the elastic answer holds for 
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from tvimdesign.physics import laplace
 from tvimdesign.physics.motion import Modes
 
 
-def loaded_angle(torque: Any, time: Any, springs: Any, structure: Any, modes: Modes) -> Any:
-    """Angle of the link [rad] a time [s] after a torque [N*m] came on; springs and structure in N*m/rad."""
-    return laplace.inverse(lambda rate: torque * _compliance(rate, springs, structure, modes) / rate, time)
+class Held(NamedTuple):
+    """What a load has come to in a time [rad]."""
+
+    angle: Any
+    """Angle of the link."""
+    set_angle: Any
+    """Angle at which the polymer is free of stress, sum k q/sum k: what its dashpots have moved."""
+
+
+def held(torque: Any, time: Any, springs: Any, structure: Any, modes: Modes) -> Held:
+    """Follow a link for a time [s] after a torque [N*m] came on; springs and structure in N*m/rad.
+
+    What the dashpots have moved is, of the polymer's angle, the share 1 - Q/sum k, that is sum k/(1 + s tau)/sum k.
+    """
+    whole = sum(stiffness for _, stiffness in modes)
+
+    def transforms(rate: Any) -> tuple[Any, Any]:
+        shares = [(tau, stiffness / (1.0 + rate * tau)) for tau, stiffness in modes]
+        polymer = rate * sum(tau * share for tau, share in shares)
+        taken = structure / (structure + polymer)
+        angle = torque / (rate * (springs + taken * polymer))
+        return angle, angle * taken * sum(share for _, share in shares) / whole
+
+    given = (torque, time, springs, structure, *(number for mode in modes for number in mode))
+    axes = len(np.broadcast_shapes(*(np.shape(number) for number in given)))
+    return Held(*laplace.inverse(transforms, time, axes))
 
 
 def first_angle(torque: Any, springs: Any, structure: Any, modes: Modes) -> Any:
     """Angle of the link [rad] when the torque has just come on, T/(K_s + S K/(S + K)), K = sum k."""
     return torque / (springs + _branch(sum(stiffness for _, stiffness in modes), structure))
-
-
-def set_angle(torque: Any, time: Any, springs: Any, structure: Any, modes: Modes) -> Any:
-    """Angle at which the polymer is free of stress [rad] a time [s] after the torque came on, sum k q/sum k.
-
-    Of the polymer's angle phi(s) that is the share 1 - Q/sum k, that is sum k/(1 + s tau)/sum k: what its dashpots
-    have moved.
-    """
-    whole = sum(stiffness for _, stiffness in modes)
-
-    def transform(rate: Any) -> Any:
-        moved = sum(stiffness / (1.0 + rate * tau) for tau, stiffness in modes) / whole
-        taken = structure / (structure + _operational(rate, modes))
-        return torque * _compliance(rate, springs, structure, modes) / rate * taken * moved
-
-    return laplace.inverse(transform, time)
 
 
 def impedance_loss(angle: Any, gap: Any, springs: Any, structure: Any, modes: Modes) -> Any:
@@ -51,16 +60,6 @@ def impedance_loss(angle: Any, gap: Any, springs: Any, structure: Any, modes: Mo
     return branch * gap / ((springs + branch) * angle)
 
 
-def _operational(rate: Any, modes: Modes) -> Any:
-    """Q(s) [N*m/rad]."""
-    return sum(stiffness * rate * tau / (1.0 + rate * tau) for tau, stiffness in modes)
-
-
 def _branch(stiffness: Any, structure: Any) -> Any:
     """Polymer and structure in series [N*m/rad]."""
     return structure * stiffness / (structure + stiffness)
-
-
-def _compliance(rate: Any, springs: Any, structure: Any, modes: Modes) -> Any:
-    """Of the joint [rad/(N*m)] for transforms."""
-    return 1.0 / (springs + _branch(_operational(rate, modes), structure))

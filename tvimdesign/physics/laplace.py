@@ -11,6 +11,8 @@ from functools import cache
 from math import factorial, log
 from typing import Any
 
+import numpy as np
+
 TERMS = 10
 """Terms of the sum, even. Each more pair brings a digit and takes one of rounding: within 4e-4 (tests), 1e-10."""
 
@@ -30,7 +32,14 @@ def weights(terms: int = TERMS) -> tuple[float, ...]:
     return tuple(found)
 
 
-def inverse(transform: Callable[[Any], Any], time: Any) -> Any:
-    """Value at a time [s] of what has a transform F(s), s in 1/s: f(t) = ln(2)/t sum V_i F(i ln(2)/t)."""
+def inverse(transform: Callable[[Any], tuple[Any, ...]], time: Any, axes: int = 0) -> tuple[Any, ...]:
+    """Values at a time [s] of what has the transforms F(s), s in 1/s: f(t) = ln(2)/t sum V_i F(i ln(2)/t).
+
+    The transforms take all s at once, along the first axis; `axes` says how many axes the numbers in them have: none of
+    floats and symbols.
+    """
+    along = (TERMS, *(1,) * axes)
     rate = log(2.0) / time
-    return rate * sum(weight * transform(i * rate) for i, weight in enumerate(weights(), start=1))
+    places = np.reshape(np.arange(1.0, TERMS + 1.0), along) * rate
+    scale = np.reshape(np.array(weights()), along)
+    return tuple(rate * np.sum(scale * values, axis=0) for values in transform(places))

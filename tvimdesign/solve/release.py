@@ -102,13 +102,21 @@ def contact_seen(rig: Rig, angle: float = ANGLE) -> dict[str, tuple[float, float
     """Nominal, least and largest value of every row that a first swing shows, by full name, after `hold_time`."""
     seen: dict[str, list[float]] = {}
     for case in cases(rig):
-        found = touch.released(case, angle, touch.held(case, angle, float(rig.row("hold_time"))), TURNS_OF_A_SWING)
-        touching = {TOUCHING: Touching(*found.touching.astype(float))}
-        for row in rig.table.swings:
-            instants = rig.table.evaluate_instant({**rig.values, **touching}, [row.name])[row.name]
-            mean = found.average(instants, 0.0, found.first_swing())
-            seen.setdefault(f"{row.name}@{case.point}", []).append(mean)
+        for name, value in _first_swing_of(rig, case, angle).items():
+            seen.setdefault(f"{name}@{case.point}", []).append(value)
     return {name: (values[0], min(values), max(values)) for name, values in seen.items()}
+
+
+def _first_swing_of(rig: Rig, case: Case, angle: float) -> dict[str, float]:
+    """Mean of every row of a swing over the first one; a bonded layer is in contact whatever the link does."""
+    names = [row.name for row in rig.table.swings]
+    if not case.one_sided:
+        bonded = rig.table.evaluate_instant({**rig.values, TOUCHING: Touching(1.0, 1.0)}, names)
+        return {name: float(value) for name, value in bonded.items()}
+    found = touch.released(case, angle, touch.held(case, angle, float(rig.row("hold_time"))), TURNS_OF_A_SWING)
+    touching = Touching(*found.touching.astype(float))
+    instants = rig.table.evaluate_instant({**rig.values, TOUCHING: touching}, names)
+    return {name: found.average(values, 0.0, found.first_swing()) for name, values in instants.items()}
 
 
 def _released(rig: Rig, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
