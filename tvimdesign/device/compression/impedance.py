@@ -1,7 +1,7 @@
 """The PCL blocks of the compression module and what they press on: stiffness, damping, strain, torque they hold.
 
 Of the 2 N blocks only the N that are pressed count. Small motions about rest keep every block touching, so no contact
-is lost here; how a gap opens in large ones is a matter of time and history.
+is lost here; how a gap opens in large ones is a matter of time and history (`device/hold.py`).
 """
 
 from __future__ import annotations
