@@ -4,10 +4,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support import fine
+from support import ROOT, fine
 
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.model import Model
+from tvimdesign.study import given as resolve
+from tvimdesign.study import read_study
 
 TABLE = table_for("compression")
 # Nothing but block and pads takes heat, and nothing loses it.
@@ -55,6 +58,28 @@ def test_twice_the_depth_takes_two_to_four_times_as_long_the_more_the_stronger_t
         ratios.append(times[1] / times[0])
     assert np.all(np.diff(ratios) > 0.0)
     assert 2.0 < ratios[0] < ratios[-1] < 4.0
+
+
+def test_twice_the_depth_of_a_whole_module_tends_from_flux_to_diffusion_and_hardly_delays_the_soft_film() -> None:
+    # Pads and vanes take heat as well, which does not double: a thin block takes less than twice as long. The deeper it
+    # is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the block is.
+    study = read_study(ROOT / "studies" / "paper_compression.yaml")
+    module = {**resolve(study, Catalog(), TABLE), "horizon": 1e5}
+
+    def ratios(depth: float, current: float) -> tuple[float, float]:
+        found = []
+        for times in (1.0, 2.0):
+            given = {**module, "block_depth": times * depth, "current": current}
+            model = Model(TABLE, given, ("cold", "hot"), 24)
+            values = fine(model).run(model.start, stages=["softening"]).values
+            found.append((values["far_face_time"], values["softening_time"]))
+        return found[1][0] / found[0][0], found[1][1] / found[0][1]
+
+    weak, deep, strong = ratios(2e-3, 1.5), ratios(4e-3, 1.5), ratios(4e-3, 10.0)
+    assert 1.5 < weak[0] < 2.0 < deep[0] < strong[0] < 4.0
+    assert strong[0] > 2.5
+    assert weak[1] > deep[1] > strong[1] > 1.0
+    assert strong[1] < 1.2
 
 
 def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, Any]) -> None:

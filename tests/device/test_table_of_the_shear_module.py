@@ -7,6 +7,7 @@ import pint
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support import digits
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, Supplied, Table, table_for
@@ -81,7 +82,7 @@ def test_floats_and_symbols_give_the_same_outputs(
     symbols = model.values(model.start, numbers)
     assert set(floats) <= set(symbols)
     for name, value in floats.items():
-        assert float(value) == pytest.approx(symbols[name], rel=1e-12, abs=1e-300), name
+        assert float(value) == pytest.approx(symbols[name], rel=digits(name, 1e-12), abs=1e-300), name
 
 
 @settings(max_examples=5, deadline=None)
@@ -113,7 +114,7 @@ def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
         symbols = model.values(columns[:, j], {name: float(value[j]) for name, value in supplied.items()})
         for name in wanted:
             value = np.broadcast_to(np.asarray(arrays[name], dtype=float), (3,))[j]
-            assert value == pytest.approx(symbols[name], rel=1e-11, abs=1e-300), name
+            assert value == pytest.approx(symbols[name], rel=digits(name, 1e-11), abs=1e-300), name
 
 
 @pytest.mark.parametrize("row", table_for("shear").inputs, ids=lambda row: row.name)

@@ -1,10 +1,12 @@
 """The optimum of a compression module: the same from anywhere, and kept by a simulation of its own."""
 
 import numpy as np
+import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.search import optimize
+from tvimdesign.solve.solution import Solution
 from tvimdesign.study import read_study_text
 
 SMALL = """
@@ -47,3 +49,19 @@ def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
         assert np.allclose([start.end[name] for start in solution.starts], value, rtol=1e-3), name
     # The mode's own price: the stroke squeezes the block, so its depth cannot be less than twice the way of the vane.
     assert 0.49 < solution.values["block_strain"] < 0.5005
+
+
+@pytest.mark.parametrize(("row", "most"), [("backlash@cold", "<= 0.000002 rad"), ("relaxation_loss@cold", "<= 0.001")])
+def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most: str) -> None:
+    def solved(more: str) -> Solution:
+        text = SMALL.replace("minimize:", f"{more}minimize:").replace("starts: 7", "starts: 2")
+        return optimize(read_study_text(text, "test"), Catalog(), table_for("compression"), lambda _: None)
+
+    free, held = solved(""), solved(f'  {row}: "{most}"\n')
+    limit = float(most.split()[1])
+    assert held.status == "optimal"
+    assert all(start.converged for start in held.starts)
+    assert free.values[row] > 1.5 * limit
+    assert held.values[row] == pytest.approx(limit, rel=1e-4)
+    assert held.objective > 1.01 * free.objective
+    assert next(one.price for one in held.held if one.name == f"{row} <=") > 0.0

@@ -5,6 +5,7 @@ import pytest
 import yaml
 
 from tvimdesign.device import MODES, Output, table_for
+from tvimdesign.solve.limits import limits_of
 from tvimdesign.study import StudyError, read_study_text
 from tvimdesign.study.schema import json_schema
 
@@ -33,6 +34,28 @@ def test_the_schema_takes_a_name_in_its_own_mode_only(mode: str, other: str, tex
     validator = jsonschema.Draft7Validator(json_schema(TABLES))
     assert validator.is_valid(yaml.safe_load(f"mode: {other}\n{text}"))
     assert not validator.is_valid(yaml.safe_load(f"mode: {mode}\n{text}"))
+
+
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("goal", ["require: {contact_lost@hot: '<= 0.1'}", "minimize: contact_lost@hot"])
+def test_what_only_a_simulated_release_shows_is_told_with_what_to_limit_instead(mode: str, goal: str) -> None:
+    with pytest.raises(StudyError) as caught:
+        read_study_text(f"mode: {mode}\n{goal}\n", "x.yaml")
+    said = "seen in a simulated release once a design is found"
+    (problem,) = (problem for problem in caught.value.problems if said in problem.message)
+    assert "`backlash`" in problem.hint
+    assert not jsonschema.Draft7Validator(json_schema(TABLES)).is_valid(yaml.safe_load(f"mode: {mode}\n{goal}"))
+
+
+def test_a_study_may_squeeze_its_blocks_further_than_the_assumed_rule() -> None:
+    def limits(text: str) -> list[float]:
+        study = read_study_text(f"mode: compression\n{text}")
+        return [limit.limit for limit in limits_of(study, TABLES["compression"]) if limit.output == "block_strain"]
+
+    (rule,) = TABLES["compression"].output("block_strain").rules
+    assert "assumed, 0.3 to 0.6" in rule.reason
+    assert limits("") == [0.5]
+    assert limits("require: {block_strain: '<= 0.6'}") == [0.6]
 
 
 def test_a_name_of_no_mode_is_told_with_the_nearest() -> None:

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeVar
 
 import yaml
 
-from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Row, Rule, Stage, Steady
+from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Row, Rule, Stage, Steady, Swing
 from tvimdesign.units import to_si
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -141,6 +141,17 @@ class Book:
         def add(function: F) -> F:
             row = Steady(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
                          function=function, stage=stage.name, headline=headline)  # fmt: skip
+            self.rows.append(row)
+            return function
+
+        return add
+
+    def swing(self, unit: str, *, headline: bool = True) -> Callable[[F], F]:
+        """Add what is seen at each operating point in the first swing of a released link, on average over it."""
+
+        def add(function: F) -> F:
+            row = Swing(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
+                        function=function, per_point=True, headline=headline)  # fmt: skip
             self.rows.append(row)
             return function
 

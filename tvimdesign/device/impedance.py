@@ -11,7 +11,7 @@ import numpy as np
 from tvimdesign.catalog import Record
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Rule, Scalar
-from tvimdesign.physics import crystallization, dynamics, layer, polymer, structure
+from tvimdesign.physics import crystallization, dynamics, layer, motion, polymer, structure
 
 book = Book("Impedance")
 
@@ -92,6 +92,14 @@ def solid_fraction(temperature: Scalar, pcl_melting: polymer.Melting) -> Scalar:
 def linear_strain(solid_fraction: Scalar, pcl_linear_range: polymer.LinearRange) -> Scalar:
     """Shear strain up to which the PCL's moduli do not depend on it: the storage modulus has fallen 5 % there."""
     return polymer.linear_strain(solid_fraction, pcl_linear_range)
+
+
+@book.helper(per_point=True)
+def pcl_modes(
+    temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology, pcl_moment: Scalar, pcl_depth: Scalar
+) -> motion.Modes:
+    """Maxwell elements of the PCL as it loads the joint: relaxation times [s] and stiffnesses [N*m/rad]."""
+    return motion.layer_modes(polymer.spectrum(temperature, solid_fraction, pcl_rheology), pcl_moment, pcl_depth)
 
 
 @book.helper(per_point=True)

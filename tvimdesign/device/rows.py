@@ -9,7 +9,8 @@ A row with `per_point=True` has one value at each operating point and is written
 at a certain point with a parameter `name_at_point`. A row with `instant=True` has a value at each instant of a stage
 (heating until the joint is soft is one, cooling until it is stiff again another). `Event` rows are the times at which
 something that rises passes zero; `Path` rows reduce an instant's value over a stage; `Steady` rows are what it takes to
-stay where a stage ends. The solver, or a simulation, supplies those three; everything else is arithmetic.
+stay where a stage ends. The solver, or a simulation, supplies those three; everything else is arithmetic. `Swing` rows
+are seen in a simulated release of the link, after a design is found.
 """
 
 from __future__ import annotations
@@ -132,6 +133,14 @@ class Steady(Output):
     stage: str
 
 
+@dataclass(frozen=True, kw_only=True)
+class Swing(Output):
+    """What `function` is on average over the first swing of a released link.
+
+    Simulated once a design is found: it is reported, and can be neither required nor minimised.
+    """
+
+
 Row: TypeAlias = Input | Choice | Output
 Supplied = (Event, Path, Steady)
 """The kinds of output that a simulation or the optimiser supplies."""
@@ -142,7 +151,9 @@ DRIVE = "drive_current"
 """The current [A] at an instant, positive where it heats."""
 STAGE = "stage"
 """The `Stage` an instant belongs to."""
-_NO_ROWS = frozenset({STATE, DRIVE, STAGE})
+TOUCHING = "touching"
+"""Which sides of the PCL are in contact at an instant of a swing (`one_sided.Touching`). No row either."""
+_NO_ROWS = frozenset({STATE, DRIVE, STAGE, TOUCHING})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -202,12 +213,12 @@ class Table:
         return tuple(row for row in self.rows if isinstance(row, Output))
 
     def names(self, points: Iterable[str]) -> list[str]:
-        """Full name (`row` or `row@point`) of every output a study can ask for, in the table's order."""
+        """Full name (`row` or `row@point`) of every output a study can limit, in the table's order."""
         points = list(points)
         return [
             name
             for row in self.outputs
-            if not (row.instant or row.hidden)
+            if not (row.instant or row.hidden or isinstance(row, Swing))
             for name in ([f"{row.name}@{point}" for point in points] if row.per_point else [row.name])
         ]
 
@@ -215,6 +226,11 @@ class Table:
     def supplied(self) -> tuple[Event | Path | Steady, ...]:
         """The outputs that a simulation or the optimiser supplies."""
         return tuple(row for row in self.outputs if isinstance(row, Supplied))
+
+    @cached_property
+    def swings(self) -> tuple[Swing, ...]:
+        """The outputs that are seen in a simulated release."""
+        return tuple(row for row in self.outputs if isinstance(row, Swing))
 
     def stage(self, name: str) -> Stage:
         """The stage of that name."""
@@ -255,7 +271,7 @@ class Table:
             return known[name]
         base, _, point = name.partition("@")
         row = self.row(base)
-        if not isinstance(row, Output) or isinstance(row, Supplied):
+        if not isinstance(row, Output) or isinstance(row, (*Supplied, Swing)):
             raise InputError(f"{name!r} has no value")
         known[name] = row.call([self._resolve(self._at(need, point), known) for need in row.needs])
         return known[name]
@@ -263,13 +279,14 @@ class Table:
     def evaluate_instant(self, given: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
         """Compute rows at one instant of a stage, each once; `given` must hold the state, the current and the stage.
 
-        Of an event the value is what it waits for, of a path what it reduces, of a steady row what it takes.
+        Of an event the value is what it waits for, of a path what it reduces, of a steady row what it takes. Rows of a
+        swing want the contact at an instant of the swing instead.
         """
         known = dict(given)
         values: dict[str, Scalar] = {}
         for name in wanted:
             row = self.row(name)
-            if isinstance(row, Supplied):
+            if isinstance(row, (*Supplied, Swing)):
                 values[name] = row.call([self._resolve(need, known) for need in row.needs])
             else:
                 values[name] = self._resolve(name, known)

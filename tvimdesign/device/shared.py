@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tvimdesign.device import bodies, gaps, impedance, layout, materials, softening, springs, stiffening, thermal
+from tvimdesign.device import bodies, gaps, hold, impedance, layout, materials, softening, springs, stiffening, thermal
 
-ROOMS = (materials, layout, springs, impedance, thermal, softening, stiffening, bodies, gaps)
+ROOMS = (materials, layout, springs, impedance, hold, thermal, softening, stiffening, bodies, gaps)
 BOOKS = tuple(room.book for room in ROOMS)

@@ -52,3 +52,8 @@ def shear_strain(radius: Any, angle: Any, thickness: Any) -> Any:
 def torque_at_traction(traction: Any, polar_moment_of_area: Any, outer_radius: Any) -> Any:
     """Torque [N*m] at which the traction at the outer radius reaches a limit, T = tau J/r_o."""
     return traction * polar_moment_of_area / outer_radius
+
+
+def traction(torque: Any, polar_moment_of_area: Any, outer_radius: Any) -> Any:
+    """Traction at the outer radius under a torque [Pa], tau = T r_o/J."""
+    return torque * outer_radius / polar_moment_of_area

@@ -52,6 +52,11 @@ def gap(internal: Sequence[Any], blocks: Blocks) -> Any:
     return np.fmax(surface_angle(first, blocks.first) + surface_angle(second, blocks.second), 0.0)
 
 
+def out_of_contact(touching: Touching) -> Any:
+    """1 where neither block touches the link, else 0."""
+    return 1.0 - np.fmax(touching.first, touching.second)
+
+
 def pulls(angle: Any, internal: Sequence[Any], blocks: Blocks) -> tuple[Any, Any]:
     """Torque each block would push back with behind a rigid structure [N*m]; negative where it does not touch."""
     first, second = divided(internal, blocks)

@@ -18,6 +18,7 @@ from tvimdesign.solve.history import intervals
 from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch, refuse_impossible
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Progress
+from tvimdesign.solve.release import contact_seen
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.simulate import Simulator, Switch
@@ -98,6 +99,9 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
     rig = Rig(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
     open_values = intervals(rig, model, inputs, switch.values, drives)
+    seen = _seen(rig, exists=solution is None or status == "optimal")
+    open_values |= {name: (low, high) for name, (_, low, high) in seen.items() if low < high}
+    values = values | {name: nominal for name, (nominal, _, _) in seen.items()}
     design = Design(
         tvimdesign=__version__, name=study.name, mode=study.mode, status=status,
         choices=_choices(model, table), values={**numbers, **values},
@@ -114,6 +118,14 @@ def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = la
         intervals=open_values,
         constant_current=_at_constant_current(model, inputs, set(drives)),
     )  # fmt: skip
+
+
+def _seen(rig: Rig, *, exists: bool) -> dict[str, tuple[float, float, float]]:
+    """What a released link shows; nothing is known of where a solver ended that found no design."""
+    if exists:
+        return contact_seen(rig)
+    names = [f"{row.name}@{point}" for row in rig.table.swings for point in rig.points]
+    return dict.fromkeys(names, (np.nan, np.nan, np.nan))
 
 
 _COMPARED = {

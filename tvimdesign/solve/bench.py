@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.physics import motion, polymer
+from tvimdesign.physics import motion
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.solve.history import fractions_at
 from tvimdesign.solve.rig import Rig
@@ -16,11 +16,15 @@ from tvimdesign.solve.trial import Finding
 from tvimdesign.study.model import STANDARD_POINTS
 
 LINEAR = (
-    "The layer is linear at every strain: it neither softens with strain nor slips, tears or yields; the structure is "
+    "The PCL is linear at every strain: it neither softens with strain nor slips, tears or yields; the structure is "
     "elastic without loss, so that a frozen joint rings longer here than a printed one will."
 )
+PUSHES = (
+    "Blocks push and never pull: those ahead act against positive angles, those behind against negative ones, and the "
+    "springs alone act where neither touches."
+)
 HISTORY = (
-    "Inside the melting range the layer's history decides: low is cooled from the melt and still liquid, nominal is "
+    "Inside the melting range the PCL's history decides: low is cooled from the melt and still liquid, nominal is "
     "the equilibrium on heating, high is heated with the record's highest melting range; "
     "a finding's ends are the least and the most between low and high."
 )
@@ -48,6 +52,8 @@ class Case:
     temperature: float
     history: History
     joint: motion.Joint
+    one_sided: bool
+    """Whether the polymer only pushes: blocks against either sense, of `modes` each."""
     modes: motion.Modes
 
     @property
@@ -98,15 +104,14 @@ def histories_at(rig: Rig, temperature: float) -> tuple[History, ...]:
 
 def cases(rig: Rig) -> list[Case]:
     """The joint at every operating point, once for each history that matters there, the nominal one first."""
-    joint = joint_of(rig)
-    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "pcl_moment", "pcl_depth"))
+    joint, one_sided = joint_of(rig), float(rig.row("parting_share")) > 0.0
     found = []
     for point in rig.points:
         temperature = float(rig.row(f"temperature@{point}"))
         for history in histories_at(rig, temperature):
-            spectrum = polymer.spectrum(temperature, history.fraction, rheology)
-            modes = [(float(time), float(k)) for time, k in motion.layer_modes(spectrum, moment, thickness)]
-            found.append(Case(point, temperature, history, joint, modes))
+            case = Case(point, temperature, history, joint, one_sided, ())
+            modes = case.rows(rig, ("pcl_modes",))["pcl_modes"]
+            found.append(replace(case, modes=[(float(time), float(k)) for time, k in modes]))
     return found
 
 
@@ -119,7 +124,9 @@ def finding(name: str, unit: str, meaning: str, numbers: Sequence[float]) -> Fin
 
 def notes_for(found: Sequence[Case]) -> tuple[str, ...]:
     """What a reader of these cases must know."""
-    return (LINEAR, HISTORY) if any(case.history.name for case in found) else (LINEAR,)
+    pushes = (PUSHES,) if any(case.one_sided for case in found) else ()
+    history = (HISTORY,) if any(case.history.name for case in found) else ()
+    return (LINEAR, *pushes, *history)
 
 
 def overload_notes(rig: Rig, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:

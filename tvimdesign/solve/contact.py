@@ -25,8 +25,11 @@ def held(joint: Joint, blocks: Blocks, angle: float, seconds: float, precompress
     return course.states()[2:, -1]
 
 
-def released(joint: Joint, blocks: Blocks, angle: float, internal: Array) -> OneSided:
-    """Let go of a link at rest, and follow it until its energy is as good as gone, or for an hour."""
+def released(joint: Joint, blocks: Blocks, angle: float, internal: Array, turns: float = np.inf) -> OneSided:
+    """Let go of a link at rest, and follow it until its energy is as good as gone, or for an hour.
+
+    With `turns` not much longer than until it has turned round so often.
+    """
 
     def rates(theta: Array, speed: Array, inner: list[Array], touching: Touching) -> list[Array]:
         return one_sided.rates(theta, speed, inner, touching, joint, blocks)
@@ -35,8 +38,8 @@ def released(joint: Joint, blocks: Blocks, angle: float, internal: Array) -> One
     course.start(angle, 0.0, internal)
     enough = link.DEAD**2 * course.energy()
     first = 2.0 * np.pi / link.SAMPLES_A_PERIOD * np.sqrt(joint.inertia / _stiffest(joint, blocks))
-    while not _over(course, enough):
-        _while_the_same_touch(course, first, enough)
+    while not _over(course, enough, turns):
+        _while_the_same_touch(course, first, enough, turns)
     return course.found()
 
 
@@ -78,7 +81,7 @@ def _stiffest(joint: Joint, blocks: Blocks) -> float:
     return float(joint.spring_stiffness + sum(link.stiffest(alone, side) for side in blocks))
 
 
-def _while_the_same_touch(course: Course, first: float, enough: float) -> None:
+def _while_the_same_touch(course: Course, first: float, enough: float, turns: float) -> None:
     """Follow a link with steps that grow until a block is left or met, or the motion is over."""
     events = len(course.events)
     for step, count in link.growing(first, course.regime.values):
@@ -86,10 +89,12 @@ def _while_the_same_touch(course: Course, first: float, enough: float) -> None:
             course.across(step)
             if len(course.events) > events:
                 return
-        if _over(course, enough):
+        if _over(course, enough, turns):
             return
 
 
-def _over(course: Course, enough: float) -> bool:
-    """Whether nothing is left to be seen, or too long was looked at it."""
+def _over(course: Course, enough: float, turns: float) -> bool:
+    """Whether nothing is left to be seen, too long was looked at it, or it has turned round often enough."""
+    if np.isfinite(turns) and course.turns() >= turns:
+        return True
     return course.energy() <= enough or course.time >= link.LONGEST or len(course.columns) >= link.MOST_SAMPLES

@@ -52,16 +52,23 @@ class OneSided:
 
     def lost_share(self, start: float, end: float) -> float:
         """Share of the time between two moments [s] in which no block touches."""
+        return self.average(one_sided.out_of_contact(Touching(*self.touching.astype(float))), start, end)
+
+    def average(self, values: Array, start: float, end: float) -> float:
+        """Mean over the time between two moments [s] of what has one value from a sample to the next."""
         edges = np.clip(self.motion.times, start, end)
-        alone = ~np.any(self.touching, axis=0)[:-1]
-        return float(np.sum(np.diff(edges)[alone]) / (end - start))
+        return float(np.sum(np.diff(edges) * values[:-1]) / (end - start))
 
     def first_swing(self) -> float:
         """Time [s] at which the link turns round for the second time; the end of the motion if it never does."""
-        speed = self.motion.speed
-        turns = np.flatnonzero(speed[1:-1] * speed[2:] < 0.0)
+        turns = turns_of(self.motion.speed)
         enough = len(turns) >= TURNS_OF_A_SWING
-        return float(self.motion.times[turns[TURNS_OF_A_SWING - 1] + 2] if enough else self.motion.times[-1])
+        return float(self.motion.times[turns[TURNS_OF_A_SWING - 1]] if enough else self.motion.times[-1])
+
+
+def turns_of(speed: Array) -> NDArray[np.int64]:
+    """Samples just after a link that started at rest has turned round."""
+    return np.flatnonzero(speed[1:-1] * speed[2:] < 0.0) + 2
 
 
 class Regime:
@@ -167,6 +174,10 @@ class Course:
     def states(self) -> Array:
         """Angle, speed and internal angles, one column a sample."""
         return np.asarray(self._from_energy @ np.column_stack(self.columns))
+
+    def turns(self) -> int:
+        """How often the link has turned round."""
+        return len(turns_of(self._from_energy[1] @ np.column_stack(self.columns)))
 
     def energy(self) -> float:
         """Energy where it is now [J]."""

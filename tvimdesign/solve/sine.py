@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tvimdesign.solve import link
+from tvimdesign.solve import touch
 from tvimdesign.solve.bench import Case, cases, finding, notes_for, overload_notes, with_paper_points
+from tvimdesign.solve.course import OneSided
 from tvimdesign.solve.link import Array, Motion
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
 
 PERIODS = 10
 SAMPLES = 240  # of one period
+ROUNDING = 1e-9  # share of a period by which its first sample may be early
 
 
 @dataclass(frozen=True)
@@ -23,12 +25,19 @@ class Swung:
 
     case: Case
     frequency: float
-    motion: Motion
+    found: OneSided
     stiffness: float
     damping: float
     dissipated: float
     apart: float
     """Distance of the complex stiffness from the frequency domain's, over its magnitude."""
+    contact_lost: float
+    """Share of the last period in which nothing touches."""
+
+    @property
+    def motion(self) -> Motion:
+        """The motion itself."""
+        return self.found.motion
 
 
 def sine(rig: Rig, periods: int = PERIODS) -> Trial:
@@ -50,7 +59,7 @@ def sine(rig: Rig, periods: int = PERIODS) -> Trial:
         findings=tuple(_findings(rig, found)),
         notes=(
             "The angle is prescribed, so the link's inertia takes no part; torque is that of the module on the link.",
-            f"The layer is free of strain at first; the loops and numbers are those of period {periods}.",
+            f"The PCL is free of strain at first; the loops and numbers are those of period {periods}.",
             *notes_for([one.case for one in found]),
             *overload_notes(rig, [(one.case, float(np.max(np.abs(one.motion.torque)))) for one in found]),
         ),
@@ -59,39 +68,52 @@ def sine(rig: Rig, periods: int = PERIODS) -> Trial:
 
 def _swung(rig: Rig, case: Case, periods: int) -> Swung:
     frequency = float(rig.row(f"frequency@{case.point}"))
-    moved = link.swung(case.joint, case.modes, float(rig.row("stroke")), frequency, periods, SAMPLES)
-    complex_stiffness = complex_stiffness_of(moved, frequency, SAMPLES)
+    found = touch.swung(case, float(rig.row("stroke")), frequency, periods, SAMPLES)
+    moved = found.motion
+    complex_stiffness = complex_stiffness_of(moved, frequency)
     rows = case.rows(rig, ("joint_stiffness", "joint_damping"))
     omega = 2.0 * np.pi * frequency
     expected = complex(rows["joint_stiffness"], omega * rows["joint_damping"])
-    loop = slice(-SAMPLES - 1, None)
+    loop = last_period(moved, frequency)
     return Swung(
-        case, frequency, moved,
+        case, frequency, found,
         stiffness=complex_stiffness.real,
         damping=complex_stiffness.imag / omega,
         dissipated=-float(np.trapezoid(moved.torque[loop], moved.angle[loop])),
         apart=abs(complex_stiffness - expected) / abs(expected),
+        contact_lost=found.lost_share(float(moved.times[loop][0]), float(moved.times[-1])),
     )  # fmt: skip
 
 
-def complex_stiffness_of(moved: Motion, frequency: float, samples: int) -> complex:
+def last_period(moved: Motion, frequency: float) -> slice:
+    """The samples of the last period, both its ends included; more than elsewhere where blocks are left and met."""
+    begin = moved.times[-1] - (1.0 + ROUNDING) / frequency
+    return slice(int(np.searchsorted(moved.times, begin)), None)
+
+
+def complex_stiffness_of(moved: Motion, frequency: float) -> complex:
     """Complex stiffness [N*m/rad] from the first harmonics of torque and angle over the last period."""
-    wave: Array = np.exp(-2j * np.pi * frequency * moved.times[-samples:])
-    return complex(-(moved.torque[-samples:] @ wave) / (moved.angle[-samples:] @ wave))
+    loop = last_period(moved, frequency)
+    times = moved.times[loop]
+    wave: Array = np.exp(-2j * np.pi * frequency * times)
+    torque, angle = (np.trapezoid(values[loop] * wave, times) for values in (moved.torque, moved.angle))
+    return complex(-torque / angle)
 
 
-def _sheets(one: Swung) -> tuple[Sheet, Sheet]:
+def _sheets(one: Swung) -> tuple[Sheet, ...]:
     moved = one.motion
     columns = (
-        ("time", "s", moved.times),
-        ("angle", "rad", moved.angle),
-        ("torque", "N*m", moved.torque),
-        ("torque_share", "1", moved.torque / np.max(np.abs(moved.torque))),
+        Column("time", "s", moved.times),
+        Column("angle", "rad", moved.angle),
+        Column("torque", "N*m", moved.torque),
+        Column("torque_share", "1", moved.torque / np.max(np.abs(moved.torque))),
+        *touch.contact_columns(one.case, one.found),
     )
-    name = f"sine_{one.case.name}"
+    name, loop = f"sine_{one.case.name}", last_period(moved, one.frequency)
     return (
-        Sheet(name, tuple(Column(*column) for column in columns)),
-        Sheet(f"{name}_loop", tuple(Column(title, unit, values[-SAMPLES - 1 :]) for title, unit, values in columns)),
+        Sheet(name, columns),
+        Sheet(f"{name}_loop", tuple(replace(column, values=column.values[loop]) for column in columns)),
+        *touch.event_sheets(name, one.found),
     )
 
 
@@ -110,8 +132,10 @@ def _findings(rig: Rig, found: Sequence[Swung]) -> list[Finding]:
         for name, unit, meaning, values in (
             ("stiffness", "N*m/rad", "Stiffness of the joint, from its motion", [one.stiffness for one in here]),
             ("damping", "N*m*s/rad", "Damping of the joint, from its motion", [one.damping for one in here]),
+            ("contact_lost", "1", "Share of the last period in which no PCL is in contact",
+             [one.contact_lost for one in here]),
             ("cycle_energy", "J", "Energy turned into heat in one cycle", [one.dissipated for one in here]),
-            ("frequency_domain_difference", "1", "Complex stiffness, time domain against frequency domain, of its size",
+            ("frequency_domain_difference", "1", "Complex stiffness as seen against that of small motions, of its size",
              [one.apart for one in here]),
         ):  # fmt: skip
             numbers.append(finding(f"{name}@{point}", unit, meaning, values))

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from tvimdesign.physics.polymer import ZERO_CELSIUS
-from tvimdesign.solve import link
+from tvimdesign.solve import touch
 from tvimdesign.solve.bench import Case, cases, finding, notes_for, overload_notes, with_paper_points
+from tvimdesign.solve.course import OneSided
 from tvimdesign.solve.linear import doubling
-from tvimdesign.solve.link import Motion
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.switch_load import Carried, SliceHistory, carry, changing, slice_histories, support_of
 from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
@@ -45,7 +45,7 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
                 Line(LOADED, "time", f"{place}_slice", f"{place} slice") for place in ("near", "middle", "far"))),
             Panel("Angle under load", "time, s", "angle, rad", lines=(Line(LOADED, "time", "angle", "link"),)),
         ),
-        findings=(*_relaxed(rig, found), *_yielded(carried, weight)),
+        findings=(*_relaxed(rig, found), *_yielded(carried, weight, one_sided=found[0][0].one_sided)),
         notes=(
             f"Angle: to the stroke at a steady speed in {rise:g} s, then held for {WATCHED:g} s; the torque is what "
             "holds the module, without the link's inertia.",
@@ -54,7 +54,7 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
             "Temperatures of the cycle do not depend on the load; a heated layer melts along its nominal curve, a "
             "cooled one freezes with the nominal kinetics.",
             *notes_for([case for case, _ in found]),
-            *overload_notes(rig, [(case, float(np.max(np.abs(moved.torque)))) for case, moved in found]),
+            *overload_notes(rig, [(case, float(np.max(np.abs(moved.motion.torque)))) for case, moved in found]),
             *_never_soft(history),
         ),
     )  # fmt: skip
@@ -68,15 +68,16 @@ def _never_soft(history: SliceHistory) -> tuple[str, ...]:
     return (f"At this current the layer does not melt: its hottest slice comes to {hottest:.0f} °C.",)
 
 
-def _turned(rig: Rig, case: Case, rise: float) -> Motion:
+def _turned(rig: Rig, case: Case, rise: float) -> OneSided:
     stretches = doubling(min(FIRST_STEP, rise), WATCHED)
-    return link.turned(case.joint, case.modes, float(rig.row("stroke")), rise, stretches)
+    return touch.turned(case, float(rig.row("stroke")), rise, stretches)
 
 
-def _sheet(case: Case, moved: Motion) -> Sheet:
+def _sheet(case: Case, found: OneSided) -> Sheet:
+    moved = found.motion
     return Sheet(f"step_{case.name}", (
         Column("time", "s", moved.times), Column("angle", "rad", moved.angle),
-        Column("holding_torque", "N*m", -moved.torque),
+        Column("holding_torque", "N*m", -moved.torque), *touch.contact_columns(case, found),
     ))  # fmt: skip
 
 
@@ -94,10 +95,10 @@ def _loaded_sheet(carried: Carried, history: SliceHistory) -> Sheet:
     ))  # fmt: skip
 
 
-def _relaxed(rig: Rig, found: Sequence[tuple[Case, Motion]]) -> list[Finding]:
+def _relaxed(rig: Rig, found: Sequence[tuple[Case, OneSided]]) -> list[Finding]:
     numbers = []
     for point in rig.points:
-        holding = [-moved.torque for case, moved in found if case.point == point]
+        holding = [-moved.motion.torque for case, moved in found if case.point == point]
         rows = (
             ("step_peak_torque", "N*m", "Highest torque of the step", [float(np.max(torque)) for torque in holding]),
             ("step_final_torque", "N*m", f"Torque after {WATCHED:g} s", [float(torque[-1]) for torque in holding]),
@@ -106,7 +107,8 @@ def _relaxed(rig: Rig, found: Sequence[tuple[Case, Motion]]) -> list[Finding]:
     return numbers
 
 
-def _yielded(carried: Carried, load: float) -> list[Finding]:
+def _yielded(carried: Carried, load: float, one_sided: bool) -> list[Finding]:
+    """What the loaded link did; blocks that only push let the springs turn it back to rest, and leave a gap there."""
     first, last = float(carried.angle[0]), float(carried.angle[-1])
     way = np.abs(carried.angle - first)
     half = float(np.interp(0.5 * np.max(way), np.maximum.accumulate(way), carried.times))
@@ -119,5 +121,8 @@ def _yielded(carried: Carried, load: float) -> list[Finding]:
             "loaded_layer_share", float(carried.layer_torque[-1]) / load, "1", "Share of the load the layer bears last"
         ),
         Finding("loaded_energy_dissipated", spent, "J", "Energy the layer turned into heat on the way"),
-        Finding("unloaded_angle", carried.unloaded_angle, "rad", "Angle right after the load is taken off at the end"),
-    ]
+        Finding("unloaded_angle", 0.0 if one_sided else carried.unloaded_angle, "rad",
+                "Angle at which the link balances right after the load is taken off at the end"),
+        Finding("unloaded_backlash", max(carried.set_angle, 0.0) if one_sided else 0.0, "rad",
+                "Angle over which nothing but the springs acts then"),
+    ]  # fmt: skip

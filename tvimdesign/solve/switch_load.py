@@ -48,7 +48,9 @@ class Carried:
     torques: Array
     """Torque of each mode of each slice [N*m]: mode, slice, time."""
     unloaded_angle: float
-    """Angle right after the load is taken off at the end [rad]."""
+    """Angle right after the load is taken off at the end [rad], of a layer that is bonded."""
+    set_angle: float
+    """Angle at which the layer is free of stress at the end [rad]."""
 
 
 def slice_histories(rig: Rig) -> SliceHistory:
@@ -129,9 +131,9 @@ def carry(layer: Changing, support: slices.Support, load: float, times: Array) -
         float(slices.stored_energy(solved.y[0, i], list(inner[..., i]), now, support)) for i, now in enumerate(states)
     ]
     given_back, _ = slices.loaded_start(load, states[-1], support)
-    return Carried(
-        times, solved.y[0], np.sum(inner, axis=0)[0], np.array(energies), inner, float(solved.y[0, -1] - given_back)
-    )
+    layer_torque, last = np.sum(inner, axis=0)[0], solved.y[0, -1]
+    free = last - layer_torque[-1] * slices.compliance(states[-1], support)
+    return Carried(times, solved.y[0], layer_torque, np.array(energies), inner, float(last - given_back), float(free))
 
 
 def support_of(rig: Rig) -> slices.Support:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 
-from tvimdesign.device import Output
+from tvimdesign.device import Output, Swing
 from tvimdesign.study.model import Requirement
 from tvimdesign.study.problems import one_of, quoted, step
 from tvimdesign.study.values import Reading, below, entries, misfit, number, si_value, text
@@ -13,6 +13,7 @@ from tvimdesign.study.yaml_text import Node, Sequence, Text
 from tvimdesign.units import format_quantity
 
 MOST_LIMITS = 10
+_INSTEAD = "limit `backlash` or `relaxation_loss`"
 _LIMIT = re.compile(r"(?P<sense><=|>=)\s*(?P<quantity>[^\s<>=].*)")
 
 
@@ -61,6 +62,8 @@ def _output(reading: Reading, key: Text, path: str, name: str, points: Collectio
         add(key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`")
     elif row.instant:
         add(key, path, "changes during the switch and has no single value", "an output with one value")
+    elif isinstance(row, Swing):
+        add(key, path, "is seen in a simulated release once a design is found", "an output that is computed", _INSTEAD)
     elif row.per_point and not at:
         add(key, path, "has a value at each operating point", one_of([f"{base}@{name}" for name in points]))
     elif row.per_point and point not in points:

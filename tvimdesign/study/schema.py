@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 from pydantic import BaseModel
 
-from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
+from tvimdesign.device import MODES, Choice, Input, Output, Swing, Table, table_for
 from tvimdesign.study.model import FORMAT, ProfileOptions, SolverOptions, WriteOptions
 from tvimdesign.study.sizes import SIZES_SHELF
 
@@ -139,7 +139,7 @@ def _vary(row: Input | Choice) -> _Schema:
 
 
 def _by_output(table: Table, schema: Any) -> _Schema:
-    named = [row for row in table.outputs if not (row.instant or row.hidden)]
+    named = [row for row in table.outputs if not (row.instant or row.hidden or isinstance(row, Swing))]
     return {f"^{row.name}{'@' + _POINT if row.per_point else ''}$": schema(row) for row in named}
 
 

@@ -1,7 +1,7 @@
 """The PCL blocks of the compression module and what they press on: stiffness, damping, strain, torque they hold.
 
 Of the 2 N blocks only the N that are pressed count. Small motions about rest keep every block touching, so no contact
-is lost here; how a gap opens in large ones is a matter of time and history.
+is lost here; how a gap opens in large ones is a matter of time and history (`device/hold.py`).
 """
 
 from __future__ import annotations
@@ -11,7 +11,8 @@ import numpy as np
 from tvimdesign.device.book import Book
 from tvimdesign.device.impedance import book as shared
 from tvimdesign.device.rows import Rule, Scalar
-from tvimdesign.physics import block, layer, structure, vane
+from tvimdesign.physics import block, hold, layer, structure, vane
+from tvimdesign.physics.motion import Modes
 
 book = Book(shared.group)
 
@@ -144,12 +145,19 @@ def elastic_support(structure_stiffness: Scalar, volume_stiffness: Scalar) -> Sc
     return structure.series(structure_stiffness, volume_stiffness)
 
 
-_SQUEEZED = "squeezed by more than half its depth, the molten block is pressed out of its place"
+_SQUEEZED = (
+    "squeezed by more than half its depth, the molten block is pressed out of its place (assumed, 0.3 to 0.6; a study "
+    "may require its own)"
+)
 
 
 @book.output("1", Rule(sense="<=", value=0.5, reason=_SQUEEZED), headline=True)
 def block_strain(pcl_mean_radius: Scalar, stroke: Scalar, block_depth: Scalar) -> Scalar:
-    """Compression of the molten block at full stroke, of its depth."""
+    """Compression of the molten block at full stroke, of its depth.
+
+    Its volume stays, so a block squeezed by half has twice the face (textbook), which the running clearances beside it
+    do not leave it. Where it is pressed out depends on how it is held, which nobody has measured: the limit is assumed.
+    """
     return block.strain(pcl_mean_radius, stroke, block_depth)
 
 
@@ -212,3 +220,27 @@ def holding_torque(
     """Torque the frozen joint holds: the least of what blocks, vanes, core and the link's screws bear."""
     vanes = np.fmin(rotor_vane_holding_torque, housing_vane_holding_torque)
     return np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
+
+
+@book.output("1", headline=True)
+def parting_share() -> Scalar:
+    """Share of the PCL that can part from what presses on it: all, a block pushes and never pulls.
+
+    It is bonded to one vane at most, and what a hold has crept of its depth is a gap when the load is gone.
+    """
+    return 1.0
+
+
+@book.output("MPa", per_point=True)
+def block_pressure(
+    hold_torque: Scalar,
+    spring_stiffness: Scalar,
+    elastic_support: Scalar,
+    pcl_modes: Modes,
+    vane_count: Scalar,
+    block_area: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """Highest mean pressure on the blocks' faces in a hold: when the load has just come on."""
+    first = hold.first_angle(hold_torque, spring_stiffness, elastic_support, pcl_modes)
+    return block.stress(hold_torque - spring_stiffness * first, vane_count, block_area, pcl_mean_radius)

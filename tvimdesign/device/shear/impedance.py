@@ -7,7 +7,8 @@ import numpy as np
 from tvimdesign.device.book import Book
 from tvimdesign.device.impedance import book as shared
 from tvimdesign.device.rows import Rule, Scalar
-from tvimdesign.physics import layer, structure
+from tvimdesign.physics import hold, layer, structure
+from tvimdesign.physics.motion import Modes
 
 book = Book(shared.group)
 
@@ -91,3 +92,26 @@ def layer_holding_torque(
 def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
     """Torque the frozen joint holds: the least of what the layer, the core and the link's screws bear."""
     return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
+
+
+@book.output("1", headline=True)
+def parting_share() -> Scalar:
+    """Share of the PCL that can part from what presses on it: none, the layer is bonded to both its faces.
+
+    It pulls as well as it pushes, so no hold opens a gap and a swing loses no contact. The bond pays for it.
+    """
+    return 0.0
+
+
+@book.output("MPa", per_point=True)
+def bond_traction(
+    hold_torque: Scalar,
+    spring_stiffness: Scalar,
+    structure_stiffness: Scalar,
+    pcl_modes: Modes,
+    layer_polar_moment: Scalar,
+    pcl_outer_radius: Scalar,
+) -> Scalar:
+    """Highest traction on the layer's bond in a hold: at its outer rim, when the load has just come on."""
+    first = hold.first_angle(hold_torque, spring_stiffness, structure_stiffness, pcl_modes)
+    return layer.traction(hold_torque - spring_stiffness * first, layer_polar_moment, pcl_outer_radius)
