@@ -121,9 +121,9 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
 
 def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
     solution = solve(CYCLE)
-    again = Simulator(solution.model).run_to_show(solution.inputs, solution.drives)
+    again = Simulator(solution.model, tolerance=1e-9, steps=200).run(solution.inputs, solution.drives)
     for stage, event in (("softening", "response_time"), ("stiffening", "stiffening_time")):
-        assert again.values[event] == pytest.approx(solution.values[event], rel=1e-9)
+        assert again.values[event] == pytest.approx(solution.values[event], rel=2e-4)
         assert solution.drives[stage].moments[-1] == pytest.approx(again.values[event], rel=1e-3)
         assert abs(solution.drives[stage].mean) == pytest.approx(
             solution.inputs[solution.model.index[TABLE.stage(stage).drive]], rel=1e-12

@@ -17,7 +17,8 @@ from tvimdesign.cad.outcome import Check
 from tvimdesign.cad.springs import free_coil
 from tvimdesign.cad.step import Product, write_assembly, write_part
 from tvimdesign.errors import GeometryError
-from tvimdesign.study.design import Design, write_whole
+from tvimdesign.files import write_whole
+from tvimdesign.study.design import Design
 
 _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1.0]])
 """glTF measures in metres and its y axis points up."""

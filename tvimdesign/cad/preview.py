@@ -29,7 +29,7 @@ from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import KINDS, Rgb, kind_of
 from tvimdesign.cad.mesh import Array, Instance, Mesh, solid_mesh
 from tvimdesign.cad.modes import MODULES
-from tvimdesign.study.design import write_whole
+from tvimdesign.files import write_whole
 
 _SIZE = (1800, 800)
 _LEGEND_HEIGHT = 0.1

@@ -25,7 +25,7 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 from tvimdesign.cad.kinds import Rgb
 from tvimdesign.cad.part21 import in_fixed_order, plain_text
 from tvimdesign.errors import GeometryError
-from tvimdesign.study.design import write_whole
+from tvimdesign.files import write_whole
 
 _TIME = "2000-01-01T00:00:00"
 """The time in the header, so that the same design gives the same file."""

@@ -10,7 +10,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 
 mpl.rcParams.update(
     {
@@ -20,6 +20,7 @@ mpl.rcParams.update(
         "axes.grid": True,
         "grid.alpha": 0.3,
         "legend.frameon": False,
+        "text.hinting": "none",  # a tenth of the drawing
         "axes.titley": 1.02,  # a place of its own: otherwise matplotlib measures every label to find one
     }
 )
@@ -41,8 +42,10 @@ def warm_up() -> None:
     figure = _figure()
     linear, logarithmic = figure.subplots(1, 2)
     linear.plot([0.0, 1.0], label="°")
+    linear.barh([0.0], [1.0])
     linear.legend(title="text")
     logarithmic.semilogy([1.0, 1e3])
+    _plain_decades(logarithmic.yaxis)
     figure.savefig(io.BytesIO(), format="png", dpi=120)
 
 
@@ -106,9 +109,15 @@ def _impedance_over_time(axes: Any, soft: dict[str, Any], data: dict[str, Any]) 
     for threshold in ("soft", "stiff"):
         axes.axhline(data[threshold], color="black", linewidth=0.8, linestyle=":")
         axes.text(0.0, data[threshold], f"{threshold} ", va="bottom", fontsize=8)
-    axes.yaxis.set_minor_locator(NullLocator())  # minor ticks of a log axis take longer to draw than all else
+    _plain_decades(axes.yaxis)
     axes.set(xlabel="time (s)", ylabel="joint impedance (N·m/rad)")
     axes.legend(fontsize=7, loc="lower right", frameon=True, framealpha=0.8, edgecolor="none")
+
+
+def _plain_decades(axis: Any) -> None:
+    """Decades as plain numbers and nothing between: minor ticks and exponents take longer to draw than all else."""
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: str) -> None:
@@ -139,7 +148,7 @@ def impedance(data: dict[str, Any]) -> Figure:
             (line,) = axes.semilogy(sweep["temperature"], sweep[f"{part}_{kind}"], label=label, linestyle=style)
             ends = (sweep[f"{part}_{kind}_{end}"] for end in ("low", "high"))
             axes.fill_between(sweep["temperature"], *ends, alpha=0.2, color=line.get_color(), linewidth=0.0)
-        axes.yaxis.set_minor_locator(NullLocator())  # minor ticks of a log axis take longer to draw than all else
+        _plain_decades(axes.yaxis)
         axes.axvspan(
             data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange", label="melting; bands: by history"
         )
@@ -180,10 +189,12 @@ def bounds(data: dict[str, Any]) -> Figure:
     free, limits = data["free"], data["limits"]
     figure = _figure(11.5, 0.6 + 0.28 * max(len(free), len(limits), 6))
     where, margins = figure.subplots(1, 2)
+    lines = list(range(len(free)))
+    where.hlines(lines, 0.0, 1.0, color="lightgrey", linewidth=6, capstyle="round")
+    begins, ends = ([row[name] for row in reversed(free)] for name in ("start", "share"))
+    where.plot(begins, lines, "o", color="white", markeredgecolor="grey", label="start")
+    where.plot(ends, lines, "o", color="tab:blue", label="design")
     for i, row in enumerate(reversed(free)):
-        where.plot([0.0, 1.0], [i, i], color="lightgrey", linewidth=6, solid_capstyle="round")
-        where.plot(row["start"], i, "o", color="white", markeredgecolor="grey", label="start" if i == 0 else None)
-        where.plot(row["share"], i, "o", color="tab:blue", label="design" if i == 0 else None)
         where.text(1.04, i, row["text"], va="center", fontsize=8)
     where.set(yticks=range(len(free)), yticklabels=[row["name"] for row in reversed(free)], xticks=[0, 1],
               xticklabels=["lower bound", "upper bound"], title="What varies")  # fmt: skip

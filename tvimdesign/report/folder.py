@@ -16,7 +16,7 @@ from typing import Any
 
 from tvimdesign import __version__
 from tvimdesign.errors import InputError
-from tvimdesign.study.design import write_whole
+from tvimdesign.files import write_whole
 
 MANIFEST = "manifest.json"
 RUNNING = "running"

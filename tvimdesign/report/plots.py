@@ -19,7 +19,7 @@ from types import ModuleType, TracebackType
 from typing import Any, NamedTuple
 
 from tvimdesign.errors import TvimError
-from tvimdesign.study.design import write_whole
+from tvimdesign.files import write_whole
 
 TIME_LIMIT = 120.0  # s
 _FAST = {"compress_level": 1}  # a quarter of the time for a tenth more bytes

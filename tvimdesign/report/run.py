@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Table, table_for
 from tvimdesign.errors import GeometryError, InfeasibleError, InputError, TvimError
+from tvimdesign.files import write_whole
 from tvimdesign.report.folder import ResultsFolder
 from tvimdesign.report.talk import Progress, talk, wide_console
 from tvimdesign.study import Study, read_study
-from tvimdesign.study.design import Design, read_design, write_design, write_whole
+from tvimdesign.study.design import Design, read_design, write_design
 
 if TYPE_CHECKING:
     from tvimdesign.solve.answer import Answer

@@ -21,7 +21,7 @@ SAME_CURRENT = 1e-4
 
 def account(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:
     """Simulate and check a run's design again, and say what holds it."""
-    switch = optimizer.simulator.run_to_show(run.inputs, run.drives)
+    switch = optimizer.simulator.run_to_show(run.inputs, run.drives, run.ends)
     values = optimizer.model.values(run.inputs, switch.values)
     limits = _held_by_limits(optimizer, run, values)
     tolerances = [

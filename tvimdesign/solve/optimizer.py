@@ -64,6 +64,8 @@ class Run:
     inputs: Array
     drives: dict[str, Drive]
     """The free currents by stage."""
+    ends: dict[str, float]
+    """Time [s] each stage takes that the problem has."""
     unknowns: Array
     multipliers: Array
     bound_multipliers: Array
@@ -295,7 +297,9 @@ class Optimizer:
         )  # fmt: skip
         drives = self._drives_of(unknowns)
         multipliers = (np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p"))
-        return Run(start, end, drives, unknowns, *multipliers)
+        times = self._times_of(unknowns)
+        ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
+        return Run(start, end, drives, ends, unknowns, *multipliers)
 
     def _bounds(self, fixed: Mapping[str, float]) -> tuple[Array, Array]:
         lower = np.full(self.problem.unknown_count, -np.inf)
@@ -319,12 +323,17 @@ class Optimizer:
             yield current, slice(first, first + current.nodes)
             first += current.nodes
 
-    def _drives_of(self, unknowns: Array) -> dict[str, Drive]:
-        """The free currents over the time their stage takes."""
+    def _times_of(self, unknowns: Array) -> dict[str, float]:
+        """Time [s] to each event, after its stage's ramp."""
         first, times = len(self.free), {}
         for block in self.problem.blocks:
             first += block.unknowns.numel()
             times[block.event] = float(np.exp(unknowns[first - 1]))
+        return times
+
+    def _drives_of(self, unknowns: Array) -> dict[str, Drive]:
+        """The free currents over the time their stage takes."""
+        times = self._times_of(unknowns)
         sizes = {
             current.stage: np.clip(unknowns[place] * current.upper, current.lower, current.upper)
             for current, place in self.places_of_currents()

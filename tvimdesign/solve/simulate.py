@@ -64,11 +64,20 @@ class Simulator:
         self.tolerance, self.steps = tolerance, steps
         self._stages: dict[str, _StageSimulator] = {}
 
-    def run_to_show(self, inputs: Array, drives: Mapping[str, Drive] | None = None) -> Switch:
-        """Simulate all stages twice, the second time with samples enough to draw each, however short it is."""
-        found = self.run(inputs, drives)
-        ends = {name: found.values[stage.stage.ends] for name, stage in self.model.stages.items()}
-        stretches = {name: end / SHOWN_STRETCHES for name, end in ends.items() if 0.0 < end < np.inf}
+    def run_to_show(
+        self, inputs: Array, drives: Mapping[str, Drive] | None = None, ends: Mapping[str, float] | None = None
+    ) -> Switch:
+        """Simulate all stages with samples enough to draw each, however short it is.
+
+        `ends` are about how long [s] stages take, by name; where they are not known, a first simulation finds out.
+        """
+        if ends is None:
+            found = self.run(inputs, drives)
+            ends = {name: found.values[stage.stage.ends] for name, stage in self.model.stages.items()}
+        lengths = {
+            name: ends.get(name, ends.get(stage.stage.like or name, 0.0)) for name, stage in self.model.stages.items()
+        }
+        stretches = {name: length / SHOWN_STRETCHES for name, length in lengths.items() if 0.0 < length < np.inf}
         return self.run(inputs, drives, stretches=stretches)
 
     def run(

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from tvimdesign.device import table_for
 from tvimdesign.errors import InputError
+from tvimdesign.files import write_whole
 from tvimdesign.study.files import ordinary_bytes, printable
 
 MAX_BYTES = 10_000_000
@@ -83,18 +82,3 @@ def _check_inputs(design: Design, shown: str) -> None:
         margin = 1e-9 * max(abs(row.lower), abs(row.upper)) if math.isfinite(row.upper) else 0.0
         if not row.lower - margin <= value <= row.upper + margin:
             raise InputError(f"{shown}: {row.name} is {value:g} (SI), outside the limits of the model")
-
-
-def write_whole(path: Path, data: bytes) -> None:
-    """Write beside, flush to disk, rename: a reader never sees half a file."""
-    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-        Path(beside).chmod(0o644)
-        Path(beside).replace(path)
-    except BaseException:
-        Path(beside).unlink(missing_ok=True)
-        raise
