@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import queue
-import signal
 import subprocess
 import sys
 import tempfile
@@ -88,8 +87,6 @@ def _start(one: Asked, points: int, folder: Path, said: queue.Queue[tuple[str, s
 
 def _finish(child: _Child) -> dict[str, Any]:
     code = child.process.wait()
-    if code == -signal.SIGINT:
-        raise KeyboardInterrupt
     if child.out.exists():
         found: dict[str, Any] = json.loads(child.out.read_text())
     else:

@@ -7,6 +7,7 @@ stands there under `troubles`; all else is kept.
 from __future__ import annotations
 
 import json
+import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -16,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table
+from tvimdesign.device import Table, table_for
 from tvimdesign.errors import InfeasibleError, TvimError
 from tvimdesign.report.run import catalog_of
 from tvimdesign.report.simulate import figure_data, findings
@@ -47,8 +48,6 @@ class Job:
         """Read the study; the parent has seen that it can be read."""
         self.study = read_study(path)
         self.catalog: Catalog = catalog_of(self.study)
-        from tvimdesign.device import table_for
-
         self.table = table_for(self.study.mode)
         self.points, self.say = points, say
         self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}}
@@ -110,9 +109,11 @@ class Job:
         for second in others:
             self.found["fronts"].append(self._plain(trade.front(first, second, self.points)))
 
-    def _plain(self, front: Front) -> dict[str, Any]:
-        """A front in SI; every point a whole design."""
-        return json.loads(json.dumps(asdict(front)), parse_constant=lambda _: None)  # type: ignore[no-any-return]
+    @staticmethod
+    def _plain(front: Front) -> dict[str, Any]:
+        """A front in SI; every point a whole design, null where something never happens."""
+        plain: dict[str, Any] = json.loads(json.dumps(asdict(front)), parse_constant=lambda _: None)
+        return plain
 
     def _release(self, best: Answer) -> None:
         trial = find_test("release")(rig_of_design(best.design, self.catalog, self.table))
@@ -138,6 +139,7 @@ def main(arguments: list[str]) -> int:
         sys.stdout.write(json.dumps({"progress": text}) + "\n")
         sys.stdout.flush()
 
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     path, out, points = Path(arguments[0]), Path(arguments[1]), int(arguments[2])
     found = Job(path, points, say).run()
     write_whole(out, json.dumps(found).encode())
