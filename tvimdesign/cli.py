@@ -124,7 +124,8 @@ def simulate(
 def compare(
     studies: Annotated[list[Path], typer.Argument(metavar="STUDY STUDY...", help="Study files, of any modes.")],
     out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for the results; results/<studies, joined by -vs-> unless given.")
+        Path | None,
+        typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
     ] = None,
     points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 8,
     overwrite: Overwrite = False,

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 _MARKS = "osD^vP"
@@ -37,10 +39,9 @@ def heat(data: dict[str, Any]) -> Figure:
     studies = data["studies"]
     figure = _figure(4.8 * len(studies) + 1.0, 4.2)
     every = figure.subplots(1, len(studies), squeeze=False)[0]
-    picture = None
+    scale = Normalize(data["coldest"], data["hottest"])
     for axes, one in zip(every, studies, strict=True):
-        picture = axes.pcolormesh(one["time"], one["depth"], one["temperature"], shading="gouraud", cmap="inferno",
-                                  vmin=data["coldest"], vmax=data["hottest"], rasterized=True)  # fmt: skip
+        axes.pcolormesh(one["time"], one["depth"], one["temperature"], shading="gouraud", cmap="inferno", norm=scale)
         axes.contour(one["time"], one["depth"], one["temperature"], levels=data["melting"], colors="white",
                      linewidths=0.8)  # fmt: skip
         axes.set(xlabel="time (s)", title=one["label"])
@@ -48,6 +49,6 @@ def heat(data: dict[str, Any]) -> Figure:
     every[0].set_ylabel("depth from the Peltier pads (mm)")
     figure.subplots_adjust(left=0.08, right=0.88, bottom=0.13, top=0.85, wspace=0.2)
     place = figure.add_axes((0.9, 0.13, 0.015, 0.72))
-    figure.colorbar(picture, cax=place, label="temperature (°C)")
+    figure.colorbar(ScalarMappable(scale, "inferno"), cax=place, label="temperature (°C)")
     figure.suptitle(data["title"])
     return figure

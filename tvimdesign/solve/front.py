@@ -84,6 +84,9 @@ class Tradeoff:
         index = solution.model.index
         self._begin = np.array([solution.inputs[index[name]] for name in self._optimizer.model.names])
         self._near: list[Run] = []
+        inputs = {name: float(solution.inputs[i]) for name, i in index.items()}
+        drives = {stage: drive.plain() for stage, drive in solution.drives.items()}
+        self._optimum = Point(None, {**inputs, **solution.values}, drives)
 
     def front(self, first: str, second: str, count: int) -> Front:
         """Trade `second` for `first` at `count` points, both ends included."""
@@ -102,9 +105,17 @@ class Tradeoff:
             self.progress(f"front of {first} against {second}: point {number + 2} of {count}")
             between.append(self._least(first, second, float(bound)))
         points = [quick, *(one for one in between if isinstance(one, Point)), light]
-        kept, dominated = undominated(points, (first, second))
+        kept, dominated = self._with_optimum(points, first, second)
         failures = tuple(one for one in between if isinstance(one, Failure))
         return Front(first, second, kept, dominated, failures, self._notes())
+
+    def _with_optimum(
+        self, points: Sequence[Point], first: str, second: str
+    ) -> tuple[tuple[Point, ...], tuple[Point, ...]]:
+        """The points none is better than, and the rest; the study's own optimum joins them where it is one of them."""
+        kept, dominated = undominated([*points, self._optimum], (first, second))
+        ordered = sorted(kept, key=lambda point: -point.values[second])
+        return tuple(ordered), tuple(point for point in dominated if point is not self._optimum)
 
     def _notes(self, *more: str) -> tuple[str, ...]:
         held = (f"{', '.join(self.listed)} as in the optimum: listed sizes and records are not traded",)
@@ -115,8 +126,7 @@ class Tradeoff:
         ceilings = {**self._ceilings}
         if bound is not None:
             ceilings[other] = min(bound, ceilings[other])
-        weights = {output: 1.0 if output == name else SIDE_WEIGHT if output == other else 0.0 for output in self.outputs}
-        goal = Goal(weights, ceilings)
+        goal = Goal({name: 1.0, other: SIDE_WEIGHT}, ceilings)
         near = self._near[-1:]
         runs = [self._optimizer.solve(warm=run, goal=goal) for run in near]
         runs += [self._optimizer.solve(begin=begin, goal=goal) for begin in (self._begin, *(r.inputs for r in near))]
@@ -179,7 +189,8 @@ def undominated(points: Sequence[Point], names: Sequence[str]) -> tuple[tuple[Po
 
     Of points that are equal in all of them the first stays.
     """
-    kept, dominated = [], []
+    kept: list[Point] = []
+    dominated: list[Point] = []
     for i, point in enumerate(points):
         mine = [point.values[name] for name in names]
         others = [[other.values[name] for name in names] for j, other in enumerate(points) if j != i]
@@ -187,4 +198,3 @@ def undominated(points: Sequence[Point], names: Sequence[str]) -> tuple[tuple[Po
         worse = any(o != mine and all(a <= b for a, b in zip(o, mine, strict=True)) for o in others)
         (dominated if worse or mine in earlier else kept).append(point)
     return tuple(kept), tuple(dominated)
-

@@ -89,9 +89,10 @@ def _evaluated_only(entrants: Sequence[Entrant]) -> Iterator[Problem]:
     optimised = [entrant for entrant in entrants if entrant.study.vary]
     for entrant in entrants:
         if optimised and not entrant.study.vary:
+            other = optimised[0].places.text("vary")
             yield _problem(
-                entrant, "vary", f"missing: this study is evaluated only, {optimised[0].places.text('vary')} is optimised",
-                "`vary` and `minimize` in every study or in none", "a drawn module cannot be held against an optimised one",
+                entrant, "vary", f"missing: this study is evaluated only, that of {other} is optimised",
+                "`vary` and `minimize` in every study or in none", "each is to be optimised for itself",
             )  # fmt: skip
 
 
@@ -107,7 +108,9 @@ def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Problem]:
     for one, another, names in ((first, other, theirs), (other, first, mine)):
         for point in dict.fromkeys(name.partition(".")[0] for name in names if "." in name):
             if point not in another.study.operating_points:
-                message = f"there is no operating point {point} here, as in {one.places.text(f'operating_points.{point}')}"
+                message = (
+                    f"there is no operating point {point} here, as in {one.places.text(f'operating_points.{point}')}"
+                )
                 yield _problem(another, "operating_points", message, "the same operating points in every study")
 
 
@@ -204,8 +207,9 @@ def _limits_on(names: Collection[str], of: Entrant) -> dict[tuple[str, str], Req
 
 
 def _limit(of: Entrant, requirement: Requirement) -> str:
-    return f"{requirement.output} {requirement.sense} {format_quantity(requirement.limit, of.table.unit(requirement.output))}"
+    value = format_quantity(requirement.limit, of.table.unit(requirement.output))
+    return f"{requirement.output} {requirement.sense} {value}"
 
 
 def _line(requirement: Requirement) -> str:
-    return f"`{requirement.output}: \"{requirement.text}\"`"
+    return f'`{requirement.output}: "{requirement.text}"`'

@@ -1,4 +1,4 @@
-"""Answers the studies of a comparison in child processes, two at once: a crash of one leaves the others their results."""
+"""Answers the studies of a comparison in child processes, two at once: where one crashes, the others are kept."""
 
 from __future__ import annotations
 

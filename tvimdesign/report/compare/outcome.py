@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
-from tvimdesign.report.compare.sentence import Contest, against, conditions, standing, wins
+from tvimdesign.report.compare.sentence import Contest, against, ahead, conditions, standing, wins
 from tvimdesign.report.compare.table import Row, common_rows, lone_values, plain
 from tvimdesign.solve.ranges import leads
 from tvimdesign.study.conditions import Entrant
@@ -48,9 +48,7 @@ class Outcome:
     @cached_property
     def rows(self) -> dict[str, list[Row]]:
         """What all have, by comparison; none where fewer than two studies have an answer."""
-        return {
-            which: common_rows(designs, self.tables) for which, designs in self.designs.items() if len(designs) > 1
-        }
+        return {which: common_rows(designs, self.tables) for which, designs in self.designs.items() if len(designs) > 1}
 
     @cached_property
     def alone(self) -> dict[str, list[tuple[str, Row]]]:
@@ -82,9 +80,9 @@ class Outcome:
                 (first, second, points),
                 (second, first, {label: [(y, x) for x, y in curve] for label, curve in points.items()}),
             ):
-                ahead = tuple(leads(curves))
-                if ahead and len(fronts) > 1:
-                    found.append(Contest(gained, limited, self.unit(gained), self.unit(limited), ahead))
+                led = tuple(leads(curves))
+                if led and len(fronts) > 1:
+                    found.append(Contest(gained, limited, self.unit(gained), self.unit(limited), led))
         return found
 
     def fronts_plain(self) -> dict[str, Any]:
@@ -134,23 +132,34 @@ class Outcome:
     @cached_property
     def conclusions(self) -> list[str]:
         """The sentences that follow, the conditions first."""
-        said = [f"For all studies: {', '.join(conditions(self.entrants))}."]
+        said = [self.sentence]
         for which, rows in self.rows.items():
             labels = list(self.designs[which])
-            texts = [against(label, labels[0], rows, self._names_said()) for label in labels[1:]]
+            texts = self._against(which) if which == "drawn" else []
             broken = [
                 f"{label} as drawn does not keep {', '.join(self.found[label][which]['broken'])}"
                 for label in labels if self.found[label][which]["broken"]
             ]  # fmt: skip
-            said.append(f"{COMPARISONS[which].capitalize()}: {'; '.join([*texts, *broken])}.")
+            texts += [*broken, *(text for label in labels[1:] if (text := ahead(label, labels[0], rows)))]
+            said += [f"{COMPARISONS[which].capitalize()}: {text}." for text in texts]
         said += [
             f"{label} has no design that keeps every limit: under these requirements the others win."
             for label, trouble in self.troubles if trouble["step"] == "optimised" and trouble["exit_code"] == 3
         ]  # fmt: skip
-        said += [standing(contest) for contest in self.contests]
-        if self.contests:
-            said += [wins(label, self.contests) for label in self.entrants]
-        return said
+        return [*said, *(standing(contest) for contest in self.contests)]
+
+    @property
+    def sentence(self) -> str:
+        """The answer with its conditions: how the others stand against the first, and for what each of them wins."""
+        which = "optimised" if "optimised" in self.rows else "drawn"
+        told = self._against(which) or ["fewer than two studies have a design"]
+        told += [wins(label, self.contests) for label in self.entrants] if self.contests else []
+        return f"With {', '.join(conditions(self.entrants))}, {COMPARISONS[which]}: {'; '.join(told)}."
+
+    def _against(self, which: str) -> list[str]:
+        labels = list(self.designs[which])
+        rows = self.rows.get(which, [])
+        return [against(label, labels[0], rows, self._names_said()) for label in labels[1:]]
 
     def _names_said(self) -> list[str]:
         asked = next(iter(self.entrants.values())).study.minimize
@@ -159,6 +168,7 @@ class Outcome:
     def plain(self) -> dict[str, Any]:
         """Everything a script wants to know."""
         return {
+            "sentence": self.sentence,
             "conclusions": self.conclusions,
             "studies": {label: self._study(label) for label in self.entrants},
             "comparisons": {which: [plain(row) for row in rows] for which, rows in self.rows.items()},

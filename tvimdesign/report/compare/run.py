@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
 
 from tvimdesign.device import table_for
 from tvimdesign.errors import InfeasibleError, InputError, TvimError
@@ -28,7 +27,7 @@ from tvimdesign.study.problems import Problem, StudyError
 def compare_studies(
     paths: Sequence[Path], out: Path, *, points: int, overwrite: bool, plots: bool, as_json: bool
 ) -> None:
-    """Compare studies and write the folder. Raises InputError for what cannot be compared, TvimError for what failed."""
+    """Compare studies and write the folder. Raises InputError for what cannot be compared, TvimError for failures."""
     began = time.perf_counter()
     entrants = labelled(_read(paths))
     with ExitStack() as stack:
@@ -124,5 +123,3 @@ def _trouble(outcome: Outcome, troubles: Sequence[str]) -> TvimError:
     error = TvimError(f"done in part: {text}")
     error.exit_code = 4
     return error
-
-

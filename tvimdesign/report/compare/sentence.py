@@ -24,7 +24,7 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class Contest:
-    """Two outputs traded against each other by every study, and who leads where: by limits on `limited`, in `gained`."""
+    """Two outputs that every study trades: who leads in `gained`, by limits on `limited`."""
 
     gained: str
     limited: str
@@ -49,7 +49,9 @@ def conditions(entrants: Mapping[str, Entrant]) -> list[str]:
     """What holds for every study, in words: requirements all share, temperatures, current, materials, surroundings."""
     first = next(iter(entrants.values()))
     study, table, values = first.study, first.table, first.values
-    everywhere = [r for r in study.require if all(r.output.partition("@")[0] in e.table.by_name for e in entrants.values())]
+    everywhere = [
+        r for r in study.require if all(r.output.partition("@")[0] in e.table.by_name for e in entrants.values())
+    ]
     required = [f"{r.output} {r.sense} {format_quantity(r.limit, table.unit(r.output))}" for r in everywhere]
     points = [
         f"{name} {format_quantity(point['temperature'], 'degC')} at {format_quantity(point['frequency'], 'Hz')}"
@@ -66,7 +68,7 @@ def conditions(entrants: Mapping[str, Entrant]) -> list[str]:
 
 
 def against(label: str, first: str, rows: Sequence[Row], names: Sequence[str]) -> str:
-    """How a study stands against the first in some outputs: `compression is 2.1 times slower and 8 % heavier than shear`."""
+    """How a study stands against the first: `compression is 2.1 times slower (...) than shear`."""
     found = [text for row in rows if row.name in names for text in [_difference(row, label)] if text]
     return f"{label} is {_listed(found)} than {first}" if found else f"{label} and {first} do not differ"
 
@@ -122,10 +124,28 @@ def _span(lead: Lead) -> str:
 
 def wins(label: str, contests: Sequence[Contest]) -> str:
     """For which requirements a study wins, from the fronts."""
-    found = []
-    for contest in contests:
-        for lead in contest.leads:
-            if lead.best == label:
-                how = "has the only designs" if lead.alone else f"does best in {contest.gained}"
-                found.append(f"{how} with {contest.limited} limited {_range(lead, contest.limited_unit)}")
-    return f"{label} wins where it {'; '.join(found)}." if found else f"{label} wins nowhere on the fronts computed."
+    every = [(contest, lead) for contest in contests for lead in contest.leads]
+    mine = [(contest, lead) for contest, lead in every if lead.best == label]
+    if len(mine) == len(every):
+        return f"{label} wins everywhere on the fronts computed"
+    if not mine:
+        return f"{label} wins nowhere on the fronts computed"
+    found = [
+        f"{'has the only designs' if lead.alone else f'does best in {contest.gained}'} "
+        f"with {contest.limited} limited {_range(lead, contest.limited_unit)}"
+        for contest, lead in mine
+    ]
+    return f"{label} wins where it {', '.join(found)}"
+
+
+def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
+    """In which of the outputs that stand in a summary either does better, with the ratio."""
+    said = []
+    for verdict, who in (("better", label), ("worse", first)):
+        found = [
+            f"{row.name} ({number(ratio, 3)})" if (ratio := row.ratio(label)) is not None else row.name
+            for row in rows if row.headline and row.verdict(label) == verdict
+        ]  # fmt: skip
+        if found:
+            said.append(f"{who} does better in {', '.join(found)}")
+    return f"{'; '.join(said)}; in brackets {label} over {first}" if said else ""

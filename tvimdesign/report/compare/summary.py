@@ -31,7 +31,9 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
     for which, alone in outcome.alone.items():
         shown = [f"{label}: {row.name} {_value(row, label, with_unit=True)}" for label, row in alone if row.headline]
         if shown:
-            console.print(f"[dim]{COMPARISONS[which].capitalize()}, not in every study: {escape('; '.join(shown))}.[/dim]")
+            console.print(
+                f"[dim]{COMPARISONS[which].capitalize()}, not in every study: {escape('; '.join(shown))}.[/dim]"
+            )
     _print_searches(outcome, console)
     _print_fronts(outcome, console)
     for label, trouble in outcome.troubles:
@@ -62,7 +64,10 @@ def _print_rows(title: str, rows: list[Row], console: Console) -> None:
         for label in labels[1:]:
             ratio, verdict = row.ratio(label), row.verdict(label)
             colour = _COLOURS.get(verdict)
-            against += ["" if ratio is None else number(ratio, 3), f"[{colour}]{verdict}[/{colour}]" if colour else verdict]
+            against += [
+                "" if ratio is None else number(ratio, 3),
+                f"[{colour}]{verdict}[/{colour}]" if colour else verdict,
+            ]
         grid.add_row(row.name, *(_value(row, label) for label in labels), pretty(row.unit), *against)
     console.print(grid)
 
