@@ -37,7 +37,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Point:
-    """One design of a front. `bound` is the ceiling (SI) on the second output; None at the end where there is none."""
+    """One design of a front. `bound` is its ceiling (SI) on the second output; None at an end and at the optimum."""
 
     bound: float | None
     values: dict[str, float]
@@ -79,18 +79,19 @@ class Tradeoff:
         asked = _for_tradeoff(study, solution, self.outputs, self.listed)
         self._reference = {name: abs(solution.values[name]) or 1.0 for name in self.outputs}
         self._optimizer = Optimizer(asked, catalog, table, EXPAND_FROM, self._reference)
-        own = {r.output: r.limit for r in study.require if r.sense == "<="}
-        self._ceilings = {name: own.get(name, math.inf) for name in self.outputs}
+        self._ceilings = {
+            name: min((r.limit for r in study.require if (r.output, r.sense) == (name, "<=")), default=math.inf)
+            for name in self.outputs
+        }
         index = solution.model.index
-        self._begin = np.array([solution.inputs[index[name]] for name in self._optimizer.model.names])
-        self._near: list[Run] = []
+        self._begins = [self._optimizer.model.start, *self._optima(solution)]
+        self._found: list[tuple[Point, Run]] = []
         inputs = {name: float(solution.inputs[i]) for name, i in index.items()}
         drives = {stage: drive.plain() for stage, drive in solution.drives.items()}
         self._optimum = Point(None, {**inputs, **solution.values}, drives)
 
     def front(self, first: str, second: str, count: int) -> Front:
         """Trade `second` for `first` at `count` points, both ends included."""
-        self._near = []
         ends = {name: self._least(name, other, None) for name, other in ((second, first), (first, second))}
         failed = tuple(end for end in ends.values() if isinstance(end, Failure))
         found = [end for end in ends.values() if isinstance(end, Point)]
@@ -100,10 +101,12 @@ class Tradeoff:
         if all(_close(light.values[name], quick.values[name]) for name in (first, second)):
             return Front(first, second, (quick,), notes=self._notes(f"one point: {first} and {second} do not conflict"))
         between: list[Point | Failure] = []
+        near = next(run for point, run in self._found if point is quick)
         bounds = np.linspace(quick.values[second], light.values[second], count)[1:-1]
         for number, bound in enumerate(bounds):
             self.progress(f"front of {first} against {second}: point {number + 2} of {count}")
-            between.append(self._least(first, second, float(bound)))
+            between.append(self._least(first, second, float(bound), near))
+            near = next((run for point, run in self._found if point is between[-1]), near)
         points = [quick, *(one for one in between if isinstance(one, Point)), light]
         kept, dominated = self._with_optimum(points, first, second)
         failures = tuple(one for one in between if isinstance(one, Failure))
@@ -121,20 +124,36 @@ class Tradeoff:
         held = (f"{', '.join(self.listed)} as in the optimum: listed sizes and records are not traded",)
         return (*more, *(held if self.listed else ()))
 
-    def _least(self, name: str, other: str, bound: float | None) -> Point | Failure:
-        """The least of an output below a ceiling on the other one: the best of a warm and of fresh runs."""
+    def _optima(self, solution: Solution) -> list[Array]:
+        """Inputs of every optimum the study's starts came to, the best one first."""
+        names, index = self._optimizer.model.names, solution.model.index
+        best = np.array([solution.inputs[index[name]] for name in names])
+        optima = []
+        for start in solution.distinct_optima():
+            values = {**dict(zip(names, best, strict=True)), **start.end}
+            optima.append(np.array([values[name] for name in names]))
+        return [best, *optima[1:]]
+
+    def _least(self, name: str, other: str, bound: float | None, near: Run | None = None) -> Point | Failure:
+        """The least of an output below a ceiling on the other one: the best of several runs.
+
+        An end is sought from the study's start and all its optima; a point between, from its neighbour, warm and fresh.
+        Either also begins at the best design found so far that keeps the ceiling: runs end in different optima.
+        """
         ceilings = {**self._ceilings}
         if bound is not None:
             ceilings[other] = min(bound, ceilings[other])
         goal = Goal({name: 1.0, other: SIDE_WEIGHT}, ceilings)
-        near = self._near[-1:]
-        runs = [self._optimizer.solve(warm=run, goal=goal) for run in near]
-        runs += [self._optimizer.solve(begin=begin, goal=goal) for begin in (self._begin, *(r.inputs for r in near))]
+        keeping = [one for one in self._found if one[0].values[other] <= ceilings[other] * (1.0 + ONE_POINT)]
+        best = min(keeping, key=lambda one: one[0].values[name], default=None)
+        begins = [*(self._begins if near is None else [near.inputs]), *([best[1].inputs] if best else [])]
+        runs = [self._optimizer.solve(begin=begin, goal=goal) for begin in begins]
+        runs += [self._optimizer.solve(warm=near, goal=goal)] if near else []
         reason = f"not converged: {runs[-1].start.status.replace('_', ' ').lower()}"
         for run in sorted((run for run in runs if run.start.converged), key=lambda run: run.start.objective):
             checked = self._checked(run, goal, bound)
             if isinstance(checked, Point):
-                self._near.append(run)
+                self._found.append((checked, run))
                 return checked
             reason = checked
         return Failure(bound, reason)

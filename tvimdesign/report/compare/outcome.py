@@ -142,19 +142,22 @@ class Outcome:
             ]  # fmt: skip
             texts += [*broken, *(text for label in labels[1:] if (text := ahead(label, labels[0], rows)))]
             said += [f"{COMPARISONS[which].capitalize()}: {text}." for text in texts]
-        said += [
-            f"{label} has no design that keeps every limit: under these requirements the others win."
-            for label, trouble in self.troubles if trouble["step"] == "optimised" and trouble["exit_code"] == 3
-        ]  # fmt: skip
         return [*said, *(standing(contest) for contest in self.contests)]
 
     @property
     def sentence(self) -> str:
         """The answer with its conditions: how the others stand against the first, and for what each of them wins."""
-        which = "optimised" if "optimised" in self.rows else "drawn"
-        told = self._against(which) or ["fewer than two studies have a design"]
+        which = "optimised" if any(entrant.study.vary for entrant in self.entrants.values()) else "drawn"
+        told = [*self._without_design(), *self._against(which)]
         told += [wins(label, self.contests) for label in self.entrants] if self.contests else []
         return f"With {', '.join(conditions(self.entrants))}, {COMPARISONS[which]}: {'; '.join(told)}."
+
+    def _without_design(self) -> list[str]:
+        return [
+            f"no design was found for {label} that keeps every limit"
+            for label, trouble in self.troubles
+            if trouble["step"] == "optimised"
+        ]
 
     def _against(self, which: str) -> list[str]:
         labels = list(self.designs[which])
