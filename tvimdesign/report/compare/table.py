@@ -51,7 +51,7 @@ class Row:
         mine, theirs = self.values[label], self.values[self.first]
         if self.better is None or math.isnan(mine) or math.isnan(theirs):
             return ""
-        if mine == theirs or abs(mine - theirs) <= ALIKE * max(abs(mine), abs(theirs)):
+        if mine == theirs or math.isclose(mine, theirs, rel_tol=ALIKE):  # an infinite time is close to none but itself
             return "same"
         if self._open(label):
             return "open"
