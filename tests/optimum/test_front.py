@@ -1,4 +1,4 @@
-"""Fronts: the least of one output under a ceiling on the other, none better than another, nothing dropped in silence."""
+"""Fronts: the least of one output under a ceiling on another, no point beaten, nothing dropped in silence."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def pair(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Shear against compression, with fronts and pictures."""
     folder = tmp_path_factory.mktemp("pair")
     paths = written(folder, mine=SHEAR, yours=COMPRESSION)
-    done = tvimdesign("compare", *paths, "--points", 4, "--out", folder / "out")
+    done = tvimdesign("compare", *paths, "--points", 3, "--out", folder / "out")
     assert done.returncode == 0, done.stderr
     assert "shear against compression" in done.stdout
     return folder / "out"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import pytest
@@ -79,7 +80,7 @@ def test_ranges_join_without_gaps_and_do_not_depend_on_the_order(
 ) -> None:
     found = leads({"one": _front(one), "other": _front(other)})
     assert math.isinf(found[-1].upper)
-    assert all(a.upper == b.lower for a, b in zip(found, found[1:], strict=False))
+    assert all(a.upper == b.lower for a, b in itertools.pairwise(found))
     turned = leads({"other": _front(other), "one": _front(one)})
     assert [lead.best for lead in turned] == [lead.best for lead in found]
     assert [lead.lower for lead in turned] == pytest.approx([lead.lower for lead in found])
