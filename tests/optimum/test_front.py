@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -12,6 +14,8 @@ from hypothesis import strategies as st
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.front import Front, Point, Tradeoff, undominated
+from tvimdesign.solve.goal import Goal
+from tvimdesign.solve.optimizer import Optimizer, Run
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Requirement, Study, read_study_text
 
@@ -74,6 +78,35 @@ def test_a_point_is_what_a_study_with_that_ceiling_finds(traded: tuple[Study, Fr
     alone = study.model_copy(update={"require": (*study.require, ceiling), "minimize": {TIME: 1.0}})
     solution = optimize(alone, Catalog(), table_for(study.mode))
     assert solution.values[TIME] == pytest.approx(point.values[TIME], rel=2e-3)
+
+
+@pytest.mark.parametrize(("output", "place"), [(TIME, 0), (MASS, -1)])
+def test_an_end_is_no_worse_than_what_a_study_with_that_goal_alone_finds(
+    traded: tuple[Study, Front], output: str, place: int
+) -> None:
+    """A front stops where a hundredth of one buys less than a ten-thousandth of the other; optima are several."""
+    study, front = traded
+    alone = optimize(study.model_copy(update={"minimize": {output: 1.0}}), Catalog(), table_for(study.mode))
+    assert front.points[place].values[output] <= alone.values[output] * 1.01
+
+
+def test_a_point_between_that_the_solver_does_not_reach_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    _, trade = _tradeoff(SHEAR)
+    solve = Optimizer.solve
+
+    def lost_below_a_ceiling(self: Optimizer, *args: Any, goal: Goal, **more: Any) -> Run:
+        run = solve(self, *args, goal=goal, **more)
+        if math.isfinite(goal.ceilings[MASS]):
+            run.start = replace(run.start, converged=False, status="Restoration_Failed")
+        return run
+
+    monkeypatch.setattr(Optimizer, "solve", lost_below_a_ceiling)
+    front = trade.front(TIME, MASS, 4)
+    assert [failure.reason for failure in front.failures] == ["not converged: restoration failed"] * 2
+    ends = [front.points[0].values[MASS], front.points[-1].values[MASS]]
+    assert [failure.bound for failure in front.failures] == pytest.approx(
+        [ends[0] + share * (ends[1] - ends[0]) for share in (1.0 / 3.0, 2.0 / 3.0)]
+    )
 
 
 def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:
