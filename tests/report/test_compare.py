@@ -211,4 +211,10 @@ def test_both_modes_of_the_shipped_pair_converge_from_ten_starts(tvimdesign: Com
     for front in told["fronts"]["fronts"]:
         assert front["failures"] == []
         assert len(front["points"]) + len(front["dominated"]) >= 8
+    ratio = {row["name"]: row["ratio"]["compression"] for row in told["comparisons"]["optimised"]}
+    shares = [f"{100.0 * (ratio[name] - 1.0):.0f} %" for name in ("response_time", "envelope_volume", "module_mass")]
+    readme = " ".join((ROOT / "README.md").read_text().split())
+    assert f"compression is {shares[0]} slower, {shares[1]} larger and {shares[2]} heavier than shear" in readme
+    assert f"takes {100.0 * (1.0 - ratio['switch_energy']):.0f} % less energy for a switch" in readme
+    assert "compression wins nowhere" in told["sentence"]
     assert sum(line.startswith("drawn") for line in io.StringIO((tmp_path / "out/compare.csv").read_text())) > 100
