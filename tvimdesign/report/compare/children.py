@@ -47,7 +47,8 @@ def answers(asked: Sequence[Asked], points: int, progress: Progress) -> dict[str
         try:
             while waiting or running:
                 while waiting and len(running) < AT_ONCE:
-                    running.append(_start(waiting.pop(0), points, Path(folder), said))
+                    number = len(asked) - len(waiting)
+                    running.append(_start(waiting.pop(0), points, Path(folder) / str(number), said))
                 label, line = said.get()
                 if line is not None:
                     progress(f"{label}: {json.loads(line)['progress']}")
@@ -62,11 +63,10 @@ def answers(asked: Sequence[Asked], points: int, progress: Progress) -> dict[str
     return {one.label: found[one.label] for one in asked}
 
 
-def _start(one: Asked, points: int, folder: Path, said: queue.Queue[tuple[str, str | None]]) -> _Child:
+def _start(one: Asked, points: int, stem: Path, said: queue.Queue[tuple[str, str | None]]) -> _Child:
     here = str(Path(tvimdesign.__file__).parents[1])
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
-    number = len(list(folder.iterdir()))
-    out, errors = folder / f"{number}.json", folder / f"{number}.txt"
+    out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
     with errors.open("w") as stream:
         process = subprocess.Popen(
             [sys.executable, "-m", "tvimdesign.report.compare.job", str(one.path.resolve()), str(out), str(points)],

@@ -106,7 +106,7 @@ def standing(contest: Contest) -> str:
         if lead.alone:
             parts.append(f"{where} only {lead.best} has a design")
         elif lead.best is None:
-            parts.append(f"{where} they are alike")
+            parts.append(f"{where} the best two are alike")
         else:
             parts.append(f"{where} {lead.best} is {word}, by {_span(lead)}")
     return f"With {contest.limited} limited, {'; '.join(parts)} ({contest.gained})."
@@ -135,7 +135,7 @@ def wins(label: str, contests: Sequence[Contest]) -> str:
         f"with {contest.limited} limited {_range(lead, contest.limited_unit)}"
         for contest, lead in mine
     ]
-    return f"{label} wins where it {', '.join(found)}"
+    return f"{label} wins where it {', '.join(dict.fromkeys(found))}"
 
 
 def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
