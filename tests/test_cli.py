@@ -36,7 +36,7 @@ assert not found, found
 
 @pytest.mark.parametrize(
     "command",
-    [[], ["run"], ["check"], ["new"], ["cad"], ["simulate"], ["ledger"], ["rows"]],
+    [[], ["run"], ["check"], ["new"], ["cad"], ["simulate"], ["compare"], ["ledger"], ["rows"]],
     ids=lambda words: " ".join(words) or "tvimdesign",
 )
 def test_every_command_explains_itself(tvimdesign: Command, command: list[str]) -> None:

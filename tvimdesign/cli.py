@@ -121,6 +121,25 @@ def simulate(
 
 
 @app.command()
+def compare(
+    studies: Annotated[list[Path], typer.Argument(metavar="STUDY STUDY...", help="Study files, of any modes.")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
+    ] = None,
+    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 8,
+    overwrite: Overwrite = False,
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
+    json: AsJson = False,
+) -> None:
+    """Hold studies with the same requirements against each other: as drawn, and each optimised for itself."""
+    from tvimdesign.report.compare.run import compare_studies
+
+    folder = out or Path("results") / "-vs-".join(study.stem for study in studies)
+    compare_studies(studies, folder, points=points, overwrite=overwrite, plots=plots, as_json=json)
+
+
+@app.command()
 def ledger(
     out: Annotated[
         Path | None,

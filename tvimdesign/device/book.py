@@ -101,6 +101,7 @@ class Book:
                 least_of=least_of,
                 rules=rules,
                 advice=advice,
+                better=directions().get(function.__name__),
             )
             self.rows.append(row)
             return function
@@ -112,7 +113,8 @@ class Book:
 
         def add(function: F) -> F:
             row = Event(name=function.__name__, unit="s", description=_summary(function), group=self.group,
-                        function=function, stage=stage.name, headline=headline)  # fmt: skip
+                        function=function, stage=stage.name, headline=headline,
+                        better=directions().get(function.__name__))  # fmt: skip
             self.rows.append(row)
             return function
 
@@ -129,7 +131,8 @@ class Book:
 
         def add(function: F) -> F:
             row = Path(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                       function=function, stage=stage.name, reduce=reduce, headline=headline)  # fmt: skip
+                       function=function, stage=stage.name, reduce=reduce, headline=headline,
+                       better=directions().get(function.__name__))  # fmt: skip
             self.rows.append(row)
             return function
 
@@ -140,7 +143,8 @@ class Book:
 
         def add(function: F) -> F:
             row = Steady(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                         function=function, stage=stage.name, headline=headline)  # fmt: skip
+                         function=function, stage=stage.name, headline=headline,
+                         better=directions().get(function.__name__))  # fmt: skip
             self.rows.append(row)
             return function
 
@@ -180,8 +184,20 @@ def _summary(function: Callable[..., Any]) -> str:
 
 
 @cache
+def directions() -> dict[str, Literal["less", "more"]]:
+    """Which way an output is better, by name, of those for which that can be said of any module."""
+    listed: dict[Literal["less", "more"], list[str]] = _data("better.yaml")
+    return {name: way for way, names in listed.items() for name in names}
+
+
+@cache
 def _all_inputs() -> dict[str, dict[str, dict[str, Any]]]:
     """Inputs by group and name, as the data file has them."""
-    text = resources.files("tvimdesign.device").joinpath("inputs.yaml").read_text(encoding="utf-8")
-    loaded: dict[str, dict[str, dict[str, Any]]] = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    loaded: dict[str, dict[str, dict[str, Any]]] = _data("inputs.yaml")
     return loaded
+
+
+def _data(file: str) -> Any:
+    """What a data file of this floor holds."""
+    text = resources.files("tvimdesign.device").joinpath(file).read_text(encoding="utf-8")
+    return yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))

@@ -100,6 +100,8 @@ class Output:
     """Limits that hold in every study, unless the study sets its own for this row in the same sense."""
     advice: tuple[Rule, ...] = ()
     """Limits that are reported where they are broken, and enforced only where a study requires them."""
+    better: Literal["less", "more"] | None = None
+    """Which way it is better whatever the module is for; None where that depends."""
 
     @cached_property
     def needs(self) -> tuple[str, ...]:

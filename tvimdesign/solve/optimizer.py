@@ -16,6 +16,7 @@ from tvimdesign.device import Input, Path, Table
 from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.drive import Drive, ramp_time
+from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.limits import Limit, impossible, in_words, is_constant, limits_of, on_switch
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
@@ -266,9 +267,16 @@ class Optimizer:
     # --- solving ---
 
     def solve(
-        self, fixed: Mapping[str, float] | None = None, warm: Run | None = None, begin: Array | None = None
+        self,
+        fixed: Mapping[str, float] | None = None,
+        warm: Run | None = None,
+        begin: Array | None = None,
+        goal: Goal | None = None,
     ) -> Run:
-        """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers fixed."""
+        """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers fixed.
+
+        A `goal` stands in place of the study's weights and of some of its upper limits; nothing is built anew.
+        """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
         lower, upper = self._bounds(fixed or {})
@@ -276,12 +284,14 @@ class Optimizer:
         arguments: dict[str, Any] = {"x0": self._guess(inputs) if warm is None else warm.unknowns}
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
-        weights = [self.study.minimize[name] / self.reference[name] for name in self.problem.minimize]
+        goal = goal or Goal(self.study.minimize)
+        weights = [goal.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
         equations = self.problem.equation_count
-        rest = len(self.problem.limits) + self.problem.slope_count + self.problem.peak_count
+        rest = self.problem.slope_count + self.problem.peak_count
         answer = solver(
             **arguments, p=np.concatenate([self.model.start, weights]), lbx=lower, ubx=upper,
-            lbg=np.concatenate([np.zeros(equations), np.full(rest, -np.inf)]), ubg=np.zeros(equations + rest),
+            lbg=np.concatenate([np.zeros(equations), np.full(len(self.problem.limits) + rest, -np.inf)]),
+            ubg=np.concatenate([np.zeros(equations), goal.room(self.problem.limits), np.zeros(rest)]),
         )  # fmt: skip
         stats = solver.stats()
         if stats["return_status"] == "User_Requested_Stop":  # an interrupt that reached IPOPT first

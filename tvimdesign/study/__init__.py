@@ -3,7 +3,7 @@
 from tvimdesign.study.model import Options, ProfileOptions, Range, Requirement, SolverOptions, Study, Vary, WriteOptions
 from tvimdesign.study.problems import Problem, StudyError
 from tvimdesign.study.reader import read_study, read_study_text
-from tvimdesign.study.resolve import given
+from tvimdesign.study.resolve import drawn, given
 from tvimdesign.study.template import template_text
 
 __all__ = [
@@ -17,6 +17,7 @@ __all__ = [
     "StudyError",
     "Vary",
     "WriteOptions",
+    "drawn",
     "given",
     "read_study",
     "read_study_text",

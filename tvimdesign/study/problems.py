@@ -61,7 +61,7 @@ class StudyError(InputError):
 
     def __init__(self, problems: Iterable[Problem]) -> None:
         """Sort the problems by their place in the file."""
-        self.problems = tuple(sorted(problems, key=lambda problem: (problem.line, problem.column)))
+        self.problems = tuple(sorted(problems, key=lambda problem: (problem.file, problem.line, problem.column)))
         super().__init__(self.problems)
 
     def __str__(self) -> str:

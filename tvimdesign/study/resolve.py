@@ -7,7 +7,7 @@ from typing import Any
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.errors import CatalogError, InputError
-from tvimdesign.study.model import Options, Range, Study, Vary
+from tvimdesign.study.model import Options, ProfileOptions, Range, Study, Vary
 
 
 def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:
@@ -26,6 +26,14 @@ def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:
         else:
             found[row.name] = _started(row, study, found)
     return found
+
+
+def drawn(study: Study, catalog: Catalog, table: Table) -> Study:
+    """The module a study starts from, as a study that evaluates it: what is varied stands at its start."""
+    starts = given(study, catalog, table)
+    module = {name: getattr(starts[name], "name", starts[name]) for name in study.vary}
+    update = {"module": {**study.module, **module}, "vary": {}, "minimize": {}, "profile": ProfileOptions()}
+    return study.model_copy(update=update)
 
 
 def _chosen(row: Choice, study: Study, catalog: Catalog) -> Any:

@@ -1,0 +1,72 @@
+"""A pair of small studies that can be compared: three variables each, one start, the same task."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.study import read_study
+from tvimdesign.study.conditions import Entrant
+
+SHEAR = """mode: shear
+module:
+  response_criterion: softening
+  current: 1.5 A
+  stroke: 0.104 rad
+vary:
+  wire_diameter: [2 mm, 3 mm]
+  pcl_outer_radius: [32 mm, 42 mm]
+  pcl_thickness: [0.6 mm, 2 mm]
+require:
+  spring_stiffness: ">= 5 N.m/rad"
+  holding_torque: ">= 5 N.m"
+minimize: {module_mass: 1, response_time: 1}
+operating_points:
+  cold: {temperature: 30 degC, frequency: 1 Hz}
+  hot: {temperature: 100 degC, frequency: 1 Hz}
+solver: {starts: 1}
+"""
+COMPRESSION = """mode: compression
+module:
+  response_criterion: softening
+  current: 1.5 A
+  stroke: 0.104 rad
+  coil_diameter: 12.02 mm
+  coil_count: 6.6
+  core_radius: 8 mm
+  rotor_rim: 7.5 mm
+  pcl_inner_radius: 13 mm
+  pcl_outer_radius: 24 mm
+  block_height: 11.964 mm
+  block_depth: 4 mm
+  vane_thickness: 4 mm
+vary:
+  wire_diameter: [2 mm, 3 mm]
+  block_height: [5 mm, 13 mm]
+  block_depth: [3.5 mm, 6 mm]
+require:
+  spring_stiffness: ">= 5 N.m/rad"
+  holding_torque: ">= 5 N.m"
+minimize: {module_mass: 1, response_time: 1}
+operating_points:
+  cold: {temperature: 30 degC, frequency: 1 Hz}
+  hot: {temperature: 100 degC, frequency: 1 Hz}
+solver: {starts: 1}
+"""
+
+
+def written(folder: Path, **texts: str) -> list[Path]:
+    """Study files of these texts, named after the keywords."""
+    paths = []
+    for name, text in texts.items():
+        paths.append(folder / f"{name}.yaml")
+        paths[-1].write_text(text)
+    return paths
+
+
+def entrants(folder: Path, *texts: str) -> list[Entrant]:
+    """Studies of these texts as the comparison takes them."""
+    paths = written(folder, **{f"study_{i}": text for i, text in enumerate(texts)})
+    studies = [(path, read_study(path)) for path in paths]
+    return [Entrant(path, study, Catalog(), table_for(study.mode)) for path, study in studies]

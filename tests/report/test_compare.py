@@ -1,0 +1,235 @@
+"""The command `compare`: what it refuses, what it leaves behind, and what it says when a study has no design."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from comparable import COMPRESSION, SHEAR, written
+from support import ROOT, Command
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.report.compare.children import Asked, answers
+from tvimdesign.solve.search import optimize
+from tvimdesign.study import read_study_text
+
+PICTURES = {"fronts.png", "release.png", "heat.png"}
+
+
+def _told(folder: Path) -> dict[str, Any]:
+    told: dict[str, Any] = json.loads((folder / "compare.json").read_text())
+    return told
+
+
+@pytest.fixture(scope="module")
+def pair(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Shear against compression, with fronts and pictures."""
+    folder = tmp_path_factory.mktemp("pair")
+    paths = written(folder, mine=SHEAR, yours=COMPRESSION)
+    done = tvimdesign("compare", *paths, "--points", 3, "--out", folder / "out")
+    assert done.returncode == 0, done.stderr
+    assert "shear against compression" in done.stdout
+    return folder / "out"
+
+
+def test_a_comparison_leaves_a_whole_folder(pair: Path) -> None:
+    names = {path.relative_to(pair).as_posix() for path in pair.rglob("*") if path.is_file()}
+    each = {
+        f"{mode}/{file}" for mode in ("shear", "compression") for file in ("drawn.json", "optimised.json", "study.yaml")
+    }
+    assert names == PICTURES | each | {
+        "compare.csv", "compare.json", "fronts.csv", "fronts.json", "manifest.json", "summary.txt",
+    }  # fmt: skip
+    manifest = json.loads((pair / "manifest.json").read_text())
+    assert manifest["status"] == "compared"
+    assert manifest["files"].keys() == names - {"manifest.json"}
+
+
+def test_pictures_have_something_on_them(pair: Path) -> None:
+    import matplotlib.image as mpimg
+
+    for name in PICTURES:
+        picture = mpimg.imread(pair / name)
+        assert picture.shape[0] > 300, name
+        assert picture[..., :3].std() > 0.02, f"{name} is blank"
+
+
+def test_ratios_are_those_of_the_designs_it_wrote(pair: Path) -> None:
+    told = _told(pair)
+    for which in ("drawn", "optimised"):
+        values = [
+            json.loads((pair / f"{mode}/{which}.json").read_text())["values"] for mode in ("shear", "compression")
+        ]
+        rows = {row["name"]: row for row in told["comparisons"][which]}
+        for name in ("module_mass", "response_time", "cycle_time", "holding_torque"):
+            assert rows[name]["ratio"]["compression"] == pytest.approx(values[1][name] / values[0][name])
+        less = values[1]["module_mass"] < values[0]["module_mass"]
+        assert rows["module_mass"]["verdict"]["compression"] == ("better" if less else "worse")
+        assert "joint_stiffness@hot" in rows
+        assert "layer_strain" not in rows
+    alone = {(row["study"], row["name"]) for row in told["alone"]["optimised"]}
+    assert {("shear", "layer_strain"), ("compression", "block_strain")} <= alone
+
+
+def test_the_optimum_is_no_worse_than_the_drawn_module_in_what_it_minimises(pair: Path) -> None:
+    told = _told(pair)
+    rows = {
+        which: {row["name"]: row["values"] for row in told["comparisons"][which]} for which in ("drawn", "optimised")
+    }
+    for mode in ("shear", "compression"):
+        gain = [rows["optimised"][name][mode] / rows["drawn"][name][mode] for name in ("module_mass", "response_time")]
+        assert sum(gain) < 2.0
+
+
+def test_the_leads_follow_from_the_fronts(pair: Path) -> None:
+    told = _told(pair)
+    fronts = [front for front in told["fronts"]["fronts"] if front["second"] == "module_mass"]
+    lightest = {front["study"]: min(p["values"]["module_mass"] for p in front["points"]) for front in fronts}
+    by_mass = next(lead for lead in told["leads"] if lead["limited"] == "module_mass")
+    assert by_mass["gained"] == "response_time"
+    first = by_mass["leads"][0]
+    assert first["alone"]
+    assert first["best"] == min(lightest, key=lambda study: lightest[study])
+    assert first["from"] == pytest.approx(min(lightest.values()))
+    assert first["to"] == pytest.approx(max(lightest.values()))
+    assert first["best"] in told["sentence"]
+    assert "holding_torque >= 5 N·m" in told["sentence"]
+
+
+def test_the_csv_and_the_summary_hold_what_the_json_holds(pair: Path) -> None:
+    told = _told(pair)
+    with (pair / "compare.csv").open() as stream:
+        lines = {(line["comparison"], line["output"]): line for line in csv.DictReader(stream)}
+    for which, rows in told["comparisons"].items():
+        for row in rows:
+            assert lines[which, row["name"]]["verdict compression"] == row["verdict"]["compression"]
+    summary = " ".join((pair / "summary.txt").read_text().split())
+    for sentence in told["conclusions"]:
+        assert sentence in summary
+    with (pair / "fronts.csv").open() as stream:
+        points = list(csv.DictReader(stream))
+    assert len(points) == sum(len(front["points"]) for front in told["fronts"]["fronts"])
+    assert all(float(point["module_mass [g]"]) > 0.0 for point in points)
+
+
+def test_a_renamed_copy_is_the_same_in_everything(tvimdesign: Command, tmp_path: Path) -> None:
+    paths = written(tmp_path, one=SHEAR, copy=SHEAR)
+    done = tvimdesign("compare", *paths, "--points", 2, "--no-plots", "--json", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["studies"].keys() == {"one", "copy"}
+    for which in ("drawn", "optimised"):
+        for row in told["comparisons"][which]:
+            nothing = row["unit"] == "°C" or row["values"]["one"] is None
+            assert row["ratio"]["copy"] == (None if row["unit"] == "°C" else 1.0) or nothing, row["name"]
+            assert row["verdict"]["copy"] in {"same", ""}
+    assert all(part["best"] is None for lead in told["leads"] for part in lead["leads"])
+    assert "copy and one do not differ" in told["sentence"]
+
+
+def test_a_study_without_a_design_leaves_the_other_its_results(tvimdesign: Command, tmp_path: Path) -> None:
+    asked = '  holding_torque: ">= 5 N.m"', '  holding_torque: ">= 5 N.m"\n  response_time: "<= 80 s"'
+    paths = written(tmp_path, fast=SHEAR.replace(*asked), slow=COMPRESSION.replace(*asked))
+    done = tvimdesign("compare", *paths, "--points", 2, "--json", "--out", tmp_path / "out")
+    assert done.returncode == 3
+    told = json.loads(done.stdout)
+    assert "slow" not in told["studies"]  # called by their modes
+    assert told["studies"]["compression"]["troubles"][0]["step"] == "optimised"
+    assert "optimised" in told["studies"]["shear"]
+    assert (tmp_path / "out/shear/optimised.json").exists()
+    assert "no design was found for compression" in told["sentence"]
+    assert "compression, optimised" in done.stderr
+    assert told["comparisons"].keys() == {"drawn"}
+    assert {front["study"] for front in told["fronts"]["fronts"]} == {"shear"}
+
+
+def test_a_process_that_dies_is_told_and_the_other_kept(tmp_path: Path) -> None:
+    evaluated = SHEAR[: SHEAR.index("vary:")] + SHEAR[SHEAR.index("operating_points:") :]
+    (path,) = written(tmp_path, there=evaluated)
+    found = answers([Asked("gone", tmp_path / "gone.yaml"), Asked("there", path)], 2, lambda _: None)
+    assert found["gone"]["troubles"][0]["exit_code"] == 4
+    assert "no such file" in found["gone"]["troubles"][0]["error"]
+    assert found["there"]["troubles"] == []
+    assert "drawn" in found["there"]
+
+
+def test_studies_that_are_evaluated_only_are_compared_as_drawn(tvimdesign: Command, tmp_path: Path) -> None:
+    paths = [ROOT / "studies/paper_as_published.yaml", ROOT / "studies/paper_compression.yaml"]
+    done = tvimdesign("compare", *paths, "--no-plots", "--json", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["comparisons"].keys() == {"drawn"}
+    assert told["leads"] == []
+    rows = {row["name"]: row for row in told["comparisons"]["drawn"]}
+    # 60 degC lies in the melting range: there the ends overlap, and nothing is said to be better.
+    assert rows["joint_impedance@melting"]["intervals"].keys() == {"shear", "compression"}
+
+
+@pytest.mark.parametrize(
+    ("names", "words"),
+    [
+        (["one.yaml"], "two studies or more"),
+        (["one.yaml", "one.yaml"], "one.yaml: given twice"),
+        (["one.yaml", "nowhere.yaml"], "no such file"),
+    ],
+)
+def test_one_study_is_no_comparison(tvimdesign: Command, tmp_path: Path, names: list[str], words: str) -> None:
+    written(tmp_path, one=SHEAR)
+    done = tvimdesign("compare", *(tmp_path / name for name in names), "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_problems_of_all_studies_are_told_at_once_before_anything_runs(tvimdesign: Command, tmp_path: Path) -> None:
+    wrong = COMPRESSION.replace("require:", 'require:\n  layer_strain: "<= 3"')
+    worse = SHEAR.replace("coil", "coyl").replace("pcl_thickness", "pcl_thikness")
+    paths = written(tmp_path, a=worse, b=wrong)
+    done = tvimdesign("compare", *paths, "--out", tmp_path / "out", "--json")
+    assert done.returncode == 2
+    assert "a.yaml:9:3: vary.pcl_thikness" in done.stderr
+    assert "layer_strain is of shear mode, this study is compression mode" in done.stderr
+    assert {Path(problem["file"]).name for problem in json.loads(done.stdout)["problems"]} == {"a.yaml", "b.yaml"}
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.slow
+def test_both_modes_of_the_shipped_pair_converge_from_ten_starts(tvimdesign: Command, tmp_path: Path) -> None:
+    paths = [ROOT / f"studies/compare_{mode}.yaml" for mode in ("shear", "compression")]
+    done = tvimdesign("compare", *paths, "--json", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    for mode in ("shear", "compression"):
+        search = told["studies"][mode]["optimised"]
+        assert search["starts"] == 10
+        assert search["converged"] >= 9
+        objectives = [optimum["objective"] for optimum in search["optima"]]
+        assert objectives == sorted(objectives)
+        assert search["broken"] == []
+        assert told["studies"][mode]["seconds"]["optimised"] > 0.0
+    for front in told["fronts"]["fronts"]:
+        assert front["failures"] == []
+        assert len(front["points"]) + len(front["dominated"]) >= 8
+    ratio = {row["name"]: row["ratio"]["compression"] for row in told["comparisons"]["optimised"]}
+    shares = [f"{100.0 * (ratio[name] - 1.0):.0f} %" for name in ("response_time", "envelope_volume", "module_mass")]
+    readme = " ".join((ROOT / "README.md").read_text().split())
+    assert f"compression is {shares[0]} slower, {shares[1]} larger and {shares[2]} heavier than shear" in readme
+    assert f"takes {100.0 * (1.0 - ratio['switch_energy']):.0f} % less energy for a switch" in readme
+    assert "compression wins nowhere" in told["sentence"]
+    assert sum(line.startswith("drawn") for line in io.StringIO((tmp_path / "out/compare.csv").read_text())) > 100
+
+
+@pytest.mark.slow
+def test_no_compression_module_of_the_pair_is_found_that_damps_as_the_paper_s_does() -> None:
+    """Said in the README; the shear module of the pair does."""
+    for mode, found in (("shear", "optimal"), ("compression", "not converged: infeasible problem detected")):
+        text = (ROOT / f"studies/compare_{mode}.yaml").read_text()
+        study = read_study_text(text.replace("require:", 'require:\n  joint_damping@hot: ">= 1 N.m.s/rad"'), mode)
+        solution = optimize(study, Catalog(), table_for(mode))
+        assert solution.status == found
+        assert len(solution.starts) == 10

@@ -1,0 +1,115 @@
+"""What studies must have in common to be compared: each difference is told with both places, and nothing else is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from comparable import COMPRESSION, SHEAR, entrants
+
+from tvimdesign.study import StudyError
+from tvimdesign.study.conditions import refuse_unequal
+
+
+def said(folder: Path, *texts: str) -> list[str]:
+    try:
+        refuse_unequal(entrants(folder, *texts))
+    except StudyError as error:
+        return [str(problem) for problem in error.problems]
+    return []
+
+
+def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
+    assert said(tmp_path, SHEAR, COMPRESSION) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place", "words"),
+    [
+        ("  current: 1.5 A", "  current: 2 A", "4:3: module.current", "2 A here, 1.5 A in"),
+        ("  current", "  ambient_temperature: 30 degC\n  current", "4:3: module.ambient_temperature",
+         "30 °C here, 22 °C in"),
+        ("  current", "  target_temperature: 90 degC\n  current", "module.target_temperature", "100 °C in"),
+        ("  current: 1.5 A", "  structure_material: aluminum_6061_t6\n  current: 1.5 A", "module.structure_material",
+         "aluminum_6061_t6 here, petg in"),
+        ("  current", "  pcl_grade: pcl_50k\n  current", "module.pcl_grade", "pcl_50k here, pcl_80k in"),
+        ("  current", "  peltier_seebeck: 0.04 V/K\n  current", "module.peltier_seebeck", "0.04 V/K here"),
+        ("  current", "  moving_inertia: 100 kg.mm^2\n  current", "module.moving_inertia", "415.6 kg·mm²"),
+        ("stroke: 0.104 rad", "stroke: 0.09 rad", "5:3: module.stroke", "0.09 rad here, 0.104 rad in"),
+        ("response_criterion: softening", "response_criterion: mean", "module.response_criterion", "mean here"),
+        ("{temperature: 100 degC", "{temperature: 90 degC", "operating_points.hot.temperature",
+         "90 °C here, 100 °C in"),
+        ("  hot:", "  warm: {temperature: 60 degC, frequency: 1 Hz}\n  hot:", "operating_points",
+         "there is no operating point warm here"),
+        ('holding_torque: ">= 5 N.m"', 'holding_torque: ">= 6 N.m"', "require.holding_torque",
+         "holding_torque >= 6 N·m here, holding_torque >= 5 N·m in"),
+        ('  holding_torque: ">= 5 N.m"\n', "", "require", "holding_torque >= 5 N·m is not required here"),
+        ("require:", 'require:\n  module_mass: "<= 1 kg"', "require.module_mass", "is required here, and not in"),
+        ("module_mass: 1,", "module_mass: 2,", "minimize", "the objective is module_mass 2, response_time 1 here"),
+        ("solver: {starts: 1}", "solver: {starts: 1, cells: 20}", "solver.cells", "20 here, 12 in"),
+        ("  current: 1.5 A", "  cooling_current: 0.5 A\n  current: 1.5 A", "module.cooling_current", "0.5 A here"),
+    ],
+)  # fmt: skip
+def test_a_different_task_or_condition_is_told_with_both_places(
+    tmp_path: Path, old: str, new: str, place: str, words: str
+) -> None:
+    assert old in COMPRESSION
+    told = said(tmp_path, SHEAR, COMPRESSION.replace(old, new))
+    assert len(told) == 1
+    assert place in told[0]
+    assert words in told[0]
+    assert told[0].count("study_0.yaml:") + told[0].count("study_1.yaml:") == 2
+
+
+def test_a_range_is_not_a_fixed_current(tmp_path: Path) -> None:
+    ranged = COMPRESSION.replace("vary:", "vary:\n  current: [1 A, 2 A]")
+    told = said(tmp_path, SHEAR, ranged)
+    assert len(told) == 1
+    assert "vary.current: 1 A to 2 A, drawn with 1.5 A here, 1.5 A in" in told[0]
+    assert said(tmp_path, SHEAR.replace("vary:", "vary:\n  current: [1 A, 2 A]"), ranged) == []
+
+
+def test_all_differences_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
+    other = COMPRESSION.replace("current: 1.5 A", "current: 2 A").replace(">= 5 N.m/rad", ">= 4 N.m/rad")
+    told = said(tmp_path, SHEAR, other)
+    assert ["module.current" in told[0], "require.spring_stiffness" in told[1]] == [True, True]
+    assert len(told) == 2
+
+
+def test_another_record_is_one_difference_and_not_one_for_each_of_its_numbers(tmp_path: Path) -> None:
+    told = said(tmp_path, SHEAR, SHEAR.replace("  current", "  structure_material: aluminum_6061_t6\n  current"))
+    assert len(told) == 1
+
+
+def test_layout_springs_and_their_steel_are_each_study_s_own(tmp_path: Path) -> None:
+    own = "  spring_material: stainless_302\n  floor_thickness: 5 mm\n  leg_model: ignored\n  current: 1.5 A"
+    assert said(tmp_path, SHEAR, SHEAR.replace("  current: 1.5 A", own)) == []
+
+
+def test_limits_on_what_one_mode_alone_has_may_differ(tmp_path: Path) -> None:
+    strain = SHEAR.replace("require:", 'require:\n  layer_strain: "<= 4"')
+    blocks = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.45"')
+    assert said(tmp_path, strain, blocks) == []
+    assert "layer_strain <= 4 is required here" in said(tmp_path, SHEAR, strain)[0]
+
+
+def test_limits_of_one_mode_are_held_against_each_other_behind_a_study_of_another_mode(tmp_path: Path) -> None:
+    strict = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.4"')
+    told = said(tmp_path, SHEAR, COMPRESSION, strict)
+    assert len(told) == 1
+    assert "study_2.yaml" in told[0]
+    assert "block_strain <= 0.4 is required here" in told[0]
+
+
+def test_a_study_that_is_evaluated_only_is_not_held_against_an_optimised_one(tmp_path: Path) -> None:
+    start, end = COMPRESSION.index("vary:"), COMPRESSION.index("require:")
+    drawn = (COMPRESSION[:start] + COMPRESSION[end:]).replace("minimize: {module_mass: 1, response_time: 1}\n", "")
+    told = said(tmp_path, SHEAR, drawn)
+    assert len(told) == 1
+    assert "vary: missing: this study is evaluated only" in told[0]
+
+
+def test_one_study_twice_is_told(tmp_path: Path) -> None:
+    one = entrants(tmp_path, SHEAR)
+    with pytest.raises(StudyError, match=r"study_0\.yaml: given twice"):
+        refuse_unequal([*one, *one])

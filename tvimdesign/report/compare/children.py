@@ -1,0 +1,97 @@
+"""Answers the studies of a comparison in child processes, two at once: where one crashes, the others are kept."""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import tvimdesign
+from tvimdesign.errors import TvimError
+from tvimdesign.report.talk import Progress
+
+AT_ONCE = 2
+"""Children at a time: each has one thread, and the machines this is for have two cores or more."""
+_CRASHED = TvimError.exit_code + 2
+
+
+class Asked(NamedTuple):
+    """One study to answer, and what it is called meanwhile."""
+
+    label: str
+    path: Path
+
+
+class _Child(NamedTuple):
+    label: str
+    process: subprocess.Popen[str]
+    out: Path
+    errors: Path
+    began: float
+
+
+def answers(asked: Sequence[Asked], points: int, progress: Progress) -> dict[str, dict[str, Any]]:
+    """What each study's job found, by label; a job that died has its reason under `troubles`."""
+    waiting, running = list(asked), list[_Child]()
+    found: dict[str, dict[str, Any]] = {}
+    said: queue.Queue[tuple[str, str | None]] = queue.Queue()
+    with tempfile.TemporaryDirectory(prefix="tvimdesign-") as folder:
+        try:
+            while waiting or running:
+                while waiting and len(running) < AT_ONCE:
+                    number = len(asked) - len(waiting)
+                    running.append(_start(waiting.pop(0), points, Path(folder) / str(number), said))
+                label, line = said.get()
+                if line is not None:
+                    progress(f"{label}: {json.loads(line)['progress']}")
+                    continue
+                child = next(child for child in running if child.label == label)
+                running.remove(child)
+                found[label] = _finish(child)
+        finally:
+            for child in running:
+                child.process.kill()
+                child.process.wait()
+    return {one.label: found[one.label] for one in asked}
+
+
+def _start(one: Asked, points: int, stem: Path, said: queue.Queue[tuple[str, str | None]]) -> _Child:
+    here = str(Path(tvimdesign.__file__).parents[1])
+    paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
+    out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
+    with errors.open("w") as stream:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "tvimdesign.report.compare.job", str(one.path.resolve()), str(out), str(points)],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+        )  # fmt: skip
+
+    def listen() -> None:
+        assert process.stdout is not None
+        with process.stdout:
+            for line in process.stdout:
+                said.put((one.label, line))
+        said.put((one.label, None))
+
+    threading.Thread(target=listen, daemon=True).start()
+    return _Child(one.label, process, out, errors, time.perf_counter())
+
+
+def _finish(child: _Child) -> dict[str, Any]:
+    code = child.process.wait()
+    if child.out.exists():
+        found: dict[str, Any] = json.loads(child.out.read_text())
+    else:
+        last = " ".join(child.errors.read_text(errors="replace").strip().splitlines()[-1:])
+        error = f"its process ended with code {code}: {last or 'nothing was said'}"
+        found = {"fronts": [], "seconds": {}, "troubles": [{"step": "all", "error": error, "exit_code": _CRASHED}]}
+    found["seconds"]["whole process"] = time.perf_counter() - child.began
+    return found

@@ -1,0 +1,150 @@
+"""The child process that answers one study of a comparison: `python -m tvimdesign.report.compare.job STUDY OUT POINTS`.
+
+It says each step as a line of JSON on standard output and writes what it found to OUT, one JSON object. What fails
+stands there under `troubles`; all else is kept.
+"""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table, table_for
+from tvimdesign.errors import InfeasibleError, TvimError
+from tvimdesign.files import write_whole
+from tvimdesign.report.run import catalog_of
+from tvimdesign.report.simulate import figure_data, findings
+from tvimdesign.report.summary import complaint
+from tvimdesign.report.tables import check_row
+from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.solve.front import Front, Tradeoff
+from tvimdesign.solve.rig import rig_of_design
+from tvimdesign.solve.trials import find_test
+from tvimdesign.study import Study, drawn, read_study
+from tvimdesign.units import from_si
+
+Say = Callable[[str], None]
+
+
+def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
+    """The time, the mass and the size that fronts are drawn of: those the study minimises, else the usual ones."""
+    times = [name for name in study.minimize if table.unit(name) == "s"]
+    sizes = [name for name in study.minimize if name in {"envelope_diameter", "envelope_volume", "envelope_height"}]
+    return (times or ["response_time"])[0], "module_mass", (sizes or ["envelope_diameter"])[0]
+
+
+class Job:
+    """One study on its way: what was found, what failed, how long each step took."""
+
+    def __init__(self, path: Path, points: int, say: Say) -> None:
+        """Read the study; the parent has seen that it can be read."""
+        self.study = read_study(path)
+        self.catalog: Catalog = catalog_of(self.study)
+        self.table = table_for(self.study.mode)
+        self.points, self.say = points, say
+        self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}}
+
+    def run(self) -> dict[str, Any]:
+        """Do every step that can be done."""
+        best: Answer | None = None
+        with self._step("as drawn"):
+            self.say("as drawn")
+            best = answer(drawn(self.study, self.catalog, self.table), self.catalog, self.table)
+            self.found["drawn"] = self._told(best)
+        if self.study.vary:
+            with self._step("optimised"):
+                best = self._optimised()
+            if best and best.solution and self.points:
+                with self._step("fronts"):
+                    self._trade(best)
+        if best:
+            with self._step("release"):
+                self.say("release")
+                self._release(best)
+            self.found["heat"] = self._heat(best)
+        return self.found
+
+    @contextmanager
+    def _step(self, name: str) -> Iterator[None]:
+        """Time a step and note its failure, so that the others are done."""
+        began = time.perf_counter()
+        try:
+            yield
+        except TvimError as error:
+            self.found["troubles"].append({"step": name, "error": str(error), "exit_code": error.exit_code})
+        finally:
+            self.found["seconds"][name] = time.perf_counter() - began
+
+    def _optimised(self) -> Answer:
+        answered = answer(self.study, self.catalog, self.table, self.say)
+        if not answered.found:
+            raise InfeasibleError(complaint(answered, self.table))
+        self.found["optimised"] = self._told(answered)
+        return answered
+
+    def _told(self, answered: Answer) -> dict[str, Any]:
+        checks = [check_row(check, self.table) for check in answered.checks]
+        solution = answered.solution
+        return {
+            "design": answered.design.model_dump(mode="json"),
+            "broken": [check["limit"] for check in checks if not check["kept"]],
+            "starts": len(solution.free_starts) if solution else 0,
+            "converged": sum(start.converged for start in solution.free_starts) if solution else 0,
+            "optima": [{"objective": s.objective, "variables": s.end} for s in solution.distinct_optima()]
+            if solution else [],
+        }  # fmt: skip
+
+    def _trade(self, best: Answer) -> None:
+        assert best.solution is not None
+        first, *others = front_outputs(self.study, self.table)
+        trade = Tradeoff(self.study, self.catalog, self.table, best.solution, (first, *others), self.say)
+        for second in others:
+            self.found["fronts"].append(self._plain(trade.front(first, second, self.points)))
+
+    @staticmethod
+    def _plain(front: Front) -> dict[str, Any]:
+        """A front in SI; every point a whole design, null where something never happens."""
+        plain: dict[str, Any] = json.loads(json.dumps(asdict(front)), parse_constant=lambda _: None)
+        return plain
+
+    def _release(self, best: Answer) -> None:
+        trial = find_test("release")(rig_of_design(best.design, self.catalog, self.table))
+        panel = next(panel for panel in figure_data(trial)["panels"] if panel["title"] == "Angle")
+        lines = [line for line in panel["lines"] if not line["dashed"]]
+        self.found["release"] = {**findings(trial), "x_label": panel["x_label"], "y_label": panel["y_label"],
+                                 "lines": lines}  # fmt: skip
+
+    def _heat(self, best: Answer) -> dict[str, Any]:
+        """Temperatures [degC] through the polymer while it heats: a row for each depth [mm]."""
+        history = best.histories["softening"]
+        cells = [name for name in history if name.startswith("cell_")]
+        depth = from_si(self.table.evaluate(best.design.values, ["pcl_depth"])["pcl_depth"], "mm")
+        depths = [0.0, *((i + 0.5) / len(cells) * depth for i in range(len(cells))), depth]
+        rows = [history[name] for name in ("near_face", *cells, "far_face")]
+        return {"time": history["time"], "depth": depths, "temperature": rows}
+
+
+def main(arguments: list[str]) -> int:
+    """Run the job; an error that ends it is said, too."""
+
+    def say(text: str) -> None:
+        sys.stdout.write(json.dumps({"progress": text}) + "\n")
+        sys.stdout.flush()
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
+    path, out, points = Path(arguments[0]), Path(arguments[1]), int(arguments[2])
+    found = Job(path, points, say).run()
+    write_whole(out, json.dumps(found).encode())
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

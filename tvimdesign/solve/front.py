@@ -1,0 +1,219 @@
+"""Fronts: how far one output can be had at the price of another, by epsilon-constraint on one built problem.
+
+The two ends come first: the least of either output. Between them ceilings on the second output are spread evenly, and
+under each the first is made small, warm from the neighbour. Weights and ceilings are parameters, so nothing is built
+twice, for any pair of the outputs the trade-off was set up with.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table
+from tvimdesign.errors import SimulationError
+from tvimdesign.solve.account import SWITCH_TOLERANCE
+from tvimdesign.solve.goal import Goal
+from tvimdesign.solve.limits import in_words, on_switch
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, EXPAND_FROM, Optimizer, Progress, Run
+from tvimdesign.solve.solution import Solution
+from tvimdesign.study import Options, Requirement, Study
+from tvimdesign.units import format_quantity
+
+SIDE_WEIGHT = 1e-2
+"""Weight of the other output against the one that is made small, both as ratios to the optimum: a front ends where a
+hundredth of one buys less than a ten-thousandth of the other, and no point gives anything away."""
+ONE_POINT = 2e-3
+"""Share by which the ends must differ in both outputs to be a front; less is the simulation's tolerance."""
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Point:
+    """One design of a front. `bound` is its ceiling (SI) on the second output; None at an end and at the optimum."""
+
+    bound: float | None
+    values: dict[str, float]
+    """Every input and output in SI by full name."""
+    drives: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A point that was asked for and has no design: its ceiling (SI; None at an end), and why."""
+
+    bound: float | None
+    reason: str
+
+
+@dataclass(frozen=True)
+class Front:
+    """Designs none of which is better in both outputs, from the least of the first to the least of the second."""
+
+    first: str
+    second: str
+    points: tuple[Point, ...]
+    dominated: tuple[Point, ...] = ()
+    """Points that were found and are no better in anything than another one."""
+    failures: tuple[Failure, ...] = ()
+    notes: tuple[str, ...] = field(default=())
+
+
+class Tradeoff:
+    """One study's problem, built once for some outputs, any of which can be made small under ceilings on the others."""
+
+    def __init__(
+        self, study: Study, catalog: Catalog, table: Table, solution: Solution, outputs: Sequence[str],
+        progress: Progress = lambda _: None,
+    ) -> None:  # fmt: skip
+        """Build it around a study's optimum, where every search begins; listed sizes and records stay those found."""
+        self.table, self.outputs, self.progress = table, tuple(outputs), progress
+        self.listed = [name for name, vary in study.vary.items() if isinstance(vary, Options)]
+        asked = _for_tradeoff(study, solution, self.outputs, self.listed)
+        self._reference = {name: abs(solution.values[name]) or 1.0 for name in self.outputs}
+        self._optimizer = Optimizer(asked, catalog, table, EXPAND_FROM, self._reference)
+        self._ceilings = {
+            name: min((r.limit for r in study.require if (r.output, r.sense) == (name, "<=")), default=math.inf)
+            for name in self.outputs
+        }
+        index = solution.model.index
+        self._begins = [self._optimizer.model.start, *self._optima(solution)]
+        self._found: list[tuple[Point, Run]] = []
+        inputs = {name: float(solution.inputs[i]) for name, i in index.items()}
+        drives = {stage: drive.plain() for stage, drive in solution.drives.items()}
+        self._optimum = Point(None, {**inputs, **solution.values}, drives)
+
+    def front(self, first: str, second: str, count: int) -> Front:
+        """Trade `second` for `first` at `count` points, both ends included."""
+        ends = {name: self._least(name, other, None) for name, other in ((second, first), (first, second))}
+        failed = tuple(end for end in ends.values() if isinstance(end, Failure))
+        found = [end for end in ends.values() if isinstance(end, Point)]
+        if failed:
+            return Front(first, second, tuple(found), failures=failed, notes=("an end has no design",))
+        light, quick = found
+        if all(_close(light.values[name], quick.values[name]) for name in (first, second)):
+            return Front(first, second, (quick,), notes=self._notes(f"one point: {first} and {second} do not conflict"))
+        between: list[Point | Failure] = []
+        near = next(run for point, run in self._found if point is quick)
+        bounds = np.linspace(quick.values[second], light.values[second], count)[1:-1]
+        for number, bound in enumerate(bounds):
+            self.progress(f"front of {first} against {second}: point {number + 2} of {count}")
+            between.append(self._least(first, second, float(bound), near))
+            near = next((run for point, run in self._found if point is between[-1]), near)
+        points = [quick, *(one for one in between if isinstance(one, Point)), light]
+        kept, dominated = self._with_optimum(points, first, second)
+        failures = tuple(one for one in between if isinstance(one, Failure))
+        return Front(first, second, kept, dominated, failures, self._notes())
+
+    def _with_optimum(
+        self, points: Sequence[Point], first: str, second: str
+    ) -> tuple[tuple[Point, ...], tuple[Point, ...]]:
+        """The points none is better than, and the rest; the study's own optimum joins them where it is one of them."""
+        kept, dominated = undominated([*points, self._optimum], (first, second))
+        ordered = sorted(kept, key=lambda point: -point.values[second])
+        return tuple(ordered), tuple(point for point in dominated if point is not self._optimum)
+
+    def _notes(self, *more: str) -> tuple[str, ...]:
+        held = (f"{', '.join(self.listed)} as in the optimum: listed sizes and records are not traded",)
+        return (*more, *(held if self.listed else ()))
+
+    def _optima(self, solution: Solution) -> list[Array]:
+        """Inputs of every optimum the study's starts came to, the best one first."""
+        names, index = self._optimizer.model.names, solution.model.index
+        best = np.array([solution.inputs[index[name]] for name in names])
+        optima = []
+        for start in solution.distinct_optima():
+            values = {**dict(zip(names, best, strict=True)), **start.end}
+            optima.append(np.array([values[name] for name in names]))
+        return [best, *optima[1:]]
+
+    def _least(self, name: str, other: str, bound: float | None, near: Run | None = None) -> Point | Failure:
+        """The least of an output below a ceiling on the other one: the best of several runs.
+
+        An end is sought from the study's start and all its optima; a point between, from its neighbour, warm and fresh.
+        Either also begins at the best design found so far that keeps the ceiling: runs end in different optima.
+        """
+        ceilings = {**self._ceilings}
+        if bound is not None:
+            ceilings[other] = min(bound, ceilings[other])
+        goal = Goal({name: 1.0, other: SIDE_WEIGHT}, ceilings)
+        keeping = [one for one in self._found if one[0].values[other] <= ceilings[other] * (1.0 + ONE_POINT)]
+        best = min(keeping, key=lambda one: one[0].values[name], default=None)
+        begins = [*(self._begins if near is None else [near.inputs]), *([best[1].inputs] if best else [])]
+        runs = [self._optimizer.solve(begin=begin, goal=goal) for begin in begins]
+        runs += [self._optimizer.solve(warm=near, goal=goal)] if near else []
+        reason = f"not converged: {runs[-1].start.status.replace('_', ' ').lower()}"
+        for run in sorted((run for run in runs if run.start.converged), key=lambda run: run.start.objective):
+            checked = self._checked(run, goal, bound)
+            if isinstance(checked, Point):
+                self._found.append((checked, run))
+                return checked
+            reason = checked
+        return Failure(bound, reason)
+
+    def _checked(self, run: Run, goal: Goal, bound: float | None) -> Point | str:
+        """The design simulated and held against every limit again; in words which one it breaks."""
+        optimizer = self._optimizer
+        try:
+            switch = optimizer.simulator.run(run.inputs, run.drives)
+        except SimulationError as error:
+            return str(error)
+        values = optimizer.model.values(run.inputs, switch.values)
+        limits = optimizer.problem.limits
+        for limit, room in zip(limits, goal.room(limits), strict=True):
+            tolerance = SWITCH_TOLERANCE if on_switch(self.table, limit.output) else ALGEBRAIC_TOLERANCE
+            if not limit.residual(values[limit.output]) <= room + tolerance:
+                value = format_quantity(values[limit.output], self.table.unit(limit.output))
+                return f"converged, but simulated it breaks {in_words(limit, self.table)}: {value}"
+        inputs = {name: float(run.inputs[i]) for name, i in optimizer.model.index.items()}
+        return Point(bound, {**inputs, **values}, {stage: drive.plain() for stage, drive in run.drives.items()})
+
+
+def _for_tradeoff(study: Study, solution: Solution, outputs: Iterable[str], listed: Sequence[str]) -> Study:
+    """The study with a ceiling on every output and its listed choices held."""
+    own = {r.output for r in study.require if r.sense == "<="}
+    added = tuple(
+        Requirement(output=name, sense="<=", limit=abs(solution.values[name]) or 1.0, text="a ceiling of the front")
+        for name in outputs
+        if name not in own
+    )
+    words, index = solution.model.words, solution.model.index
+    held = {
+        name: float(solution.inputs[index[name]]) if name in index else getattr(words[name], "name", words[name])
+        for name in listed
+    }
+    return study.model_copy(
+        update={
+            "module": {**study.module, **held},
+            "vary": {name: vary for name, vary in study.vary.items() if name not in held},
+            "require": (*study.require, *added),
+            "minimize": dict.fromkeys(outputs, 1.0),
+        }
+    )
+
+
+def _close(a: float, b: float) -> bool:
+    return abs(a - b) <= ONE_POINT * max(abs(a), abs(b))
+
+
+def undominated(points: Sequence[Point], names: Sequence[str]) -> tuple[tuple[Point, ...], tuple[Point, ...]]:
+    """The points no other one is as good as in every named output (less is better), and the rest; in their order.
+
+    Of points that are equal in all of them the first stays.
+    """
+    kept: list[Point] = []
+    dominated: list[Point] = []
+    for i, point in enumerate(points):
+        mine = [point.values[name] for name in names]
+        others = [[other.values[name] for name in names] for j, other in enumerate(points) if j != i]
+        earlier = [[other.values[name] for name in names] for other in points[:i]]
+        worse = any(o != mine and all(a <= b for a, b in zip(o, mine, strict=True)) for o in others)
+        (dominated if worse or mine in earlier else kept).append(point)
+    return tuple(kept), tuple(dominated)

@@ -1,0 +1,215 @@
+"""What studies must have in common to be compared, and what is said where they have not.
+
+Compared are designs, not tasks: what the joint must do (stroke, load, requirements, objective), where it does it
+(surroundings, operating points) and what it is made of apart from its springs (Peltier module and current, structure,
+PCL) must be the same. Layout and springs are each study's own; so are limits on outputs that one mode alone has.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.catalog import Catalog, Record
+from tvimdesign.device import Choice, Input, Table
+from tvimdesign.study.model import Range, Requirement, Study, Vary
+from tvimdesign.study.places import Places
+from tvimdesign.study.problems import Problem, StudyError
+from tvimdesign.study.resolve import given
+from tvimdesign.study.values import ROUNDING
+from tvimdesign.units import format_quantity
+
+_OWN_GROUPS = ("Layout", "Springs")
+_OWN_CHOICES = ("spring_material",)
+_ASKED_OF_THE_LAYOUT = ("stroke",)
+"""Inputs that stand with the layout and are no dimension of it: what the joint must do."""
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """One study that is to be compared."""
+
+    path: Path
+    study: Study
+    catalog: Catalog
+    table: Table
+
+    @cached_property
+    def places(self) -> Places:
+        """Where its keys stand."""
+        return Places(self.path)
+
+    @cached_property
+    def values(self) -> dict[str, Any]:
+        """Its inputs and choices, ranges at their start."""
+        return given(self.study, self.catalog, self.table)
+
+
+@dataclass(frozen=True)
+class _Condition:
+    """Something that must be the same: its name, where it stands in the study, what it is, and that in words."""
+
+    name: str
+    path: str
+    value: Any
+    words: str
+
+
+def refuse_unequal(entrants: Sequence[Entrant]) -> None:
+    """Raise StudyError with everything in which studies differ that must be the same, each with both places."""
+    problems = [*_given_twice(entrants), *_evaluated_only(entrants)]
+    first, others = entrants[0], entrants[1:]
+    for other in others:
+        problems += _unequal_conditions(first, other)
+        problems += _unequal_requirements(entrants, other)
+    if problems:
+        raise StudyError(problems)
+
+
+def _problem(of: Entrant, path: str, message: str, expected: str, hint: str = "") -> Problem:
+    at = of.places.at(path)
+    return Problem(of.places.file, at.line, at.column, path, message, expected, hint)
+
+
+def _given_twice(entrants: Sequence[Entrant]) -> Iterator[Problem]:
+    seen: set[Path] = set()
+    for entrant in entrants:
+        real = entrant.path.resolve()
+        if real in seen:
+            yield Problem(entrant.places.file, 0, 0, "", "given twice", "different studies")
+        seen.add(real)
+
+
+def _evaluated_only(entrants: Sequence[Entrant]) -> Iterator[Problem]:
+    """Of studies some of which are optimised: those that are not."""
+    optimised = [entrant for entrant in entrants if entrant.study.vary]
+    for entrant in entrants:
+        if optimised and not entrant.study.vary:
+            other = optimised[0].places.text("vary")
+            yield _problem(
+                entrant, "vary", f"missing: this study is evaluated only, that of {other} is optimised",
+                "`vary` and `minimize` in every study or in none", "each is to be optimised for itself",
+            )  # fmt: skip
+
+
+def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Problem]:
+    theirs, mine = ({condition.name: condition for condition in _conditions(one)} for one in (first, other))
+    differing = {name for name in theirs.keys() & mine.keys() if not _same(theirs[name].value, mine[name].value)}
+    for name in (name for name in mine if name in differing):
+        row = first.table.by_name.get(name)
+        if isinstance(row, Input) and row.record and row.record[0] in differing:
+            continue  # another record, which is told
+        message = f"{mine[name].words} here, {theirs[name].words} in {first.places.text(theirs[name].path)}"
+        yield _problem(other, mine[name].path, message, "the same in every study that is compared")
+    for one, another, names in ((first, other, theirs), (other, first, mine)):
+        for point in dict.fromkeys(name.partition(".")[0] for name in names if "." in name):
+            if point not in another.study.operating_points:
+                message = (
+                    f"there is no operating point {point} here, as in {one.places.text(f'operating_points.{point}')}"
+                )
+                yield _problem(another, "operating_points", message, "the same operating points in every study")
+
+
+def _conditions(of: Entrant) -> Iterator[_Condition]:
+    """Everything that must be the same; requirements apart."""
+    study = of.study
+    for row in of.table.rows:
+        if isinstance(row, Input | Choice) and _is_condition(row):
+            vary, value = study.vary.get(row.name), of.values[row.name]
+            path = f"vary.{row.name}" if vary else f"module.{row.name}"
+            yield _Condition(row.name, path, (_plain(value), _limits(vary)), _in_words(row, value, vary))
+    for point, values in study.operating_points.items():
+        for name, value in values.items():
+            words = format_quantity(value, of.table.unit(name))
+            yield _Condition(f"{point}.{name}", f"operating_points.{point}.{name}", value, words)
+    for stage, pieces in study.profile.model_dump().items():
+        yield _Condition(f"profile of {stage}", f"profile.{stage}", pieces, f"{pieces} pieces")
+    for name in ("cells", "elements"):
+        value = getattr(study.solver, name)
+        yield _Condition(name, f"solver.{name}", value, str(value))
+    if study.vary:
+        shares = ", ".join(f"{name} {weight:g}" for name, weight in study.minimize.items())
+        yield _Condition("objective", "minimize", dict(study.minimize), f"the objective is {shares}")
+
+
+def _is_condition(row: Input | Choice) -> bool:
+    if isinstance(row, Choice):
+        return row.group not in _OWN_GROUPS and row.name not in _OWN_CHOICES
+    if row.per_point or row.mode is not None:
+        return False
+    if row.record is not None:
+        return row.record[0] not in _OWN_CHOICES
+    return row.group not in _OWN_GROUPS or row.name in _ASKED_OF_THE_LAYOUT
+
+
+def _plain(value: Any) -> Any:
+    """A number or a word as it is; a record without the file it was read from."""
+    return replace(value, file="") if isinstance(value, Record) else value
+
+
+def _limits(vary: Vary | None) -> tuple[Any, ...]:
+    if vary is None:
+        return ()
+    return (vary.lower, vary.upper) if isinstance(vary, Range) else vary.values
+
+
+def _in_words(row: Input | Choice, value: Any, vary: Vary | None) -> str:
+    if isinstance(row, Choice):
+        word = value.name if isinstance(value, Record) else str(value)
+        return word if vary is None else f"one of {', '.join(str(v) for v in _limits(vary))}, drawn with {word}"
+    shown = format_quantity(value, row.unit)
+    if vary is None:
+        return shown
+    ends = [format_quantity(float(end), row.unit) for end in _limits(vary)]
+    return f"{' to '.join(ends) if isinstance(vary, Range) else ', '.join(ends)}, drawn with {shown}"
+
+
+def _same(a: Any, b: Any) -> bool:
+    """Whether two values mean the same; quantities to their rounding."""
+    if isinstance(a, float | int) and isinstance(b, float | int):
+        return math.isclose(a, b, rel_tol=ROUNDING)
+    if isinstance(a, tuple) and isinstance(b, tuple):
+        return len(a) == len(b) and all(_same(x, y) for x, y in zip(a, b, strict=True))
+    return bool(a == b)
+
+
+def _unequal_requirements(entrants: Sequence[Entrant], other: Entrant) -> Iterator[Problem]:
+    """Limits of `other` against those of the first study whose mode has the output."""
+    told: set[str] = set()
+    for entrant in entrants[: entrants.index(other)]:
+        common = (entrant.table.by_name.keys() & other.table.by_name.keys()) - told
+        told |= common
+        theirs, mine = (_limits_on(common, one) for one in (entrant, other))
+        for key in dict.fromkeys([*mine, *theirs]):
+            if key not in mine:
+                place = entrant.places.text(f"require.{key[0]}")
+                message = f"{_limit(other, theirs[key])} is not required here, and is in {place}"
+                yield _problem(other, "require", message, _ALIKE, f"add {_line(theirs[key])}")
+            elif key not in theirs:
+                message = f"{_limit(other, mine[key])} is required here, and not in {entrant.places.text('require')}"
+                yield _problem(other, f"require.{key[0]}", message, _ALIKE, f"add {_line(mine[key])} there")
+            elif not _same(mine[key].limit, theirs[key].limit):
+                place = entrant.places.text(f"require.{key[0]}")
+                message = f"{_limit(other, mine[key])} here, {_limit(other, theirs[key])} in {place}"
+                yield _problem(other, f"require.{key[0]}", message, _ALIKE)
+
+
+_ALIKE = "the same limits in every study that is compared"
+
+
+def _limits_on(names: Collection[str], of: Entrant) -> dict[tuple[str, str], Requirement]:
+    """Requirements on the named outputs, by output and sense."""
+    return {(r.output, r.sense): r for r in of.study.require if r.output.partition("@")[0] in names}
+
+
+def _limit(of: Entrant, requirement: Requirement) -> str:
+    value = format_quantity(requirement.limit, of.table.unit(requirement.output))
+    return f"{requirement.output} {requirement.sense} {value}"
+
+
+def _line(requirement: Requirement) -> str:
+    return f'`{requirement.output}: "{requirement.text}"`'
