@@ -294,12 +294,12 @@ def tornado(data: dict[str, Any]) -> Figure:
                 axes.barh(i, ratio - middle, left=middle, color=colour, height=0.7)
                 axes.text(ratio, i, f" {end} ", fontsize=7, va="center", ha="left" if ratio > middle else "right")
     axes.axvline(middle, color="black", linewidth=0.8)
-    labels = [f"other choice: {choice['label']}" for choice in choices] + [bar["label"] for bar in bars]
-    axes.set(yticks=range(len(labels)), yticklabels=labels, xlabel="time in compression over time in shear",
-             title="The paper's 2 : 1, with each assumed input through its plausible range")  # fmt: skip
+    labels = [choice["label"] for choice in choices] + [bar["label"] for bar in bars]
+    axes.set(yticks=range(len(labels)), yticklabels=labels, xlabel="time in compression over time in shear")
     axes.tick_params(axis="y", labelsize=7)
     axes.grid(axis="y", visible=False)
-    axes.margins(x=0.1)
+    axes.margins(x=0.1, y=0.02)
+    figure.suptitle("The paper's 2 : 1, with each assumed input alone through its plausible range")
     inches = figure.get_figheight()
     figure.subplots_adjust(left=0.42, right=0.98, bottom=0.5 / inches, top=1.0 - 0.4 / inches)
     return figure

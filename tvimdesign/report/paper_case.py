@@ -6,6 +6,7 @@ are simulated when they are asked for.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -24,7 +25,7 @@ from tvimdesign.solve.sensitivity import Array, Influence, Pair, Span, ratio
 from tvimdesign.study import given, read_study_text
 from tvimdesign.units import from_si, pretty, to_si
 
-SHOWN = 0.005  # of the ratio: inputs that move it by less have no bar in the figure
+SHOWN = 0.01  # of the ratio: inputs that move it by less have no bar in the figure
 
 
 @dataclass(frozen=True)
@@ -97,10 +98,11 @@ def influences() -> tuple[Influence, ...]:
 @cache
 def alternatives() -> tuple[Alternative, ...]:
     """The pair with its thermometer elsewhere, and made of something else."""
-    places = [Alternative(_place(name), pair().times(name)) for name in case()["places"]]
+    places = [Alternative(f"thermometer at the {_place(name)}", pair().times(name)) for name in case()["places"]]
     others = [pair(structure_material=name) for name in case()["materials"]]
     materials = [
-        Alternative(other.models[0].words["structure_material"].title, other.times(case()["event"])) for other in others
+        Alternative(f"structures of {other.models[0].words['structure_material'].title}", other.times(case()["event"]))
+        for other in others
     ]
     return (*places, *materials)
 
@@ -112,7 +114,8 @@ def _place(event: str) -> str:
 def sentence() -> str:
     """The row of the ledger: what the pair takes, what else it could be read as, what carries the ratio."""
     event = case()["event"]
-    times, (near, far, metal) = pair().times(event), alternatives()
+    times = pair().times(event)
+    others = "; ".join(f"with {one.label}: {_both(one.times)}" for one in alternatives())
     most = influences()[0]
     ends = [end for influence in influences() for end in influence.ratios]
     stated = [from_paper(name) for name in ("response_time", "response_time_compression")]
@@ -120,9 +123,9 @@ def sentence() -> str:
     return (
         f"a pair calibrated to it (studies/calibrated_*.yaml): {_place(event)} of the PCL at 100 °C after "
         f"{times[0]:.1f} s in shear and {times[1]:.1f} s in compression, a ratio of {ratio(times):.2f} against "
-        f"{ratio(stated):g}; read at the {near.label} the same two take {_both(near.times)}, at the {far.label} "
-        f"{_both(far.times)}; with structures of {metal.label} {_both(metal.times)}. Of {inputs}, `{most.span.name}` "
-        f"carries the ratio most: {_through(most.ratios)}; all together span {_through((min(ends), max(ends)))}"
+        f"{ratio(stated):g}. Otherwise: {others}. Of {inputs}, `{most.span.name}` "
+        f"carries the ratio most: {_through(most.ratios)}; over all of them it lies between "
+        f"{min(ends):.2f} and {max(ends):.2f}"
     )
 
 
@@ -157,7 +160,7 @@ def table_rows() -> Iterator[dict[str, str | float]]:
 def alternative_rows() -> Iterator[dict[str, str | float]]:
     """The pair as calibrated, and with each other choice."""
     event = case()["event"]
-    for one in (Alternative(f"{_place(event)}, as calibrated", pair().times(event)), *alternatives()):
+    for one in (Alternative(f"as calibrated: {_place(event)} of the PCL", pair().times(event)), *alternatives()):
         yield {"choice": one.label, "shear time [s]": one.times[0], "compression time [s]": one.times[1],
                "ratio": ratio(one.times)}  # fmt: skip
 
@@ -173,9 +176,9 @@ def figure_data() -> dict[str, Any]:
 def _bar(influence: Influence) -> dict[str, Any]:
     """One input's bar: the ratio at either end, and what the ends are."""
     row, span = _row(influence.span.name), influence.span
-    ends = [f"{from_si(end, row.unit):.4g}" for end in (span.low, span.high)]
+    label = re.split("[,:]", row.description)[0]
     return {
-        "label": f"{row.description.partition(',')[0]} ({pretty(row.unit)})" if row.unit != "1" else row.description,
-        "ends": ends,
+        "label": label if row.unit == "1" else f"{label} ({pretty(row.unit)})",
+        "ends": [f"{from_si(end, row.unit):.4g}" for end in (span.low, span.high)],
         "ratios": [value if np.isfinite(value) else None for value in influence.ratios],
     }
