@@ -98,7 +98,7 @@ def influences() -> tuple[Influence, ...]:
 @cache
 def alternatives() -> tuple[Alternative, ...]:
     """The pair with its thermometer elsewhere, and made of something else."""
-    places = [Alternative(f"thermometer at the {_place(name)}", pair().times(name)) for name in case()["places"]]
+    places = [Alternative(f"a thermometer at the {_place(name)}", pair().times(name)) for name in case()["places"]]
     others = [pair(structure_material=name) for name in case()["materials"]]
     materials = [
         Alternative(f"structures of {other.models[0].words['structure_material'].title}", other.times(case()["event"]))

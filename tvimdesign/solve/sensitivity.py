@@ -62,7 +62,7 @@ class Pair:
     """Two modules whose inputs of one name move together."""
 
     def __init__(self, first: Model, second: Model) -> None:
-        """Raises InputError where the two are not given the same value of an input that is looked at, once it is."""
+        """Nothing is simulated yet."""
         self.models = (first, second)
         self._simulators = tuple(Simulator(model, TOLERANCE) for model in self.models)
 
