@@ -143,7 +143,9 @@ def compare(
 def ledger(
     out: Annotated[
         Path | None,
-        typer.Option("--out", help="Folder for tables and a figure of the designs that take the paper's 70 s."),
+        typer.Option(
+            "--out", help="Folder for tables and figures: what takes the paper's 70 s, and what its 2 : 1 hangs on."
+        ),
     ] = None,
     overwrite: Overwrite = False,
     json: AsJson = False,

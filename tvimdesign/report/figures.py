@@ -289,3 +289,28 @@ def level_sets(data: dict[str, Any]) -> Figure:
     figure.suptitle(f"What gives {data['wanted']:g} s: thickness from {data['range'][0]:g} to {data['range'][1]:g} mm")
     figure.subplots_adjust(left=0.06, right=0.98, bottom=0.14, top=0.9, wspace=0.08)
     return figure
+
+
+def tornado(data: dict[str, Any]) -> Figure:
+    """Ratio of compression to shear time: a bar for each input through its range, a mark for each other choice."""
+    bars, choices, middle = data["bars"][::-1], data["choices"][::-1], data["ratio"]
+    figure = _figure(9.0, 1.2 + 0.3 * (len(bars) + len(choices)))
+    axes = figure.subplots()
+    for i, choice in enumerate(choices):
+        axes.plot(choice["ratio"], i, "D", color="tab:green")
+        axes.text(choice["ratio"], i + 0.15, f"{choice['ratio']:.2f}", fontsize=7, ha="center", va="bottom")
+    for i, bar in enumerate(bars, start=len(choices)):
+        for end, ratio, colour in zip(bar["ends"], bar["ratios"], ("tab:blue", "tab:orange"), strict=True):
+            if ratio is not None:  # one of the two never gets there
+                axes.barh(i, ratio - middle, left=middle, color=colour, height=0.7)
+                axes.text(ratio, i, f" {end} ", fontsize=7, va="center", ha="left" if ratio > middle else "right")
+    axes.axvline(middle, color="black", linewidth=0.8)
+    labels = [choice["label"] for choice in choices] + [bar["label"] for bar in bars]
+    axes.set(yticks=range(len(labels)), yticklabels=labels, xlabel="time in compression over time in shear")
+    axes.tick_params(axis="y", labelsize=7)
+    axes.grid(axis="y", visible=False)
+    axes.margins(x=0.1, y=0.02)
+    figure.suptitle("The paper's 2 : 1, with each assumed input alone through its plausible range")
+    inches = figure.get_figheight()
+    figure.subplots_adjust(left=0.42, right=0.98, bottom=0.5 / inches, top=1.0 - 0.4 / inches)
+    return figure

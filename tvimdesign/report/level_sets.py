@@ -1,7 +1,7 @@
 """What gives the paper's response time: its module with another thickness, contact, current or place of the sensor.
 
 The paper states one time and neither thickness nor contacts; many designs keep it. `write_level_sets` computes them for
-the module as published and writes tables and a figure.
+the module as published and writes tables and a figure; beside them, what the ratio of both modes hangs on.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.report import paper_case
 from tvimdesign.report.folder import ResultsFolder
 from tvimdesign.report.ledger import from_paper, published_model
 from tvimdesign.report.plots import Drawing, PlotProcess
@@ -36,11 +37,15 @@ def write_level_sets(out: Path, overwrite: bool) -> Path:
     model, wanted, thin = published_model(), from_paper("response_time"), list(THICKNESSES)
     with ResultsFolder(out, overwrite) as folder, talk() as say, PlotProcess() as drawing:
         sets = [level_set(model, name, list(values), thin, wanted, say) for name, values in AGAINST.items()]
+        say("what the ratio of compression to shear hangs on: every assumed input through its range")
+        case = Drawing("paper_case", "tornado", paper_case.figure_data())
         say("drawing")
-        drawing.begin(folder.path, [Drawing("level_sets", "level_sets", _figure_data(sets, model, wanted))])
+        drawing.begin(folder.path, [Drawing("level_sets", "level_sets", _figure_data(sets, model, wanted)), case])
         units = {one.parameter: model.table.unit(one.parameter) for one in sets}
         folder.write("level_sets.csv", _table(_line_rows(sets, units)))
         folder.write("response_times.csv", _table(_time_rows(sets, units)))
+        folder.write("paper_case.csv", _table(_in_cells(paper_case.table_rows())))
+        folder.write("paper_case_choices.csv", _table(_in_cells(paper_case.alternative_rows())))
         drawing.finish()
         folder.finish("evaluated", {}, {})
     return folder.path
@@ -50,7 +55,7 @@ def print_level_sets(out: Path, overwrite: bool, as_json: bool) -> None:
     """Write the folder, and tell people where it is; scripts know."""
     folder = write_level_sets(out, overwrite)
     if not as_json:
-        wide_console().print(f"\nWhat gives the paper's response time is in [bold]{folder}[/bold]", soft_wrap=True)
+        wide_console().print(f"\nWhat gives the paper's response times is in [bold]{folder}[/bold]", soft_wrap=True)
 
 
 def _figure_data(sets: list[LevelSet], model: Model, wanted: float) -> dict[str, Any]:
@@ -88,6 +93,11 @@ def _time_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str
                 times = {f"{place} [s]": _cell(one.times[place][i, j]) for place in PLACES}
                 place = {"parameter": one.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit}
                 yield {**place, "pcl_thickness [mm]": f"{1e3 * thickness:.6g}", **times}
+
+
+def _in_cells(rows: Iterable[dict[str, str | float]]) -> Iterable[dict[str, str]]:
+    for row in rows:
+        yield {name: value if isinstance(value, str) else _cell(value) for name, value in row.items()}
 
 
 def _cell(value: float) -> str:
