@@ -10,7 +10,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, NullLocator
 
 mpl.rcParams.update(
     {
@@ -24,7 +24,9 @@ mpl.rcParams.update(
         "axes.titley": 1.02,  # a place of its own: otherwise matplotlib measures every label to find one
     }
 )
-_PROFILES = 7
+_PROFILES = 5
+_TICKS = 6
+"""Steps of an axis at most: every tick, with its line and label, takes a millisecond to draw."""
 _ACROSS = 3
 _DECADES_SHOWN = 1e10
 """Largest over smallest value of a logarithmic axis: what is smaller is nothing, and would press all else flat."""
@@ -61,7 +63,6 @@ def cycle(data: dict[str, Any]) -> Figure:
     _temperatures(over_time, soft, stiff, data)
     current.plot(*_joined(soft, stiff, "current"), color="tab:green")
     current.set_ylabel("current (A)")
-    current.yaxis.set_major_locator(MaxNLocator(4))
     _impedance_over_time(impedance, soft, data)
     for axes in (over_time, current, impedance):
         axes.axvline(soft["time"][-1], color="grey", linewidth=0.8)
@@ -74,6 +75,8 @@ def cycle(data: dict[str, Any]) -> Figure:
         _through(cooling, stiff, data, "Through the layer while it cools")
     else:
         cooling.set_axis_off()
+    for axes in (over_time, current, heating, cooling):
+        axes.locator_params(nbins=_TICKS)
     figure.subplots_adjust(left=0.08, right=0.9, bottom=0.07, top=0.95, wspace=0.2, hspace=1.4)
     return figure
 
@@ -194,24 +197,24 @@ def bounds(data: dict[str, Any]) -> Figure:
     begins, ends = ([row[name] for row in reversed(free)] for name in ("start", "share"))
     where.plot(begins, lines, "o", color="white", markeredgecolor="grey", label="start")
     where.plot(ends, lines, "o", color="tab:blue", label="design")
-    for i, row in enumerate(reversed(free)):
-        where.text(1.04, i, row["text"], va="center", fontsize=8)
-    where.set(yticks=range(len(free)), yticklabels=[row["name"] for row in reversed(free)], xticks=[0, 1],
-              xticklabels=["lower bound", "upper bound"], title="What varies")  # fmt: skip
+    names = [f"{row['name']}  {row['text']}" for row in reversed(free)]
+    where.set(yticks=range(len(free)), yticklabels=names, xticks=[0, 1], xticklabels=["lower bound", "upper bound"],
+              title="What varies")  # fmt: skip
     if free:
         where.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2)
-    where.set_xlim(-0.05, 1.35)
+    where.set_xlim(-0.05, 1.05)
+    where.tick_params(axis="y", labelsize=8)
     shown = [max(min(row["margin"], 1.0), -1.0) for row in reversed(limits)]
     colours = [_colour(row["margin"], row["kept"]) for row in reversed(limits)]
-    bars = margins.barh(range(len(limits)), [v if abs(v) > 0.01 else 0.01 for v in shown], color=colours)
-    margins.bar_label(bars, [row["text"] for row in reversed(limits)], fontsize=7, padding=2)
-    margins.set(yticks=range(len(limits)), yticklabels=[row["name"] for row in reversed(limits)], xlim=(-1.7, 1.5))
+    margins.barh(range(len(limits)), [v if abs(v) > 0.01 else 0.01 for v in shown], color=colours)
+    told = [f"{row['name']}   {row['text']}" for row in reversed(limits)]
+    margins.set(yticks=range(len(limits)), yticklabels=told, xlim=(-1.05, 1.05))
     margins.set(xticks=[0.0], xticklabels=["limit"], title="What must hold (bars end at 100 %)")
     margins.tick_params(axis="y", labelsize=7)
     for axes in (where, margins):
         axes.grid(axis="y", visible=False)
     inches = figure.get_figheight()
-    figure.subplots_adjust(left=0.13, right=0.99, bottom=0.75 / inches, top=1.0 - 0.35 / inches, wspace=0.75)
+    figure.subplots_adjust(left=0.17, right=0.99, bottom=0.75 / inches, top=1.0 - 0.35 / inches, wspace=1.0)
     return figure
 
 
