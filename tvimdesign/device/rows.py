@@ -278,6 +278,24 @@ class Table:
         known[name] = row.call([self._resolve(self._at(need, point), known) for need in row.needs])
         return known[name]
 
+    def settled(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """The given rows and all that follow from them alone: neither of an instant nor behind anything supplied."""
+        known = dict(given)
+        for name in self._settled_names:
+            self._resolve(name, known)
+        return known
+
+    @cached_property
+    def _settled_names(self) -> list[str]:
+        open_rows = {
+            row.name for row in self.rows if isinstance(row, (*Supplied, Swing)) or getattr(row, "instant", False)
+        }
+        return [
+            row.name
+            for row in self.outputs
+            if not row.per_point and row.name not in open_rows and not open_rows & self.ancestors(row.name)
+        ]
+
     def evaluate_instant(self, given: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
         """Compute rows at one instant of a stage, each once; `given` must hold the state, the current and the stage.
 

@@ -44,9 +44,14 @@ class Model:
         return inputs, switch, known
 
     @cached_property
+    def _settled(self) -> dict[str, Any]:
+        """All that follows from the inputs alone, written once for the outputs and every stage."""
+        return self.table.settled(self._symbols[2])
+
+    @cached_property
     def stages(self) -> dict[str, StageModel]:
         """Every stage of the working cycle by name, in the order they are gone through."""
-        inputs, _, known = self._symbols
+        inputs, known = self._symbols[0], self._settled
         return {stage.name: StageModel(self.table, stage, inputs, known, self.cells) for stage in self.table.stages}
 
     @cached_property
@@ -60,7 +65,11 @@ class Model:
         `instead` fixes rows, by full name, that would otherwise be computed.
         """
         inputs, switch, known = self._symbols
-        known = {**known, **dict(zip(self.switch_names, as_array(switch), strict=True)), **(instead or {})}
+        known = {
+            **(known if instead else self._settled),
+            **dict(zip(self.switch_names, as_array(switch), strict=True)),
+            **(instead or {}),
+        }
         values = self.table.evaluate(known, wanted)
         return ca.Function("outputs", [inputs, switch], [ca.vertcat(*(values[name] for name in wanted))])
 
