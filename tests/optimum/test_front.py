@@ -90,6 +90,45 @@ def test_an_end_is_no_worse_than_what_a_study_with_that_goal_alone_finds(
     assert front.points[place].values[output] <= alone.values[output] * 1.01
 
 
+def test_a_point_takes_one_run_and_an_end_that_is_known_one_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    _, trade = _tradeoff(SHEAR)
+    solve, runs = Optimizer.solve, list[Goal]()
+
+    def counted(self: Optimizer, *args: Any, goal: Goal, **more: Any) -> Run:
+        runs.append(goal)
+        return solve(self, *args, goal=goal, **more)
+
+    monkeypatch.setattr(Optimizer, "solve", counted)
+    trade.front(TIME, MASS, 6)
+    begins = 2  # the study's start and its one optimum
+    assert len(runs) == 2 * begins + 4 + 1  # ends, points between, one back from the light end
+    runs.clear()
+    trade.front(TIME, SIZE, 6)
+    assert len(runs) == begins + 1 + 4 + 1
+
+
+@pytest.mark.parametrize("turn", [0, 2, 4])
+def test_points_beyond_a_jump_between_optima_are_those_of_the_light_end(
+    monkeypatch: pytest.MonkeyPatch, turn: int
+) -> None:
+    """Two branches of optima, each followed from its own end: by hand, the second is better from `turn` on."""
+
+    def on_a_branch(*asked: Any) -> Point:
+        bound, near = asked[-2:]
+        branch = near.values["branch"]
+        time = 100.0 - bound + (1.0 if (bound <= 5.0 - turn) != bool(branch) else 0.0)
+        return Point(bound, {TIME: time, MASS: bound, "branch": branch}, {})
+
+    trade = object.__new__(Tradeoff)
+    trade.progress = lambda _: None
+    monkeypatch.setattr(Tradeoff, "_least", on_a_branch)
+    quick, light = (Point(None, {TIME: 0.0, MASS: mass, "branch": mass < 1.0}, {}) for mass in (6.0, 0.0))
+    found = trade._between(quick, light, TIME, MASS, 7)
+    assert [point.values["branch"] for point in found if isinstance(point, Point)] == [
+        bound <= 5 - turn for bound in (5, 4, 3, 2, 1)
+    ]
+
+
 def test_a_point_between_that_the_solver_does_not_reach_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     _, trade = _tradeoff(SHEAR)
     solve = Optimizer.solve

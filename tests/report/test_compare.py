@@ -86,6 +86,36 @@ def test_the_optimum_is_no_worse_than_the_drawn_module_in_what_it_minimises(pair
         assert sum(gain) < 2.0
 
 
+def test_all_studies_minimise_the_same_over_the_mean_of_what_was_drawn(pair: Path) -> None:
+    drawn, optimised = (
+        [json.loads((pair / f"{mode}/{which}.json").read_text()) for mode in ("shear", "compression")]
+        for which in ("drawn", "optimised")
+    )
+    references = [design["solution"]["reference"] for design in optimised]
+    for name in ("module_mass", "response_time"):
+        mean = (drawn[0]["values"][name] * drawn[1]["values"][name]) ** 0.5
+        assert [reference[name] for reference in references] == pytest.approx([mean, mean], rel=1e-4)
+    for design in optimised:
+        expected = sum(design["values"][name] / value for name, value in references[0].items())
+        assert design["solution"]["objective"] == pytest.approx(expected, rel=1e-3)
+
+
+def test_contact_lost_and_advice_that_is_not_followed_are_told(pair: Path) -> None:
+    told = _told(pair)
+    rows = {row["name"]: row for row in told["comparisons"]["optimised"]}
+    lost = rows["contact_lost@hot"]
+    assert lost["values"]["shear"] == 0.0
+    assert lost["values"]["compression"] > 0.3
+    assert lost["verdict"]["compression"] == "worse"
+    summary = " ".join((pair / "summary.txt").read_text().split())
+    for mode in ("shear", "compression"):
+        warnings = told["studies"][mode]["optimised"]["warnings"]
+        assert "structure_temperature_reserve" in {warning["output"] for warning in warnings}
+        for warning in warnings:
+            assert f"Mind {mode}: {warning['output']} is" in summary
+            assert warning["because"] in summary
+
+
 def test_the_leads_follow_from_the_fronts(pair: Path) -> None:
     told = _told(pair)
     fronts = [front for front in told["fronts"]["fronts"] if front["second"] == "module_mass"]

@@ -24,6 +24,8 @@ from tvimdesign.report.tables import (
 from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.units import format_quantity, from_si, pretty
 
+_LOOSE = 0.05
+"""Share of the first swing without contact from which on small motions say little of the joint."""
 _PRICE_SHOWN = 1e-3
 _SIZES_SHOWN = 12
 _ROUND = 1e-5  # of any unit a limit is written in
@@ -134,6 +136,13 @@ def _print_points(answer: Answer, table: Table, console: Console) -> None:
             console.print(
                 f"[yellow]Mind[/yellow] the point {point} lies in the melting range: there the layer depends on its "
                 "history. The figures reach from cooled from the melt, still liquid, to heated and melting late."
+            )
+        lost = answer.design.values.get(f"contact_lost@{point}", 0.0)
+        if lost > _LOOSE:
+            share = f"{100.0 * lost:.2g} %"
+            console.print(
+                f"[yellow]Mind[/yellow] at {point} no PCL touches the link for {share} of its first swing: "
+                "stiffness, damping and damping ratio above are those of small motions, before a hold."
             )
 
 

@@ -81,12 +81,18 @@ class Answer:
         return all(check.kept for check in self.checks)
 
 
-def answer(study: Study, catalog: Catalog, table: Table, progress: Progress = lambda _: None) -> Answer:
-    """Evaluate or optimise a study. Raises InputError, InfeasibleError."""
+def answer(
+    study: Study,
+    catalog: Catalog,
+    table: Table,
+    progress: Progress = lambda _: None,
+    reference: dict[str, float] | None = None,
+) -> Answer:
+    """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError."""
     solution = None
     refuse_impossible(study, catalog, table)
     if study.task == "optimize":
-        solution = optimize(study, catalog, table, progress)
+        solution = optimize(study, catalog, table, progress, reference)
         model, inputs, switch, values = solution.model, solution.inputs, solution.switch, solution.values
         status, drives = solution.status, solution.drives
     else:

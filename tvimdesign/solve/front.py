@@ -1,7 +1,7 @@
 """Fronts: how far one output can be had at the price of another, by epsilon-constraint on one built problem.
 
 The two ends come first: the least of either output. Between them ceilings on the second output are spread evenly, and
-under each the first is made small, warm from the neighbour. Weights and ceilings are parameters, so nothing is built
+under each the first is made small, from the neighbour. Weights and ceilings are parameters, so nothing is built
 twice, for any pair of the outputs the trade-off was set up with.
 """
 
@@ -84,15 +84,17 @@ class Tradeoff:
             for name in self.outputs
         }
         index = solution.model.index
-        self._begins = [self._optimizer.model.start, *self._optima(solution)]
-        self._found: list[tuple[Point, Run]] = []
+        optima = self._optima(solution)
+        self._begins = optima if len(optima) > 1 else [self._optimizer.model.start, *optima]
         inputs = {name: float(solution.inputs[i]) for name, i in index.items()}
         drives = {stage: drive.plain() for stage, drive in solution.drives.items()}
         self._optimum = Point(None, {**inputs, **solution.values}, drives)
+        self._found = [self._optimum]
+        self._ends: dict[str, Point] = {}
 
     def front(self, first: str, second: str, count: int) -> Front:
         """Trade `second` for `first` at `count` points, both ends included."""
-        ends = {name: self._least(name, other, None) for name, other in ((second, first), (first, second))}
+        ends = {name: self._end(name, other) for name, other in ((second, first), (first, second))}
         failed = tuple(end for end in ends.values() if isinstance(end, Failure))
         found = [end for end in ends.values() if isinstance(end, Point)]
         if failed:
@@ -100,17 +102,39 @@ class Tradeoff:
         light, quick = found
         if all(_close(light.values[name], quick.values[name]) for name in (first, second)):
             return Front(first, second, (quick,), notes=self._notes(f"one point: {first} and {second} do not conflict"))
-        between: list[Point | Failure] = []
-        near = next(run for point, run in self._found if point is quick)
-        bounds = np.linspace(quick.values[second], light.values[second], count)[1:-1]
-        for number, bound in enumerate(bounds):
-            self.progress(f"front of {first} against {second}: point {number + 2} of {count}")
-            between.append(self._least(first, second, float(bound), near))
-            near = next((run for point, run in self._found if point is between[-1]), near)
+        between = self._between(quick, light, first, second, count)
         points = [quick, *(one for one in between if isinstance(one, Point)), light]
         kept, dominated = self._with_optimum(points, first, second)
         failures = tuple(one for one in between if isinstance(one, Failure))
         return Front(first, second, kept, dominated, failures, self._notes())
+
+    def _end(self, name: str, other: str) -> Point | Failure:
+        """The least of an output; where another front has that end, from there."""
+        known = self._ends.get(name)
+        end = self._least(name, other, None, known)
+        if isinstance(end, Point):
+            self._ends[name] = end
+        return end
+
+    def _between(self, quick: Point, light: Point, first: str, second: str, count: int) -> list[Point | Failure]:
+        """Points under ceilings spread evenly, each from its quicker neighbour; then back from the light end.
+
+        The two ends may lie in different optima. The way back goes on as long as it finds better.
+        """
+        bounds = [float(bound) for bound in np.linspace(quick.values[second], light.values[second], count)[1:-1]]
+        between: list[Point | Failure] = []
+        near = quick
+        for number, bound in enumerate(bounds):
+            self.progress(f"front of {first} against {second}: point {number + 2} of {count}")
+            between.append(self._least(first, second, bound, near))
+            near = one if isinstance(one := between[-1], Point) else near
+        near = light
+        for place in reversed(range(len(bounds))):
+            again, there = self._least(first, second, bounds[place], near), between[place]
+            if isinstance(again, Failure) or (isinstance(there, Point) and not _better(again, there, first)):
+                break
+            between[place] = near = again
+        return between
 
     def _with_optimum(
         self, points: Sequence[Point], first: str, second: str
@@ -134,26 +158,41 @@ class Tradeoff:
             optima.append(np.array([values[name] for name in names]))
         return [best, *optima[1:]]
 
-    def _least(self, name: str, other: str, bound: float | None, near: Run | None = None) -> Point | Failure:
-        """The least of an output below a ceiling on the other one: the best of several runs.
+    def _least(self, name: str, other: str, bound: float | None, near: Point | None = None) -> Point | Failure:
+        """The least of an output below a ceiling on the other one.
 
-        An end is sought from the study's start and all its optima; a point between, from its neighbour, warm and fresh.
-        Either also begins at the best design found so far that keeps the ceiling: runs end in different optima.
+        From a point nearby; without one, or where that fails, from all the study's optima, and its start where there is
+        one alone. Where a design that was found before keeps the ceiling and is better, this has ended in a worse
+        optimum: then also from there.
         """
         ceilings = {**self._ceilings}
         if bound is not None:
             ceilings[other] = min(bound, ceilings[other])
         goal = Goal({name: 1.0, other: SIDE_WEIGHT}, ceilings)
-        keeping = [one for one in self._found if one[0].values[other] <= ceilings[other] * (1.0 + ONE_POINT)]
-        best = min(keeping, key=lambda one: one[0].values[name], default=None)
-        begins = [*(self._begins if near is None else [near.inputs]), *([best[1].inputs] if best else [])]
+        found: Point | Failure = Failure(bound, "")
+        if near is not None:
+            found = self._from([self._inputs(near)], goal, bound)
+        if isinstance(found, Failure):
+            found = self._from(self._begins, goal, bound)
+        keeping = [one for one in self._found if one.values[other] <= ceilings[other]]
+        best = min(keeping, key=lambda one: one.values[name], default=None)
+        if best and (isinstance(found, Failure) or _better(best, found, name)):
+            again = self._from([self._inputs(best)], goal, bound)
+            found = again if isinstance(again, Point) else found
+        if isinstance(found, Point):
+            self._found.append(found)
+        return found
+
+    def _inputs(self, point: Point) -> Array:
+        return np.array([point.values[name] for name in self._optimizer.model.names])
+
+    def _from(self, begins: Sequence[Array], goal: Goal, bound: float | None) -> Point | Failure:
+        """The best design that runs from several inputs come to, or why there is none."""
         runs = [self._optimizer.solve(begin=begin, goal=goal) for begin in begins]
-        runs += [self._optimizer.solve(warm=near, goal=goal)] if near else []
         reason = f"not converged: {runs[-1].start.status.replace('_', ' ').lower()}"
         for run in sorted((run for run in runs if run.start.converged), key=lambda run: run.start.objective):
             checked = self._checked(run, goal, bound)
             if isinstance(checked, Point):
-                self._found.append((checked, run))
                 return checked
             reason = checked
         return Failure(bound, reason)
@@ -197,6 +236,11 @@ def _for_tradeoff(study: Study, solution: Solution, outputs: Iterable[str], list
             "minimize": dict.fromkeys(outputs, 1.0),
         }
     )
+
+
+def _better(one: Point, other: Point, name: str) -> bool:
+    """Whether a point has less of an output than another, by more than the simulation's tolerance."""
+    return one.values[name] < other.values[name] * (1.0 - ONE_POINT)
 
 
 def _close(a: float, b: float) -> bool:

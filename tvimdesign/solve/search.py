@@ -19,8 +19,17 @@ from tvimdesign.units import format_quantity
 MAX_COMBINATIONS = 500
 
 
-def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = lambda _: None) -> Solution:
-    """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError."""
+def optimize(
+    study: Study,
+    catalog: Catalog,
+    table: Table,
+    progress: Progress = lambda _: None,
+    reference: dict[str, float] | None = None,
+) -> Solution:
+    """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
+
+    `reference` are the values the minimised outputs are divided by: those of the study's start unless given.
+    """
     refuse_unreachable(study, catalog, table)
     sizes = _listed_sizes(study, table)
     records = _record_choices(study, table)
@@ -32,7 +41,6 @@ def optimize(study: Study, catalog: Catalog, table: Table, progress: Progress = 
         )
     best: tuple[Optimizer, Run] | None = None
     constant: Constant | None = None
-    reference: dict[str, float] | None = None
     starts: list[Start] = []
     seconds = {"set_up": 0.0, "solve": 0.0}
     for choice in records:

@@ -48,7 +48,9 @@ def answers(asked: Sequence[Asked], points: int, progress: Progress) -> dict[str
             while waiting or running:
                 while waiting and len(running) < AT_ONCE:
                     number = len(asked) - len(waiting)
-                    running.append(_start(waiting.pop(0), points, Path(folder) / str(number), said))
+                    one = waiting.pop(0)
+                    others = [other.path for other in asked if other is not one]
+                    running.append(_start(one, others, points, Path(folder) / str(number), said))
                 label, line = said.get()
                 if line is not None:
                     progress(f"{label}: {json.loads(line)['progress']}")
@@ -63,13 +65,16 @@ def answers(asked: Sequence[Asked], points: int, progress: Progress) -> dict[str
     return {one.label: found[one.label] for one in asked}
 
 
-def _start(one: Asked, points: int, stem: Path, said: queue.Queue[tuple[str, str | None]]) -> _Child:
+def _start(
+    one: Asked, others: Sequence[Path], points: int, stem: Path, said: queue.Queue[tuple[str, str | None]]
+) -> _Child:
     here = str(Path(tvimdesign.__file__).parents[1])
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
     out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
     with errors.open("w") as stream:
         process = subprocess.Popen(
-            [sys.executable, "-m", "tvimdesign.report.compare.job", str(one.path.resolve()), str(out), str(points)],
+            [sys.executable, "-m", "tvimdesign.report.compare.job", str(one.path.resolve()), str(out), str(points),
+             *(str(other.resolve()) for other in others)],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
             env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
         )  # fmt: skip

@@ -1,5 +1,6 @@
-"""The child process that answers one study of a comparison: `python -m tvimdesign.report.compare.job STUDY OUT POINTS`.
+"""The child process that answers one study of a comparison.
 
+`python -m tvimdesign.report.compare.job STUDY OUT POINTS OTHERS`, the others being the studies it is compared with.
 It says each step as a line of JSON on standard output and writes what it found to OUT, one JSON object. What fails
 stands there under `troubles`; all else is kept.
 """
@@ -10,7 +11,7 @@ import json
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
@@ -20,6 +21,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
 from tvimdesign.errors import InfeasibleError, TvimError
 from tvimdesign.files import write_whole
+from tvimdesign.report.compare import yardstick
 from tvimdesign.report.run import catalog_of
 from tvimdesign.report.simulate import figure_data, findings
 from tvimdesign.report.summary import complaint
@@ -44,9 +46,10 @@ def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
 class Job:
     """One study on its way: what was found, what failed, how long each step took."""
 
-    def __init__(self, path: Path, points: int, say: Say) -> None:
-        """Read the study; the parent has seen that it can be read."""
+    def __init__(self, path: Path, points: int, others: Sequence[Path], say: Say) -> None:
+        """Read the study, and those it is compared with; the parent has seen that they can be read."""
         self.study = read_study(path)
+        self.others = others
         self.catalog: Catalog = catalog_of(self.study)
         self.table = table_for(self.study.mode)
         self.points, self.say = points, say
@@ -84,7 +87,8 @@ class Job:
             self.found["seconds"][name] = time.perf_counter() - began
 
     def _optimised(self) -> Answer:
-        answered = answer(self.study, self.catalog, self.table, self.say)
+        starts = [yardstick.at_its_start(study) for study in (self.study, *map(read_study, self.others))]
+        answered = answer(self.study, self.catalog, self.table, self.say, yardstick.common(starts))
         if not answered.found:
             raise InfeasibleError(complaint(answered, self.table))
         self.found["optimised"] = self._told(answered)
@@ -96,6 +100,9 @@ class Job:
         return {
             "design": answered.design.model_dump(mode="json"),
             "broken": [check["limit"] for check in checks if not check["kept"]],
+            "warnings": [
+                {"output": check.output, "value": check.value, "because": check.origin} for check in answered.warnings
+            ],
             "starts": len(solution.free_starts) if solution else 0,
             "converged": sum(start.converged for start in solution.free_starts) if solution else 0,
             "optima": [{"objective": s.objective, "variables": s.end} for s in solution.distinct_optima()]
@@ -140,9 +147,9 @@ def main(arguments: list[str]) -> int:
         sys.stdout.flush()
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
-    path, out, points = Path(arguments[0]), Path(arguments[1]), int(arguments[2])
-    found = Job(path, points, say).run()
-    write_whole(out, json.dumps(found).encode())
+    path, out, points, *others = arguments
+    found = Job(Path(path), int(points), [Path(other) for other in others], say).run()
+    write_whole(Path(out), json.dumps(found).encode())
     return 0
 
 

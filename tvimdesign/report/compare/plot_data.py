@@ -9,6 +9,9 @@ from tvimdesign.report.plots import Drawing
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si, pretty
 
+_STILL = 1e-3
+"""Share of its angle by which a released link has moved where its curve begins: the axis of time is logarithmic."""
+
 
 def drawings(outcome: Outcome) -> list[Drawing]:
     """Every picture there is something for."""
@@ -65,7 +68,24 @@ def _release(outcome: Outcome) -> dict[str, Any]:
                 "y_label": found["release"]["y_label"], "log_x": True, "log_y": False, "lines": [],
             })  # fmt: skip
             panel["lines"].append({**line, "label": f"{label}, {history}" if history else label})
+    for panel in panels.values():
+        panel["lines"] = _from_where_it_moves(panel["lines"])
     return {"title": _title(outcome, "Released from the same angle"), "panels": list(panels.values())}
+
+
+def _from_where_it_moves(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Lines of a panel from the time on at which the first of them has left where it began by a thousandth."""
+    start = min(_begins_to_move(line["x"], line["y"]) for line in lines)
+    found = []
+    for line in lines:
+        kept = [pair for pair in zip(line["x"], line["y"], strict=True) if pair[0] >= start]
+        found.append({**line, "x": [x for x, _ in kept], "y": [y for _, y in kept]})
+    return found
+
+
+def _begins_to_move(times: list[float], angles: list[float]) -> float:
+    still = _STILL * abs(angles[0])
+    return next((x for x, y in zip(times, angles, strict=True) if abs(y - angles[0]) > still), times[-1])
 
 
 def _heat(outcome: Outcome) -> dict[str, Any]:

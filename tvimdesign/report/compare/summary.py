@@ -36,6 +36,7 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
             )
     _print_searches(outcome, console)
     _print_fronts(outcome, console)
+    _print_warnings(outcome, console)
     for label, trouble in outcome.troubles:
         console.print(f"[red]Not done[/red] {escape(label)}, {trouble['step']}: {escape(trouble['error'])}")
 
@@ -88,11 +89,23 @@ def _print_searches(outcome: Outcome, console: Console) -> None:
         if told is None:
             continue
         optima = [f"{optimum['objective']:.5g}" for optimum in told["optima"]]
-        agree = "all at one optimum" if len(optima) == 1 else f"at {len(optima)} optima, objectives {', '.join(optima)}"
+        agree = "all at one optimum" if len(optima) == 1 else f"at {len(optima)} optima"
         console.print(
-            f"[dim]{escape(label)}: {told['converged']} of {told['starts']} starts converged, {agree}; "
+            f"[dim]{escape(label)}: {told['converged']} of {told['starts']} starts converged, {agree}, "
+            f"objective {', '.join(optima)} over what is drawn on average; "
             f"{found['seconds']['optimised']:.1f} s.[/dim]"
         )
+
+
+def _print_warnings(outcome: Outcome, console: Console) -> None:
+    """The advice that designs do not follow: of the optima, or of what is drawn where nothing is optimised."""
+    for label, found in outcome.found.items():
+        told: dict[str, Any] = found.get("optimised") or found.get("drawn") or {"warnings": []}
+        for warning in told["warnings"]:
+            value = format_quantity(warning["value"], outcome.unit(warning["output"]))
+            console.print(
+                f"[yellow]Mind[/yellow] {escape(label)}: {warning['output']} is {value}: {escape(warning['because'])}."
+            )
 
 
 def _print_fronts(outcome: Outcome, console: Console) -> None:

@@ -85,7 +85,9 @@ def lone_values(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> l
 
 
 def _outputs(design: Design, table: Table) -> list[str]:
-    return [name for name in table.names(design.study["operating_points"]) if name in design.values]
+    points = design.study["operating_points"]
+    swings = [f"{row.name}@{point}" for row in table.swings for point in points]
+    return [name for name in (*table.names(points), *swings) if name in design.values]
 
 
 def _row(name: str, designs: Mapping[str, Design], table: Table) -> Row:
