@@ -38,6 +38,7 @@ class Held:
     """One limit or bound at the solution: its residual (share of its scale, kept where <= 0) and what it costs.
 
     `price` is how much of the objective, in percent, relaxing it by `step` would save; `step` is in words.
+    `savings` says the same of each minimised output, negative where it rises; empty where that is not determined.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Held:
     price: float
     step: str
     origin: str
+    savings: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
