@@ -109,4 +109,9 @@ def test_a_variable_nothing_depends_on_hides_no_saving() -> None:
 def test_of_a_limit_that_is_written_twice_no_saving_is_claimed() -> None:
     study = _study()
     twice = study.model_copy(update={"require": (*study.require, study.require[0])})
-    assert all(held.savings == {} for held in _held(twice))
+    alone = {held.name: held.savings for held in _held(study)}
+    for held in _held(twice):
+        if held.name == "spring_stiffness >=":
+            assert held.savings == {}
+        elif held.price > 1e-3:
+            assert held.savings == pytest.approx(alone[held.name], rel=1e-4, abs=1e-6), held.text

@@ -20,6 +20,8 @@ Place: TypeAlias = tuple[Literal["row", "upper", "lower"], int]
 
 _FAINT = 1e-6
 """Multiplier below which a limit presses on nothing, however near it is."""
+_DEPENDENT = 1e-10
+"""Singular value, as a share of the greatest, below which rows depend on each other."""
 _UNDETERMINED = 1e-6
 """Share of an output's gradient that may be left over where the optimum determines the output."""
 
@@ -36,11 +38,14 @@ class Response:
         tied = self._tied_peaks(derivatives)
         along = self._along(derivatives, tied)
         self._places, rows = self._active(derivatives, along, tied)
+        self._tangled = _tangled(rows)
         self._adjoints = self._solve(derivatives, along, rows)
 
     def savings(self, places: Iterable[Place]) -> dict[str, float]:
         """Share of each minimised output that easing all the places by one saves, per unit; none where undetermined."""
         moved = [self._places.index(place) for place in places if place in self._places]
+        if any(self._tangled[i] for i in moved):
+            return {}
         return {
             name: -float(np.sum(self._adjoints[name][moved])) / abs(value)
             for name, value in self._values.items()
@@ -108,19 +113,21 @@ class Response:
         return bool(multiplier > max(room, _FAINT))
 
     def _solve(self, derivatives: Derivatives, along: Array, rows: Array) -> dict[str, Array]:
-        """Derivative of each minimised output by every active place; outputs the optimum does not determine left out.
-
-        Limits that press in one direction twice share their multipliers as they like: then nothing is determined.
-        """
+        """Derivative of each minimised output by every active place; outputs the optimum does not determine left out."""
         count, active = along.shape[1], len(rows)
-        if np.linalg.matrix_rank(rows) < active if active else False:
-            return {}
         curvature = along.T @ (derivatives.hessian @ ca.DM(along)).full()
         system = np.block([[curvature, rows.T], [rows, np.zeros((active, active))]])
         found = {}
         for name, gradient in derivatives.gradients.items():
             right = np.concatenate([along.T @ gradient, np.zeros(active)])
-            adjoint = np.linalg.lstsq(system, right, rcond=1e-12)[0]
+            adjoint = np.linalg.lstsq(system, right, rcond=_DEPENDENT)[0]
             if np.linalg.norm(system @ adjoint - right) <= _UNDETERMINED * np.linalg.norm(right):
                 found[name] = adjoint[count:]
         return found
+
+
+def _tangled(rows: Array) -> list[bool]:
+    """Which rows depend on one another: such limits share a multiplier as they like, so none has a price of its own."""
+    directions, sizes, _ = np.linalg.svd(rows)
+    rank = int(np.sum(sizes > _DEPENDENT * max(sizes, default=0.0)))
+    return [bool(part) for part in np.any(np.abs(directions[:, rank:]) > _UNDETERMINED, axis=1)]
