@@ -45,6 +45,7 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
     from tvimdesign.report.plots import Drawing, PlotProcess
     from tvimdesign.report.summary import complaint, print_summary
     from tvimdesign.report.tables import results
+    from tvimdesign.report.why import why
     from tvimdesign.solve.answer import answer
 
     study = read_study(path)
@@ -58,7 +59,7 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
         if drawing and found.found:
             plotted = plot_data(found, table)
             drawing.begin(folder.path / "plots", [Drawing(name, name, data) for name, data in plotted.items()])
-        told = results(found, table)
+        told = results(found, table) | {"why": why(found, table)}
         design = _write(folder, path, study, found, told, table)
         progress("")
         if not as_json:
@@ -87,11 +88,14 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
 def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
     from tvimdesign.report.tables import curves_csv, results_csv
+    from tvimdesign.report.why import why_csv
 
     folder.write("study.yaml", path.read_bytes())
     folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
     folder.write_json("results.json", told)
     folder.write("results.csv", results_csv(told["values"]))
+    if found.solution and found.found:
+        folder.write("why.csv", why_csv(found, table))
     units = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
     for stage, history in found.histories.items():
         folder.write(f"{stage}.csv", curves_csv(history, units, "degC"))

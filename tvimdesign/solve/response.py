@@ -47,7 +47,7 @@ class Response:
         if any(self._tangled[i] for i in moved):
             return {}
         return {
-            name: -float(np.sum(self._adjoints[name][moved])) / abs(value)
+            name: float(np.sum(-self._adjoints[name][moved])) / abs(value)
             for name, value in self._values.items()
             if name in self._adjoints and value != 0.0
         }
@@ -113,7 +113,7 @@ class Response:
         return bool(multiplier > max(room, _FAINT))
 
     def _solve(self, derivatives: Derivatives, along: Array, rows: Array) -> dict[str, Array]:
-        """Derivative of each minimised output by every active place; outputs the optimum does not determine left out."""
+        """Derivative of each minimised output by every active place, of those the optimum determines."""
         count, active = along.shape[1], len(rows)
         curvature = along.T @ (derivatives.hessian @ ca.DM(along)).full()
         system = np.block([[curvature, rows.T], [rows, np.zeros((active, active))]])

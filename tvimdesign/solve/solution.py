@@ -42,12 +42,22 @@ class Held:
     """
 
     name: str
+    output: str
     text: str
     residual: float
+    scale: float
+    """SI."""
+    absolute: bool
+    """Whether the room is to be read in the row's unit, not as a share."""
     price: float
     step: str
     origin: str
     savings: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def margin(self) -> float:
+        """What is left of it, as a share of its scale."""
+        return -self.residual
 
 
 @dataclass(frozen=True)
