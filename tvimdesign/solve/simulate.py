@@ -38,6 +38,12 @@ class Trajectory:
         wanted = fractions * self.times[-1]
         return np.array([np.interp(wanted, self.times, row) for row in self.states])
 
+    def until(self, end: float) -> Trajectory:
+        """The part before a time [s]; what lies beyond the last sample stays as it was there."""
+        times = np.append(self.times[self.times < end], end)
+        currents = np.interp(times, self.times, self.currents)
+        return Trajectory(times, np.array([np.interp(times, self.times, row) for row in self.states]), currents)
+
 
 @dataclass(frozen=True)
 class Switch:
