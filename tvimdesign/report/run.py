@@ -19,6 +19,7 @@ from tvimdesign.study import Study, read_study
 from tvimdesign.study.design import Design, read_design, write_design
 
 if TYPE_CHECKING:
+    from tvimdesign.report.plots import Drawing
     from tvimdesign.solve.answer import Answer
 
 CAD_TIME_LIMIT = 300.0  # s
@@ -39,7 +40,9 @@ def describe(study: Study) -> str:
     return f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
 
 
-def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool) -> None:
+def run_study(
+    path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False
+) -> None:
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.plot_data import plot_data
     from tvimdesign.report.plots import Drawing, PlotProcess
@@ -56,9 +59,13 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         found = answer(study, catalog, table, progress)
+        plotted = [Drawing(name, name, data) for name, data in plot_data(found, table).items()] if found.found else []
+        if found.found and (sensitivities or study.write.sensitivities):
+            progress("differentiating the outputs")
+            with _noting(troubles):
+                plotted += _sensitivities(folder, found, catalog, table)
         if drawing and found.found:
-            plotted = plot_data(found, table)
-            drawing.begin(folder.path / "plots", [Drawing(name, name, data) for name, data in plotted.items()])
+            drawing.begin(folder.path / "plots", plotted)
         told = results(found, table) | {"why": why(found, table)}
         design = _write(folder, path, study, found, told, table)
         progress("")
@@ -102,6 +109,17 @@ def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told:
     units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in found.sweep}
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     return write_design(found.design, folder.path / "design.json")
+
+
+def _sensitivities(folder: ResultsFolder, found: Answer, catalog: Catalog, table: Table) -> list[Drawing]:
+    """Write the table of sensitivities; returns the heat map to draw. Raises SimulationError."""
+    from tvimdesign.report.plots import Drawing
+    from tvimdesign.report.sensitivities import heat_map, sensitivities, sensitivities_csv
+
+    derivatives, rig = sensitivities(found, catalog, table)
+    folder.write("sensitivities.csv", sensitivities_csv(derivatives, rig))
+    data = heat_map(derivatives, rig)
+    return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:

@@ -23,14 +23,15 @@ from tvimdesign.solve.problem import Problem
 from tvimdesign.solve.rig import Rig
 from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.solve.transcription import guess
+from tvimdesign.units import from_si
 
 Array = NDArray[np.float64]
 
 _STEPS = 40
 _CLOSE = 1e-10
 """Newton's last step, in unknowns that are of the order of one."""
-_NOTHING = 1e-9
-"""Value, SI, below which a share of it means nothing."""
+_NOTHING = 1e-4
+"""Value, in the unit people read it in, below which a share of it means nothing: a gap that is closed."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,8 @@ class Elasticity:
     derivative: float
     """SI over SI."""
     logarithmic: float | None
-    """d ln output / d ln variable; None where one is zero, or a temperature, whose logarithm means nothing."""
+    """d ln output / d ln variable; None where one is nothing, or a temperature or what is left to one: their zero is
+    a convention."""
     per_hundredth: float
     """What a hundredth more of the variable adds to the output, SI."""
 
@@ -63,7 +65,8 @@ class Elasticities:
 def elasticities(rig: Rig, elements: int, cells: int, wanted: Sequence[str]) -> Elasticities:
     """Differentiate the wanted outputs by every variable of the module. Raises SimulationError."""
     model = Model(rig.table, rig.values, rig.points, cells)
-    switch = Simulator(model).run(model.start, rig.drives)
+    simulator = Simulator(model)
+    switch = simulator.run(model.start, rig.drives)
     names = [n for n in wanted if not isinstance(rig.table.row(n), Swing)]
     driven = {model.stages[stage].stage.drive for stage in rig.drives}
     supplied = {name: _supplied_behind(model, name) for name in names}
@@ -74,7 +77,7 @@ def elasticities(rig: Rig, elements: int, cells: int, wanted: Sequence[str]) -> 
     place = [model.index[name] for name in variables]
     of_cycle = np.zeros((len(model.switch_names), len(place)))
     if needed:
-        of_cycle = _cycle_by_inputs(model, switch, needed, place, elements)
+        of_cycle = _cycle_by_inputs(simulator, switch, needed, place, elements)
     inputs, seen = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("switch", len(model.switch_names))
     outputs = model.outputs(kept)(inputs, seen)
     function = ca.Function("by", [inputs, seen], [outputs, ca.jacobian(outputs, inputs), ca.jacobian(outputs, seen)])
@@ -89,14 +92,19 @@ def elasticities(rig: Rig, elements: int, cells: int, wanted: Sequence[str]) -> 
 def entries(found: Elasticities, rig: Rig) -> list[Elasticity]:
     """One record for each output and variable, in the order of the table."""
     records = []
+    table = rig.table
+    sizes = [_has_size(table.unit(name), value) for name, value in zip(found.variables, found.at, strict=True)]
     for i, output in enumerate(found.outputs):
-        has_size = rig.table.unit(output) != "degC" and abs(found.values[i]) > _NOTHING
+        has_size = _has_size(table.unit(output), found.values[i])
         for j, variable in enumerate(found.variables):
             derivative = float(found.derivatives[i, j])
-            size = rig.table.unit(variable) != "degC" and abs(found.at[j]) > _NOTHING
-            share = derivative * float(found.at[j] / found.values[i]) if has_size and size else None
+            share = derivative * float(found.at[j] / found.values[i]) if has_size and sizes[j] else None
             records.append(Elasticity(output, variable, derivative, share, 0.01 * float(found.at[j]) * derivative))
     return records
+
+
+def _has_size(unit: str, value: float) -> bool:
+    return unit not in ("degC", "K") and abs(from_si(value, unit)) > _NOTHING
 
 
 def _is_variable(rig: Rig, model: Model, name: str) -> bool:
@@ -121,9 +129,10 @@ def _lost(model: Model, switch: Switch, driven: set[str]) -> set[str]:
 
 
 def _cycle_by_inputs(
-    model: Model, switch: Switch, needed: Sequence[str], inputs: Sequence[int], elements: int
+    simulator: Simulator, switch: Switch, needed: Sequence[str], inputs: Sequence[int], elements: int
 ) -> Array:
     """Derivatives of what the cycle supplies by some of the inputs, from the equations the optimiser hands to IPOPT."""
+    model = simulator.model
     problem = Problem(model, (), (), needed, elements)
     x, p = problem.function["x"], problem.function["p"]
     count, peaks = problem.equation_count, problem.peak_count
@@ -132,11 +141,11 @@ def _cycle_by_inputs(
     reached = problem.switch[places]
     newton = ca.Function("newton", [x, p], [equations, ca.jacobian(equations, x)])
     given = np.concatenate([model.start, np.ones(len(needed))])
-    unknowns = _solved(newton, _begin(problem, switch), given, len(problem.peaks))
-    rows, by_x, by_p, ends, ends_by_x, ends_by_p = ca.Function(
+    unknowns = _solved(newton, _begin(problem, simulator, switch), given, len(problem.peaks))
+    rows, by_x, by_p, ends_by_x, ends_by_p = ca.Function(
         "cycle", [x, p],
         [samples, *(ca.jacobian(problem.function["g"], one) for one in (x, p)),
-         reached, *(ca.jacobian(reached, one) for one in (x, p))],
+         *(ca.jacobian(reached, one) for one in (x, p))],
     )(unknowns, given)  # fmt: skip
     tied = _greatest(np.asarray(rows).ravel(), by_x, count, len(problem.peaks)) if peaks else []
     kept = [*range(count), *tied]
@@ -146,12 +155,14 @@ def _cycle_by_inputs(
     return found
 
 
-def _begin(problem: Problem, switch: Switch) -> Array:
-    """The simulated cycle as unknowns: each event's block from the part of its stage that leads to it."""
-    parts = []
+def _begin(problem: Problem, simulator: Simulator, switch: Switch) -> Array:
+    """The simulated cycle as unknowns: each event's block up to its own time, which may lie beyond its stage's end."""
+    inputs, parts = problem.model.start, []
     for block in problem.blocks:
-        name, end = block.stage.stage.name, switch.values[block.event]
-        parts += [guess(switch.trajectories[name].until(end), problem.elements(name)).ravel(order="F"), [np.log(end)]]
+        stage, end = block.stage.stage, switch.values[block.event]
+        before = switch.trajectories[stage.after].states[:, -1] if stage.after else None
+        course = simulator.trace(stage.name, inputs, before, end)
+        parts += [guess(course, problem.elements(stage.name)).ravel(order="F"), [np.log(end)]]
     parts += [switch.balances[balance.stage] for balance in problem.balances]
     return np.concatenate([*parts, np.zeros(len(problem.peaks))])
 
@@ -165,7 +176,7 @@ def _solved(newton: Any, begin: Array, given: Array, peaks: int) -> Array:
         found[:last] -= step
         if np.max(np.abs(step)) < _CLOSE:
             return found
-    raise SimulationError("the equations of the cycle could not be solved for its derivatives; try more solver.elements")
+    raise SimulationError("the cycle's equations could not be solved for derivatives; try more solver.elements")
 
 
 def _greatest(samples: Array, by_x: Any, first: int, peaks: int) -> list[int]:
