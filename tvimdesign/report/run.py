@@ -59,18 +59,23 @@ def run_study(
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         found = answer(study, catalog, table, progress)
+        left_out: tuple[str, ...] = ()
         plotted = [Drawing(name, name, data) for name, data in plot_data(found, table).items()] if found.found else []
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
-                plotted += _sensitivities(folder, found, catalog, table)
+                drawings, left_out = _sensitivities(folder, found, catalog, table)
+                plotted += drawings
         if drawing and found.found:
             drawing.begin(folder.path / "plots", plotted)
-        told = results(found, table) | {"why": why(found, table)}
+        told = results(found, table) | {"why": why(found, table), "sensitivities_left_out": list(left_out)}
         design = _write(folder, path, study, found, told, table)
         progress("")
         if not as_json:
             print_summary(found, table, wide_console())
+            if left_out:
+                said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(left_out)}."
+                wide_console().print(f"[dim]{said}[/dim]")
         if drawing and found.found:
             progress("drawing the plots")
             with _noting(troubles):
@@ -111,15 +116,18 @@ def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told:
     return write_design(found.design, folder.path / "design.json")
 
 
-def _sensitivities(folder: ResultsFolder, found: Answer, catalog: Catalog, table: Table) -> list[Drawing]:
-    """Write the table of sensitivities; returns the heat map to draw. Raises SimulationError."""
+def _sensitivities(
+    folder: ResultsFolder, found: Answer, catalog: Catalog, table: Table
+) -> tuple[list[Drawing], tuple[str, ...]]:
+    """Write the table of sensitivities; returns the heat map to draw, and what is not in it. Raises SimulationError."""
     from tvimdesign.report.plots import Drawing
     from tvimdesign.report.sensitivities import heat_map, sensitivities, sensitivities_csv
 
     derivatives, rig = sensitivities(found, catalog, table)
     folder.write("sensitivities.csv", sensitivities_csv(derivatives, rig))
     data = heat_map(derivatives, rig)
-    return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
+    drawings = [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
+    return drawings, derivatives.left_out
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:

@@ -13,6 +13,8 @@ from tvimdesign.solve.elasticity import Elasticities, elasticities, entries
 from tvimdesign.solve.rig import Rig, rig_of_design
 from tvimdesign.units import from_si, pretty, to_si
 
+_FINER = 2
+"""Time elements for each of the study's: with 16 the cycle's exponents are within 0.4 % of those with 48."""
 _SHOWN = 5e-3
 """Elasticity below which a row or a column of the heat map has nothing to say."""
 
@@ -23,7 +25,7 @@ def sensitivities(answer: Answer, catalog: Catalog, table: Table) -> tuple[Elast
     asked = {*answer.design.study["minimize"], *(one["output"] for one in answer.design.study["require"])}
     wanted = [name for name in table.names(rig.points) if table.output(name).headline or name in asked]
     options = answer.design.study["solver"]
-    return elasticities(rig, options["elements"], options["cells"], wanted), rig
+    return elasticities(rig, _FINER * options["elements"], options["cells"], wanted), rig
 
 
 def sensitivities_csv(found: Elasticities, rig: Rig) -> str:
