@@ -59,23 +59,21 @@ def run_study(
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         found = answer(study, catalog, table, progress)
-        left_out: tuple[str, ...] = ()
-        plotted = [Drawing(name, name, data) for name, data in plot_data(found, table).items()] if found.found else []
+        plotted: list[Drawing] = []
+        if drawing and found.found:
+            plotted += [Drawing(name, name, data) for name, data in plot_data(found, table).items()]
+        told = results(found, table) | {"why": why(found, table)}
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
-                drawings, left_out = _sensitivities(folder, found, catalog, table)
-                plotted += drawings
+                plotted += _sensitivities(folder, found, catalog, table, told)
         if drawing and found.found:
             drawing.begin(folder.path / "plots", plotted)
-        told = results(found, table) | {"why": why(found, table), "sensitivities_left_out": list(left_out)}
         design = _write(folder, path, study, found, told, table)
         progress("")
         if not as_json:
             print_summary(found, table, wide_console())
-            if left_out:
-                said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(left_out)}."
-                wide_console().print(f"[dim]{said}[/dim]")
+            _print_left_out(told)
         if drawing and found.found:
             progress("drawing the plots")
             with _noting(troubles):
@@ -117,17 +115,24 @@ def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told:
 
 
 def _sensitivities(
-    folder: ResultsFolder, found: Answer, catalog: Catalog, table: Table
-) -> tuple[list[Drawing], tuple[str, ...]]:
-    """Write the table of sensitivities; returns the heat map to draw, and what is not in it. Raises SimulationError."""
+    folder: ResultsFolder, found: Answer, catalog: Catalog, table: Table, told: dict[str, Any]
+) -> list[Drawing]:
+    """Write the table of sensitivities, tell what is not in it; returns the heat map. Raises SimulationError."""
     from tvimdesign.report.plots import Drawing
     from tvimdesign.report.sensitivities import heat_map, sensitivities, sensitivities_csv
 
     derivatives, rig = sensitivities(found, catalog, table)
     folder.write("sensitivities.csv", sensitivities_csv(derivatives, rig))
+    told["sensitivities_left_out"] = list(derivatives.left_out)
     data = heat_map(derivatives, rig)
-    drawings = [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
-    return drawings, derivatives.left_out
+    return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
+
+
+def _print_left_out(told: dict[str, Any]) -> None:
+    names = told.get("sensitivities_left_out")
+    if names:
+        said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(names)}."
+        wide_console().print(f"[dim]{said}[/dim]")
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -81,7 +82,8 @@ def why_rows(answer: Answer, table: Table) -> list[dict[str, Any]]:
         for one in group:
             room, unit = margin_of(one, table)
             rows.append({
-                "limit": one.text, "stands": stands, "origin": one.origin, "room": room, "room_unit": pretty(unit),
+                "limit": one.text, "stands": stands, "origin": one.origin,
+                "room": room if math.isfinite(room) else None, "room_unit": pretty(unit),
                 "step": one.step, "objective": one.price, "outputs": dict(one.savings),
             })  # fmt: skip
     return rows
@@ -101,6 +103,7 @@ def why_csv(answer: Answer, table: Table) -> str:
     writer.writerow(["limit", "stands", "origin", "room", "room_unit", "step", *costs])
     for row in why_rows(answer, table):
         each = [f"{row['outputs'][name]:.6g}" if name in row["outputs"] else "" for name in outputs]
-        places = [row["limit"], row["stands"], row["origin"], f"{row['room']:.6g}", row["room_unit"], row["step"]]
+        room = "" if row["room"] is None else f"{row['room']:.6g}"
+        places = [row["limit"], row["stands"], row["origin"], room, row["room_unit"], row["step"]]
         writer.writerow([*places, f"{row['objective']:.6g}", *each])
     return stream.getvalue()
