@@ -29,6 +29,9 @@ require:
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 2}
 solver: {starts: 1, tolerance: 1e-10}
 """
+_HOLDING = '  layer_holding_torque: ">= 30 N.m"\n'
+CURVED = SMALL.replace("require:", "  arc_span: [20 deg, 60 deg]\nrequire:").replace(_HOLDING, "")
+"""Fewer limits bind here than there are variables, so that how the optimum moves depends on curvature."""
 STEP = 2e-3
 """Share by which limits are moved either way."""
 
@@ -64,8 +67,9 @@ def _moved(study: Study, held: Held, share: float) -> Study:
     return study.model_copy(update={"require": tuple(require)})
 
 
-def test_savings_are_what_optima_with_the_limit_moved_show() -> None:
-    study = _study()
+@pytest.mark.parametrize("text", [SMALL, CURVED], ids=["at a corner", "on a slope"])
+def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
+    study = read_study_text(text, "a test")
     at_optimum = _optimum(study)
     binding = [held for held in _held(study) if held.price > 1e-3 and held.origin in ("require", "vary")]
     assert len(binding) >= 4
