@@ -56,12 +56,18 @@ def run(
     overwrite: Overwrite = False,
     cad: Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, STL, GLB, preview.")] = True,
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
+    sensitivities: Annotated[
+        bool, typer.Option("--sensitivities", help="Write what every variable does to every output at the design.")
+    ] = False,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
     from tvimdesign.report.run import run_study
 
-    run_study(study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, as_json=json)
+    run_study(
+        study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
+        as_json=json,
+    )  # fmt: skip
 
 
 @app.command()

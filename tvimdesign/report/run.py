@@ -19,6 +19,7 @@ from tvimdesign.study import Study, read_study
 from tvimdesign.study.design import Design, read_design, write_design
 
 if TYPE_CHECKING:
+    from tvimdesign.report.plots import Drawing
     from tvimdesign.solve.answer import Answer
 
 CAD_TIME_LIMIT = 300.0  # s
@@ -39,12 +40,15 @@ def describe(study: Study) -> str:
     return f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
 
 
-def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool) -> None:
+def run_study(
+    path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False
+) -> None:
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.plot_data import plot_data
     from tvimdesign.report.plots import Drawing, PlotProcess
     from tvimdesign.report.summary import complaint, print_summary
     from tvimdesign.report.tables import results
+    from tvimdesign.report.why import why
     from tvimdesign.solve.answer import answer
 
     study = read_study(path)
@@ -55,14 +59,21 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         found = answer(study, catalog, table, progress)
+        plotted: list[Drawing] = []
         if drawing and found.found:
-            plotted = plot_data(found, table)
-            drawing.begin(folder.path / "plots", [Drawing(name, name, data) for name, data in plotted.items()])
-        told = results(found, table)
+            plotted += [Drawing(name, name, data) for name, data in plot_data(found, table).items()]
+        told = results(found, table) | {"why": why(found, table)}
+        if found.found and (sensitivities or study.write.sensitivities):
+            progress("differentiating the outputs")
+            with _noting(troubles):
+                plotted += _sensitivities(folder, found, catalog, table, told)
+        if drawing and found.found:
+            drawing.begin(folder.path / "plots", plotted)
         design = _write(folder, path, study, found, told, table)
         progress("")
         if not as_json:
             print_summary(found, table, wide_console())
+            _print_left_out(told)
         if drawing and found.found:
             progress("drawing the plots")
             with _noting(troubles):
@@ -87,17 +98,41 @@ def run_study(path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool,
 def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
     from tvimdesign.report.tables import curves_csv, results_csv
+    from tvimdesign.report.why import why_csv
 
     folder.write("study.yaml", path.read_bytes())
     folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
     folder.write_json("results.json", told)
     folder.write("results.csv", results_csv(told["values"]))
+    if found.solution and found.found:
+        folder.write("why.csv", why_csv(found, table))
     units = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
     for stage, history in found.histories.items():
         folder.write(f"{stage}.csv", curves_csv(history, units, "degC"))
     units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in found.sweep}
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     return write_design(found.design, folder.path / "design.json")
+
+
+def _sensitivities(
+    folder: ResultsFolder, found: Answer, catalog: Catalog, table: Table, told: dict[str, Any]
+) -> list[Drawing]:
+    """Write the table of sensitivities, tell what is not in it; returns the heat map. Raises SimulationError."""
+    from tvimdesign.report.plots import Drawing
+    from tvimdesign.report.sensitivities import heat_map, sensitivities, sensitivities_csv
+
+    derivatives, rig = sensitivities(found, catalog, table)
+    folder.write("sensitivities.csv", sensitivities_csv(derivatives, rig))
+    told["sensitivities_left_out"] = list(derivatives.left_out)
+    data = heat_map(derivatives, rig)
+    return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
+
+
+def _print_left_out(told: dict[str, Any]) -> None:
+    names = told.get("sensitivities_left_out")
+    if names:
+        said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(names)}."
+        wide_console().print(f"[dim]{said}[/dim]")
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:

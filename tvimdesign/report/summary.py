@@ -21,12 +21,13 @@ from tvimdesign.report.tables import (
     value_text,
     variable_rows,
 )
+from tvimdesign.report.why import binding, sentences, slack_in_words
 from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.units import format_quantity, from_si, pretty
 
 _LOOSE = 0.05
 """Share of the first swing without contact from which on small motions say little of the joint."""
-_PRICE_SHOWN = 1e-3
+_SENTENCES_SHOWN = 3
 _SIZES_SHOWN = 12
 _ROUND = 1e-5  # of any unit a limit is written in
 
@@ -54,7 +55,7 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
         grid.add_row(name, value, unit, description)
     console.print(grid)
     _print_checks(answer, table, console)
-    _print_prices(answer, console)
+    _print_prices(answer, table, console)
 
 
 def _print_variables(answer: Answer, table: Table, console: Console, title: str) -> None:
@@ -230,16 +231,22 @@ def _binds(check: Check) -> bool:
     return abs(check.margin) <= NOTHING
 
 
-def _print_prices(answer: Answer, console: Console) -> None:
-    if answer.solution is None:
-        return
-    held = sorted((h for h in answer.solution.held if h.price > _PRICE_SHOWN), key=lambda h: -h.price)
-    if not held:
-        return
-    grid = _grid("What holds the design back", ("limit", "relaxed by", "lowers the objective by"), right=(1, 2))
-    for row in held:
-        grid.add_row(row.text, row.step, f"{row.price:.2g} %")
-    console.print(grid)
+def _print_prices(answer: Answer, table: Table, console: Console) -> None:
+    """What binds, with its cost in the objective and in each output; the costliest in sentences; what is slack."""
+    held = binding(answer)
+    if held:
+        outputs = list(answer.design.study["minimize"])
+        columns = ("limit", "relaxed by", "lowers the objective by", *outputs)
+        grid = _grid("What holds the design back", columns, right=tuple(range(1, len(columns))))
+        for row in held:
+            each = (f"{row.savings[name]:.2g} %" if name in row.savings else "" for name in outputs)
+            grid.add_row(row.text, row.step, f"{row.price:.2g} %", *each)
+        console.print(grid)
+        for sentence in sentences(answer)[:_SENTENCES_SHOWN]:
+            console.print(escape(sentence))
+    room = slack_in_words(answer, table)
+    if room:
+        console.print(f"[dim]{escape(room)}[/dim]")
 
 
 def _print_warnings(answer: Answer, table: Table, console: Console) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 
 from tvimdesign.device import Input, Output, Table
 from tvimdesign.solve.answer import Answer, Check
+from tvimdesign.solve.solution import Held
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si, pretty
 
@@ -96,7 +97,7 @@ def drive_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]]:
     return rows
 
 
-def margin_of(check: Check, table: Table) -> tuple[float, str]:
+def margin_of(check: Check | Held, table: Table) -> tuple[float, str]:
     """What is left of a limit: a share with the unit 1, or in the row's unit where the limit has no size of its own."""
     if not check.absolute:
         return check.margin, "1"
@@ -105,7 +106,7 @@ def margin_of(check: Check, table: Table) -> tuple[float, str]:
     return from_si(check.margin * check.scale, unit), unit
 
 
-def margin_text(check: Check, table: Table) -> str:
+def margin_text(check: Check | Held, table: Table) -> str:
     """The margin for people: in percent or in the row's unit; rounding is not a margin."""
     if not math.isfinite(check.margin):
         return "never"

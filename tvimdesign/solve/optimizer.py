@@ -74,6 +74,21 @@ class Run:
     """What the objective falls with every parameter of the problem, per unit."""
 
 
+@dataclass(frozen=True)
+class Derivatives:
+    """The problem where a run ended: its constraints' values, and exact first and second derivatives."""
+
+    rows: Array
+    jacobian: Any
+    """DM, of the constraints by the unknowns."""
+    hessian: Any
+    """DM, of the Lagrangian, both triangles."""
+    values: dict[str, float]
+    """The minimised outputs, as collocation has them."""
+    gradients: dict[str, Array]
+    """Of the minimised outputs by the unknowns."""
+
+
 class Optimizer:
     """One study with its records chosen: the problem and its solvers, built once."""
 
@@ -279,17 +294,16 @@ class Optimizer:
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        lower, upper = self._bounds(fixed or {})
+        lower, upper = self.bounds(fixed or {})
         solver = self._solver(warm is not None)
         arguments: dict[str, Any] = {"x0": self._guess(inputs) if warm is None else warm.unknowns}
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         goal = goal or Goal(self.study.minimize)
-        weights = [goal.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
         equations = self.problem.equation_count
         rest = self.problem.slope_count + self.problem.peak_count
         answer = solver(
-            **arguments, p=np.concatenate([self.model.start, weights]), lbx=lower, ubx=upper,
+            **arguments, p=self._parameters(goal.weights), lbx=lower, ubx=upper,
             lbg=np.concatenate([np.zeros(equations), np.full(len(self.problem.limits) + rest, -np.inf)]),
             ubg=np.concatenate([np.zeros(equations), goal.room(self.problem.limits), np.zeros(rest)]),
         )  # fmt: skip
@@ -311,7 +325,29 @@ class Optimizer:
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
         return Run(start, end, drives, ends, unknowns, *multipliers)
 
-    def _bounds(self, fixed: Mapping[str, float]) -> tuple[Array, Array]:
+    def _parameters(self, weights: Mapping[str, float]) -> Array:
+        """The problem's parameters: the study's inputs, and weights over the references."""
+        over = [weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
+        return np.concatenate([self.model.start, over])
+
+    def derivatives(self, run: Run) -> Derivatives:
+        """The problem's values and derivatives where a run of the study's own goal ended.
+
+        IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
+        """
+        solver = self._solver(warm=False)
+        parameters = self._parameters(self.study.minimize)
+        rows, jacobian = solver.get_function("nlp_jac_g")(run.unknowns, parameters)
+        hessian = solver.get_function("nlp_hess_l")(run.unknowns, parameters, 1.0, run.multipliers)
+        values, gradients = {}, {}
+        for name in self.problem.minimize:
+            alone = self._parameters({name: self.reference[name]})
+            value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
+            values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
+        return Derivatives(np.asarray(rows).ravel(), jacobian, ca.triu2symm(hessian), values, gradients)
+
+    def bounds(self, fixed: Mapping[str, Any]) -> tuple[Array, Array]:
+        """Least and largest unknowns, with some free numbers fixed."""
         lower = np.full(self.problem.unknown_count, -np.inf)
         upper = np.full(self.problem.unknown_count, np.inf)
         for i, free in enumerate(self.free):

@@ -115,6 +115,7 @@ class Problem:
         self.blocks = self._write_blocks(device_inputs)
         self.balances = self._write_balances(device_inputs)
         switch, self.peaks, peak_rows = self._switch_values()
+        self.switch = switch
         wanted = self.wanted
         values = self.model.outputs(wanted)(device_inputs, switch) if wanted else ca.MX(0, 1)
         objective = sum(weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))

@@ -114,6 +114,10 @@ class Simulator:
                 values |= simulator.steady_values(inputs, balance)
         return Switch(values, trajectories, balances)
 
+    def trace(self, name: str, inputs: Array, before: Array | None, end: float) -> Trajectory:
+        """A stage at its constant current for `end` seconds, on beyond what ends it if that is longer."""
+        return self._stage(name).trace(inputs, self.constant_drive(name, inputs), before, end)
+
     def constant_drive(self, stage: str, inputs: Array) -> Drive:
         """The constant current the inputs ask for in a stage."""
         row = self.model.stages[stage].stage
@@ -193,9 +197,7 @@ class _StageSimulator:
         """Simulate until every event has happened, nothing changes any more, or the horizon is over."""
         found = _Found(dict.fromkeys(self._events, np.inf))
         horizon = float(inputs[self.model.index["horizon"]])
-        start = self.stage.initial(inputs) if before is None else self.stage.begin(before, inputs)
-        begin = np.append(np.asarray(start).ravel(), np.zeros(len(self._integrals)))
-        constants = np.asarray(self._constants(inputs)).ravel()
+        begin, constants = self._begin(inputs, before)
         time, length = 0.0, stretch
         pieces: list[tuple[Array, Array, Array]] = []
         while time < horizon and not all(np.isfinite(moment) for moment in found.times.values()):
@@ -212,6 +214,20 @@ class _StageSimulator:
                 break
             length = 2.0 * length if length >= FIRST_STRETCH else stretch
         return self._summary(found, pieces, inputs, drive)
+
+    def trace(self, inputs: Array, drive: Drive, before: Array | None, end: float) -> Trajectory:
+        """Simulate one stretch of a constant current, whatever happens in it."""
+        times = end * self._shares
+        begin, constants = self._begin(inputs, before)
+        currents = drive.at(times)
+        states = self._stretch(begin, constants, end, currents)
+        return Trajectory(times, states[: self.stage.state_size], currents)
+
+    def _begin(self, inputs: Array, before: Array | None) -> tuple[Array, Array]:
+        """State at the start, integrals last, and what stays the same all through the stage."""
+        start = self.stage.initial(inputs) if before is None else self.stage.begin(before, inputs)
+        begin = np.append(np.asarray(start).ravel(), np.zeros(len(self._integrals)))
+        return begin, np.asarray(self._constants(inputs)).ravel()
 
     def _stretch(self, begin: Array, constants: Array, length: float, currents: Array) -> Array:
         """States at equally spaced times from `begin` over `length` seconds; the current runs straight."""

@@ -38,14 +38,26 @@ class Held:
     """One limit or bound at the solution: its residual (share of its scale, kept where <= 0) and what it costs.
 
     `price` is how much of the objective, in percent, relaxing it by `step` would save; `step` is in words.
+    `savings` says the same of each minimised output, negative where it rises; empty where that is not determined.
     """
 
     name: str
+    output: str
     text: str
     residual: float
+    scale: float
+    """SI."""
+    absolute: bool
+    """Whether the room is to be read in the row's unit, not as a share."""
     price: float
     step: str
     origin: str
+    savings: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def margin(self) -> float:
+        """What is left of it, as a share of its scale."""
+        return -self.residual
 
 
 @dataclass(frozen=True)

@@ -74,6 +74,7 @@ class WriteOptions(_Part):
 
     plots: bool = Field(True, description="plots of the result")
     cad: bool = Field(True, description="STEP, STL and GLB of the parts")
+    sensitivities: bool = Field(False, description="what every variable does to every output at the design")
 
 
 class Study(_Part):

@@ -1,0 +1,121 @@
+"""What a limit costs in each output: the implicit function theorem against optima found anew with the limit moved."""
+
+from __future__ import annotations
+
+import pytest
+from support import ROOT
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.account import account
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.search import optimize
+from tvimdesign.solve.solution import Held
+from tvimdesign.study import Range, Study, read_study, read_study_text
+
+TABLE = table_for("shear")
+SMALL = """
+mode: shear
+vary:
+  wire_diameter: [1.5 mm, 3 mm]
+  coil_diameter: [12 mm, 30 mm]
+  pcl_outer_radius: [30 mm, 42 mm]
+  pcl_thickness: [0.6 mm, 2 mm]
+  current: [0.5 A, 2 A]
+require:
+  spring_stiffness: ">= 5 N.m/rad"
+  peak_power: "<= 9 W"
+  layer_holding_torque: ">= 30 N.m"
+minimize: {envelope_volume: 1, module_mass: 1, response_time: 2}
+solver: {starts: 1, tolerance: 1e-10}
+"""
+_HOLDING = '  layer_holding_torque: ">= 30 N.m"\n'
+CURVED = SMALL.replace("require:", "  arc_span: [20 deg, 60 deg]\nrequire:").replace(_HOLDING, "")
+"""Fewer limits bind here than there are variables, so that how the optimum moves depends on curvature."""
+STEP = 2e-3
+"""Share by which limits are moved either way."""
+
+
+def _study() -> Study:
+    return read_study_text(SMALL, "a test")
+
+
+def _optimum(study: Study) -> dict[str, float]:
+    """The minimised outputs at a study's optimum, as its collocation has them."""
+    optimizer = Optimizer(study, Catalog(), TABLE, 1)
+    run = optimizer.solve()
+    assert run.start.converged
+    return optimizer.derivatives(run).values
+
+
+def _held(study: Study) -> tuple[Held, ...]:
+    optimizer = Optimizer(study, Catalog(), TABLE, 1)
+    run = optimizer.solve()
+    return account(optimizer, run, (run.start,), {}).held
+
+
+def _moved(study: Study, held: Held, share: float) -> Study:
+    """The study with one limit eased by a share of its size."""
+    output, sense = held.name.split(" ")
+    factor = 1.0 + share if sense == "<=" else 1.0 - share
+    if held.origin == "vary":
+        vary = study.vary[output]
+        assert isinstance(vary, Range)
+        end = {"upper": vary.upper * factor} if sense == "<=" else {"lower": vary.lower * factor}
+        return study.model_copy(update={"vary": {**study.vary, output: vary.model_copy(update=end)}})
+    require = [r.model_copy(update={"limit": r.limit * factor}) if r.output == output else r for r in study.require]
+    return study.model_copy(update={"require": tuple(require)})
+
+
+@pytest.mark.parametrize("text", [SMALL, CURVED], ids=["at a corner", "on a slope"])
+def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
+    study = read_study_text(text, "a test")
+    at_optimum = _optimum(study)
+    binding = [held for held in _held(study) if held.price > 1e-3 and held.origin in ("require", "vary")]
+    assert len(binding) >= 4
+    assert {held.origin for held in binding} == {"require", "vary"}
+    for held in binding:
+        eased, tightened = (_optimum(_moved(study, held, share)) for share in (STEP, -STEP))
+        for name, saving in held.savings.items():
+            shown = (tightened[name] - eased[name]) / (2.0 * STEP * at_optimum[name])
+            assert saving == pytest.approx(shown, rel=1e-3, abs=2e-4), (held.text, name)
+
+
+@pytest.mark.parametrize("name", ["paper_shear", "fast_switch", "compare_compression"])
+def test_savings_add_up_to_the_price_in_the_objective(name: str) -> None:
+    """The envelope theorem: to first order the weighted sum changes by the multiplier."""
+    study = read_study(ROOT / "studies" / f"{name}.yaml")
+    study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 1})})
+    solution = optimize(study, Catalog(), table_for(study.mode))
+    weights = {n: w * solution.values[n] / solution.reference[n] for n, w in study.minimize.items()}
+    priced = [held for held in solution.held if held.price > 1e-3 and held.savings]
+    assert len(priced) >= 5
+    for held in priced:
+        total = sum(weights[n] * saving for n, saving in held.savings.items()) / solution.objective
+        assert total == pytest.approx(held.price, rel=1e-3, abs=1e-5), held.text
+
+
+def test_a_limit_with_room_saves_nothing() -> None:
+    slack = [held for held in _held(_study()) if held.residual < -0.01]
+    assert len(slack) >= 5
+    assert all(saving == 0.0 for held in slack for saving in held.savings.values())
+
+
+def test_a_variable_nothing_depends_on_hides_no_saving() -> None:
+    study = _study()
+    idle = study.model_copy(update={"vary": {**study.vary, "cooling_current": Range(lower=0.5, upper=2.0)}})
+    savings = {held.name: held.savings for held in _held(study)}
+    for held in _held(idle):
+        if held.price > 1e-3:
+            assert held.savings == pytest.approx(savings[held.name], rel=1e-4, abs=1e-6), held.text
+
+
+def test_of_a_limit_that_is_written_twice_no_saving_is_claimed() -> None:
+    study = _study()
+    twice = study.model_copy(update={"require": (*study.require, study.require[0])})
+    alone = {held.name: held.savings for held in _held(study)}
+    for held in _held(twice):
+        if held.name == "spring_stiffness >=":
+            assert held.savings == {}
+        elif held.price > 1e-3:
+            assert held.savings == pytest.approx(alone[held.name], rel=1e-4, abs=1e-6), held.text

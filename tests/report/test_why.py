@@ -1,0 +1,77 @@
+"""Why this design: what the page says is what the account found, in words a reader can hold against the numbers."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.report.why import binding, sentences, slack, slack_in_words, why_csv, why_rows
+from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.study import read_study_text
+
+TABLE = table_for("shear")
+STUDY = """
+mode: shear
+vary:
+  wire_diameter: [1.5 mm, 3 mm]
+  coil_diameter: [12 mm, 30 mm]
+  pcl_thickness: [0.6 mm, 2 mm]
+  current: [0.5 A, 2 A]
+require:
+  spring_stiffness: [">= 5 N.m/rad", "<= 8 N.m/rad"]
+  peak_power: "<= 9 W"
+minimize: {module_mass: 1, response_time: 1}
+solver: {starts: 1}
+"""
+
+
+@pytest.fixture(scope="module")
+def found() -> Answer:
+    return answer(read_study_text(STUDY, "a test"), Catalog(), TABLE)
+
+
+def test_more_stiffness_costs_mass(found: Answer) -> None:
+    held = next(held for held in binding(found) if held.name == "spring_stiffness >=")
+    cost = held.savings["module_mass"]
+    assert 0.0 < cost < 1.0
+    said = next(one for one in sentences(found) if one.startswith("1 % more spring_stiffness (now >= 5 N·m/rad) costs"))
+    assert f"{cost:.2g} % module_mass" in said
+
+
+def test_less_power_costs_time(found: Answer) -> None:
+    said = next(one for one in sentences(found) if "peak_power" in one)
+    assert said.startswith("1 % less peak_power (now <= 9 W) costs")
+    assert "response_time" in said
+
+
+def test_a_limit_either_binds_or_touches_or_has_room(found: Answer) -> None:
+    rows = why_rows(found, TABLE)
+    assert found.solution is not None
+    assert len(rows) == len(found.solution.held)
+    by_text = {row["limit"]: row for row in rows}
+    assert by_text["spring_stiffness >= 5 N·m/rad"]["stands"] == "binds"
+    upper = by_text["spring_stiffness <= 8 N·m/rad"]
+    assert upper["stands"] == "slack"
+    assert upper["room"] == pytest.approx(1.0 - 5.0 / 8.0, rel=1e-3)
+    for row in rows:
+        assert (row["stands"] == "slack") == (row["room"] > 0.0 and row["objective"] < 1e-3) or row[
+            "stands"
+        ] == "touches"
+
+
+def test_slack_limits_stand_in_the_order_of_their_room(found: Answer) -> None:
+    rooms = [held.margin for held in slack(found)]
+    assert rooms == sorted(rooms)
+    assert "spring_stiffness <= 8 N·m/rad (room 37.5%)" in slack_in_words(found, TABLE)
+
+
+def test_the_table_on_file_has_a_column_for_each_output(found: Answer) -> None:
+    rows = list(csv.DictReader(io.StringIO(why_csv(found, TABLE))))
+    first = binding(found)[0]
+    assert rows[0]["limit"] == first.text
+    for name, saving in first.savings.items():
+        assert float(rows[0][f"{name} [%]"]) == pytest.approx(saving, rel=1e-5, abs=1e-12)

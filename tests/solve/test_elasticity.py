@@ -1,0 +1,107 @@
+"""What a variable does to an output: exact derivatives against power laws and against simulations made anew."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support import fine
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.drive import Drive
+from tvimdesign.solve.elasticity import Elasticities, elasticities, entries
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.rig import Rig, rig_for
+from tvimdesign.study import read_study_text
+
+CELLS, ELEMENTS = 12, 32
+OF_CYCLE = (
+    "response_time", "softening_time", "stiffening_time", "frozen_time", "far_face_cooling_time", "cycle_time",
+    "switch_energy", "peak_power", "peak_voltage", "stiffening_energy", "hold_power",
+)  # fmt: skip
+OF_GEOMETRY = ("spring_stiffness", "layer_strain", "pcl_area", "module_mass", "envelope_volume", "joint_stiffness@cold")
+TEMPERATURES = ("peak_peltier_temperature", "peltier_temperature_reserve")
+STEP = 4e-3
+
+
+def _rig(text: str = "mode: shear\n") -> Rig:
+    study = read_study_text(text, "a test")
+    return rig_for(study, Catalog(), table_for(study.mode))
+
+
+@pytest.fixture(scope="module")
+def rig() -> Rig:
+    return _rig("mode: shear\nmodule: {transmission: unity, current: 2 A}\n")
+
+
+@pytest.fixture(scope="module")
+def found(rig: Rig) -> Elasticities:
+    return elasticities(rig, ELEMENTS, CELLS, [*OF_CYCLE, *OF_GEOMETRY, *TEMPERATURES])
+
+
+def _logarithmic(found: Elasticities, rig: Rig) -> dict[tuple[str, str], float | None]:
+    return {(one.output, one.variable): one.logarithmic for one in entries(found, rig)}
+
+
+def test_powers_of_textbook_formulae_come_back(found: Elasticities, rig: Rig) -> None:
+    by = _logarithmic(found, rig)
+    assert by["spring_stiffness", "wire_diameter"] == pytest.approx(4.0, abs=0.01)  # E d^4 / (64 D n)
+    assert by["layer_strain", "pcl_thickness"] == pytest.approx(-1.0, rel=1e-12)  # r theta / t
+    assert by["layer_strain", "pcl_outer_radius"] == pytest.approx(1.0, rel=1e-12)
+    assert by["pcl_area", "arc_span"] == pytest.approx(1.0, rel=1e-12)
+    outer, inner = rig.values["pcl_outer_radius"], rig.values["pcl_inner_radius"]
+    assert by["pcl_area", "pcl_outer_radius"] == pytest.approx(2.0 * outer**2 / (outer**2 - inner**2), rel=1e-12)
+    assert by["module_mass", "current"] == 0.0
+    assert by["response_time", "cooling_current"] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["pcl_thickness", "pcl_outer_radius", "current", "cooling_current", "core_radius"])
+def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(
+    name: str, found: Elasticities, rig: Rig
+) -> None:
+    by = _logarithmic(found, rig)
+    model = Model(rig.table, rig.values, rig.points, CELLS)
+    simulator, ends = fine(model), []
+    for factor in (1.0 - STEP, 1.0 + STEP):
+        inputs = model.start.copy()
+        inputs[model.index[name]] *= factor
+        ends.append(model.values(inputs, simulator.run(inputs).values))
+    below, above = ends
+    for output in OF_CYCLE:
+        shown = float(np.log(above[output] / below[output]) / np.log((1.0 + STEP) / (1.0 - STEP)))
+        assert by[output, name] == pytest.approx(shown, rel=3e-3, abs=3e-3), output
+
+
+def test_a_temperature_has_a_derivative_and_no_logarithm(found: Elasticities, rig: Rig) -> None:
+    records = {(one.output, one.variable): one for one in entries(found, rig)}
+    peak = records["peak_peltier_temperature", "current"]
+    assert peak.logarithmic is None
+    assert peak.derivative > 0.0
+    reserve = records["peltier_temperature_reserve", "current"]
+    assert reserve.logarithmic is None
+    assert reserve.derivative == pytest.approx(-peak.derivative, rel=1e-9)
+    assert reserve.per_hundredth == pytest.approx(0.02 * reserve.derivative, rel=1e-12)  # 1 % of 2 A
+
+
+def test_what_never_happens_is_left_out_by_name() -> None:
+    weak = _rig("mode: shear\nmodule: {current: 0.2 A}\n")
+    found = elasticities(weak, 8, CELLS, ["response_time", "cycle_time", "module_mass"])
+    assert found.outputs == ("module_mass",)
+    assert found.left_out == ("response_time", "cycle_time")
+    assert np.all(np.isfinite(found.derivatives))
+
+
+def test_what_hangs_on_a_profile_is_left_out_by_name(rig: Rig) -> None:
+    """A profile divides the time its stage takes, so the current is no one number there."""
+    driven = Rig(rig.study, rig.catalog, rig.table, rig.values, {"stiffening": Drive.constant(-0.5)})
+    found = elasticities(driven, 8, CELLS, ["response_time", "stiffening_time", "module_mass"])
+    assert found.left_out == ("stiffening_time",)
+    assert "cooling_current" not in found.variables
+    assert "current" in found.variables
+
+
+def test_the_compression_module_is_differentiated_alike() -> None:
+    found = elasticities(rig := _rig("mode: compression\n"), 8, CELLS, ["response_time", "module_mass", "block_strain"])
+    by = _logarithmic(found, rig)
+    assert by["block_strain", "block_depth"] == pytest.approx(-1.0, rel=1e-9)
+    assert 0.0 < (by["response_time", "block_depth"] or 0.0) < 2.0
