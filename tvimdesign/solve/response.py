@@ -63,7 +63,7 @@ class Response:
         """For each peak the row of the sample it is: the one that presses most, the greatest where none does."""
         problem = self._optimizer.problem
         first = len(derivatives.rows) - problem.peak_count
-        columns = derivatives.jacobian[first:, problem.unknown_count - len(problem.peaks) :].sparse().toarray()
+        columns = derivatives.jacobian[first:, problem.unknown_count - len(problem.peaks) :].full()
         tied = []
         for column in columns.T:
             samples = first + np.flatnonzero(column)
