@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.front import Front, Point, Tradeoff, undominated
+from tvimdesign.solve.front import Front, Point, Tradeoff, undominated, with_ceilings
 from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.optimizer import Optimizer, Run
+from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer, Run
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Requirement, Study, read_study_text
 
@@ -105,6 +105,32 @@ def test_a_point_takes_one_run_and_an_end_that_is_known_one_more(monkeypatch: py
     runs.clear()
     trade.front(TIME, SIZE, 6)
     assert len(runs) == begins + 1 + 4 + 1
+
+
+def test_what_found_the_optimum_serves_for_its_front(
+    traded: tuple[Study, Front], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With ceilings that are not felt the optimum is the same, and so is the front, with nothing built again."""
+    study, front = traded
+    outputs, table, built = (TIME, MASS), table_for(study.mode), list[Optimizer]()
+    many = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": EXPAND_FROM})})
+    bare = optimize(many, Catalog(), table)
+    usual = {name: bare.values[name] for name in outputs}
+    solution = optimize(with_ceilings(many, outputs, usual), Catalog(), table, keep=built.append)
+    assert solution.objective == pytest.approx(bare.objective, rel=1e-4)
+
+    def refused(*_: Any, **__: Any) -> None:
+        raise AssertionError("built again")
+
+    monkeypatch.setattr(Optimizer, "__init__", refused)
+    again = Tradeoff(many, Catalog(), table, solution, outputs, built=built[0]).front(TIME, MASS, 5)
+    assert again.failures == ()
+    for mine, theirs in ((again.points[0], front.points[0]), (again.points[-1], front.points[-1])):
+        assert [mine.values[name] for name in outputs] == pytest.approx(
+            [theirs.values[name] for name in outputs], rel=5e-3
+        )
+    with pytest.raises(AssertionError, match="built again"):  # no ceiling on this one
+        Tradeoff(many, Catalog(), table, solution, (TIME, MASS, SIZE), built=built[0])
 
 
 @pytest.mark.parametrize("turn", [0, 2, 4])

@@ -8,7 +8,7 @@ twice, for any pair of the outputs the trade-off was set up with.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -29,6 +29,8 @@ from tvimdesign.units import format_quantity
 SIDE_WEIGHT = 1e-2
 """Weight of the other output against the one that is made small, both as ratios to the optimum: a front ends where a
 hundredth of one buys less than a ten-thousandth of the other, and no point gives anything away."""
+OUT_OF_THE_WAY = 100.0
+"""A ceiling that is not to be felt, over the usual value of its output."""
 ONE_POINT = 2e-3
 """Share by which the ends must differ in both outputs to be a front; less is the simulation's tolerance."""
 
@@ -71,14 +73,21 @@ class Tradeoff:
 
     def __init__(
         self, study: Study, catalog: Catalog, table: Table, solution: Solution, outputs: Sequence[str],
-        progress: Progress = lambda _: None,
+        progress: Progress = lambda _: None, built: Optimizer | None = None,
     ) -> None:  # fmt: skip
-        """Build it around a study's optimum, where every search begins; listed sizes and records stay those found."""
+        """Build it around a study's optimum, where every search begins; listed sizes and records stay those found.
+
+        Where what was `built` to find the optimum has a ceiling on every output (`with_ceilings`), it serves again.
+        """
         self.table, self.outputs, self.progress = table, tuple(outputs), progress
         self.listed = [name for name, vary in study.vary.items() if isinstance(vary, Options)]
-        asked = _for_tradeoff(study, solution, self.outputs, self.listed)
-        self._reference = {name: abs(solution.values[name]) or 1.0 for name in self.outputs}
-        self._optimizer = Optimizer(asked, catalog, table, EXPAND_FROM, self._reference)
+        reference = {name: abs(solution.values[name]) or 1.0 for name in self.outputs}
+        if built is None or self.listed or not _serves(built, self.outputs):
+            asked = _for_tradeoff(study, solution, self.outputs, self.listed)
+            built = Optimizer(asked, catalog, table, EXPAND_FROM, reference)
+        self._optimizer = built
+        # Weights are over what the problem was built with; a front weighs ratios to the optimum.
+        self._weights = {name: built.reference[name] / reference[name] for name in self.outputs}
         self._ceilings = {
             name: min((r.limit for r in study.require if (r.output, r.sense) == (name, "<=")), default=math.inf)
             for name in self.outputs
@@ -168,7 +177,7 @@ class Tradeoff:
         ceilings = {**self._ceilings}
         if bound is not None:
             ceilings[other] = min(bound, ceilings[other])
-        goal = Goal({name: 1.0, other: SIDE_WEIGHT}, ceilings)
+        goal = Goal({name: self._weights[name], other: SIDE_WEIGHT * self._weights[other]}, ceilings)
         found: Point | Failure = Failure(bound, "")
         if near is not None:
             found = self._from([self._inputs(near)], goal, bound)
@@ -213,6 +222,23 @@ class Tradeoff:
                 return f"converged, but simulated it breaks {in_words(limit, self.table)}: {value}"
         inputs = {name: float(run.inputs[i]) for name, i in optimizer.model.index.items()}
         return Point(bound, {**inputs, **values}, {stage: drive.plain() for stage, drive in run.drives.items()})
+
+
+def with_ceilings(study: Study, outputs: Iterable[str], usual: Mapping[str, float]) -> Study:
+    """The study with a ceiling far above the usual value (SI) of each output that has none, for a front to lower."""
+    own = {r.output for r in study.require if r.sense == "<="}
+    added = tuple(
+        Requirement(output=name, sense="<=", limit=OUT_OF_THE_WAY * usual[name], text="a ceiling of the front")
+        for name in outputs
+        if name not in own
+    )
+    return study.model_copy(update={"require": (*study.require, *added)})
+
+
+def _serves(built: Optimizer, outputs: Iterable[str]) -> bool:
+    """Whether a built problem can trade some outputs: fast enough for many runs, each minimised and under a ceiling."""
+    under = {limit.output for limit in built.problem.limits if limit.sense == "<="}
+    return built.many and set(outputs) <= under & set(built.problem.minimize)
 
 
 def _for_tradeoff(study: Study, solution: Solution, outputs: Iterable[str], listed: Sequence[str]) -> Study:

@@ -108,7 +108,7 @@ class Optimizer:
         of the same device saves compiling it again. Raises InfeasibleError where a limit is broken that nothing free
         can mend, InputError from the table.
         """
-        self._many = runs >= EXPAND_FROM
+        self.many = runs >= EXPAND_FROM
         self.study, self.catalog, self.table, self.progress = study, catalog, table, progress
         began = time.perf_counter()
         points = tuple(study.operating_points)
@@ -130,7 +130,7 @@ class Optimizer:
         if not self.currents:
             return None
         study = self.study.model_copy(update={"profile": ProfileOptions()})
-        runs = EXPAND_FROM if self._many else 1
+        runs = EXPAND_FROM if self.many else 1
         return Optimizer(study, self.catalog, self.table, runs, self.reference, self.progress, self.simulator)
 
     def _free(self, name: str) -> Free:
@@ -191,7 +191,7 @@ class Optimizer:
             options: dict[str, Any] = {
                 "ipopt": ipopt,
                 "print_time": False,
-                "expand": self._many,
+                "expand": self.many,
                 "show_eval_warnings": False,
             }
             self._solvers[warm] = ca.nlpsol("design", "ipopt", self.problem.function, options)

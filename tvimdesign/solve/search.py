@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from tvimdesign.catalog import Catalog
@@ -25,10 +25,12 @@ def optimize(
     table: Table,
     progress: Progress = lambda _: None,
     reference: dict[str, float] | None = None,
+    keep: Callable[[Optimizer], None] = lambda _: None,
 ) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
 
     `reference` are the values the minimised outputs are divided by: those of the study's start unless given.
+    `keep` is handed the problem, with its solvers, that the best design came from.
     """
     refuse_unreachable(study, catalog, table)
     sizes = _listed_sizes(study, table)
@@ -57,6 +59,7 @@ def optimize(
                 best, constant = (optimizer, run), stepping_stone.found()
         seconds = {key: seconds[key] + optimizer.seconds[key] for key in seconds}
     assert best is not None  # there is always one combination and one start
+    keep(best[0])
     return replace(account(*best, tuple(starts), seconds), constant=constant)
 
 

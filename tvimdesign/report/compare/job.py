@@ -11,9 +11,9 @@ import json
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +27,8 @@ from tvimdesign.report.simulate import figure_data, findings
 from tvimdesign.report.summary import complaint
 from tvimdesign.report.tables import check_row
 from tvimdesign.solve.answer import Answer, answer
-from tvimdesign.solve.front import Front, Tradeoff
+from tvimdesign.solve.front import Front, Tradeoff, with_ceilings
+from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.rig import rig_of_design
 from tvimdesign.solve.trials import find_test
 from tvimdesign.study import Study, drawn, read_study
@@ -53,6 +54,7 @@ class Job:
         self.catalog: Catalog = catalog_of(self.study)
         self.table = table_for(self.study.mode)
         self.points, self.say = points, say
+        self._built: list[Optimizer] = []
         self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}}
 
     def run(self) -> dict[str, Any]:
@@ -88,11 +90,20 @@ class Job:
 
     def _optimised(self) -> Answer:
         starts = [yardstick.at_its_start(study) for study in (self.study, *map(read_study, self.others))]
-        answered = answer(self.study, self.catalog, self.table, self.say, yardstick.common(starts))
+        common = yardstick.common(starts)
+        asked = self._traded(common) if self.points else self.study
+        answered = answer(asked, self.catalog, self.table, self.say, common, self._built.append)
+        design = answered.design.model_copy(update={"study": self.study.model_dump(mode="json")})
+        answered = replace(answered, design=design)
         if not answered.found:
             raise InfeasibleError(complaint(answered, self.table))
         self.found["optimised"] = self._told(answered)
         return answered
+
+    def _traded(self, usual: Mapping[str, float]) -> Study:
+        """The study with ceilings that a front can lower afterwards, where its outputs are minimised anyway."""
+        outputs = [name for name in front_outputs(self.study, self.table) if name in usual]
+        return with_ceilings(self.study, outputs, usual)
 
     def _told(self, answered: Answer) -> dict[str, Any]:
         checks = [check_row(check, self.table) for check in answered.checks]
@@ -112,7 +123,8 @@ class Job:
     def _trade(self, best: Answer) -> None:
         assert best.solution is not None
         first, *others = front_outputs(self.study, self.table)
-        trade = Tradeoff(self.study, self.catalog, self.table, best.solution, (first, *others), self.say)
+        trade = Tradeoff(self.study, self.catalog, self.table, best.solution, (first, *others), self.say,
+                         self._built[0] if self._built else None)  # fmt: skip
         for second in others:
             self.found["fronts"].append(self._plain(trade.front(first, second, self.points)))
 
