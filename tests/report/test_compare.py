@@ -116,6 +116,20 @@ def test_contact_lost_and_advice_that_is_not_followed_are_told(pair: Path) -> No
             assert warning["because"] in summary
 
 
+def test_what_holds_each_back_most_is_told_with_the_machine_s_reasons(pair: Path) -> None:
+    told = _told(pair)
+    for mode in ("shear", "compression"):
+        held = told["studies"][mode]["optimised"]["held"]
+        prices = [one["price"] for one in held]
+        assert 1 <= len(held) <= 3
+        assert prices == sorted(prices, reverse=True)
+        (sentence,) = (text for text in told["conclusions"] if f"{mode} is held back most by" in text)
+        for one in held:
+            assert one["limit"] in sentence
+            assert one["because"] in sentence or one["because"] in {"require", "vary", "module"}
+        assert told["studies"][mode]["drawn"]["held"] == []
+
+
 def test_the_leads_follow_from_the_fronts(pair: Path) -> None:
     told = _told(pair)
     fronts = [front for front in told["fronts"]["fronts"] if front["second"] == "module_mass"]

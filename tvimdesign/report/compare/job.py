@@ -26,6 +26,7 @@ from tvimdesign.report.run import catalog_of
 from tvimdesign.report.simulate import figure_data, findings
 from tvimdesign.report.summary import complaint
 from tvimdesign.report.tables import check_row
+from tvimdesign.report.why import binding
 from tvimdesign.solve.answer import Answer, answer
 from tvimdesign.solve.front import Front, Tradeoff, with_ceilings
 from tvimdesign.solve.optimizer import Optimizer
@@ -35,6 +36,8 @@ from tvimdesign.study import Study, drawn, read_study
 from tvimdesign.units import from_si
 
 Say = Callable[[str], None]
+HELD_TOLD = 3
+"""Count of the limits that are told of a design, those that hold it back most."""
 
 
 def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
@@ -113,6 +116,10 @@ class Job:
             "broken": [check["limit"] for check in checks if not check["kept"]],
             "warnings": [
                 {"output": check.output, "value": check.value, "because": check.origin} for check in answered.warnings
+            ],
+            "held": [
+                {"limit": held.text, "because": held.origin, "price": held.price}
+                for held in binding(answered)[:HELD_TOLD]
             ],
             "starts": len(solution.free_starts) if solution else 0,
             "converged": sum(start.converged for start in solution.free_starts) if solution else 0,

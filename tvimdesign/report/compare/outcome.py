@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
-from tvimdesign.report.compare.sentence import Contest, against, ahead, conditions, standing, wins
+from tvimdesign.report.compare.sentence import Contest, against, ahead, conditions, held_back, standing, wins
 from tvimdesign.report.compare.table import Row, common_rows, lone_values, plain
 from tvimdesign.solve.ranges import leads
 from tvimdesign.study.conditions import Entrant
@@ -141,6 +141,7 @@ class Outcome:
                 for label in labels if self.found[label][which]["broken"]
             ]  # fmt: skip
             texts += [*broken, *(text for label in labels[1:] if (text := ahead(label, labels[0], rows)))]
+            texts += [text for label in labels if (text := held_back(label, self.found[label][which]["held"]))]
             said += [f"{COMPARISONS[which].capitalize()}: {text}." for text in texts]
         return [*said, *(standing(contest) for contest in self.contests)]
 

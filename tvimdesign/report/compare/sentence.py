@@ -149,3 +149,12 @@ def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
         if found:
             said.append(f"{who} does better in {', '.join(found)}")
     return f"{'; '.join(said)}; in brackets {label} over {first}" if said else ""
+
+
+def held_back(label: str, held: Sequence[Mapping[str, Any]]) -> str:
+    """The limits that hold a design back most, the machine's own with their reasons; nothing where there are none."""
+    told = [
+        one["limit"] if one["because"] in {"require", "vary", "module"} else f"{one['limit']} ({one['because']})"
+        for one in held
+    ]
+    return f"{label} is held back most by {'; '.join(told)}" if told else ""
