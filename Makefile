@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all bench-switch lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench-switch lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -19,10 +19,13 @@ study: $(STAMP)  ## run studies/paper_shear.yaml and say where the results are
 	$(BIN)/tvimdesign run studies/paper_shear.yaml --overwrite
 
 test: $(STAMP)  ## the fast tests
-	$(BIN)/python -m pytest -q -n 2
+	$(BIN)/python -m pytest -q -n 2 --dist loadgroup
 
 test-all: $(STAMP)  ## all tests, the long ones too
-	$(BIN)/python -m pytest -q -n 2 -m ''
+	$(BIN)/python -m pytest -q -n 2 --dist loadgroup -m ''
+
+test-slow: $(STAMP)  ## the long tests alone
+	$(BIN)/python -m pytest -q -n 2 --dist loadgroup -m slow
 
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/switch.py
