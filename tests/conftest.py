@@ -33,6 +33,7 @@ COSTLY = ("runs", "pair", "traded", "found", "release", "sine", "step", "trial",
 """Fixtures that take long to make: the tests that share one go to one process, which makes it once."""
 
 
+@pytest.hookimpl(tryfirst=True)  # before xdist reads the groups
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Group tests by the costly fixture they share (`--dist loadgroup`)."""
     for item in items:
