@@ -27,16 +27,3 @@ def tvimdesign() -> Command:
         )
 
     return call
-
-
-COSTLY = ("runs", "pair", "traded", "found", "release", "sine", "step", "trial", "done")
-"""Fixtures that take long to make: the tests that share one go to one process, which makes it once."""
-
-
-@pytest.hookimpl(tryfirst=True)  # before xdist reads the groups
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Group tests by the costly fixture they share (`--dist loadgroup`)."""
-    for item in items:
-        for name in COSTLY:
-            if name in getattr(item, "fixturenames", ()):
-                item.add_marker(pytest.mark.xdist_group(f"{item.path.stem}-{name}"))

@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from support import ROOT, STUDIES, Command
 
+pytestmark = pytest.mark.xdist_group("studies")  # its costly fixture is made once, in one process
+
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
     "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml",
