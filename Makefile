@@ -19,13 +19,13 @@ study: $(STAMP)  ## run studies/paper_shear.yaml and say where the results are
 	$(BIN)/tvimdesign run studies/paper_shear.yaml --overwrite
 
 test: $(STAMP)  ## the fast tests
-	$(BIN)/python -m pytest -q -n 2 --dist loadgroup
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile
 
 test-all: $(STAMP)  ## all tests, the long ones too
-	$(BIN)/python -m pytest -q -n 2 --dist loadgroup -m ''
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile -m ''
 
 test-slow: $(STAMP)  ## the long tests alone
-	$(BIN)/python -m pytest -q -n 2 --dist loadgroup -m slow
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile -m slow
 
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/switch.py
@@ -44,8 +44,9 @@ format: $(STAMP)  ## let ruff put the code in form
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-schema: $(STAMP)  ## write the study's JSON Schema from the table
+schema: $(STAMP)  ## write the study's JSON Schema from the table, and the usual units as pint reads them
 	$(BIN)/python -m tvimdesign.study.schema
+	$(BIN)/python -m tvimdesign.units
 
 # Of the compression module what is not in cad/ is made from its design.json: meshes and assembly would be 5 MB.
 cad: $(STAMP)  ## write the reference parts in cad/ from the studies of the paper's modules

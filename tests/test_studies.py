@@ -10,8 +10,6 @@ from typing import Any
 import pytest
 from support import ROOT, STUDIES, Command
 
-pytestmark = pytest.mark.xdist_group("studies")  # its costly fixture is made once, in one process
-
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
     "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml",
@@ -19,19 +17,31 @@ FILES = {
 PLOTS = {"bounds.png", "impedance.png", "mass.png", "cycle.png"}
 RELEASED = ("paper_shear", "paper_compression")
 OPTIMISED = {"why.csv"}
-names = pytest.mark.parametrize("study", STUDIES, ids=lambda path: path.stem)
+QUICK = {"paper_as_published", "paper_shear", "paper_compression"}
+"""Studies that take seconds; the others are slow tests."""
+names = pytest.mark.parametrize(
+    "study",
+    [pytest.param(path, id=path.stem, marks=[] if path.stem in QUICK else pytest.mark.slow) for path in STUDIES],
+)
+
+
+class Runs:
+    """Folders of the studies' runs without CAD, each run when a test first asks for it."""
+
+    def __init__(self, tvimdesign: Command, under: Path) -> None:
+        self._tvimdesign, self._under = tvimdesign, under
+
+    def __getitem__(self, name: str) -> Path:
+        out = self._under / name
+        if not out.exists():
+            done = self._tvimdesign("run", ROOT / f"studies/{name}.yaml", "--no-cad", "--out", out)
+            assert done.returncode == 0, done.stderr
+        return out
 
 
 @pytest.fixture(scope="module")
-def runs(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """Every study run once without CAD: folder by name."""
-    folders = {}
-    for study in STUDIES:
-        out = tmp_path_factory.mktemp(study.stem) / "out"
-        done = tvimdesign("run", study, "--no-cad", "--out", out)
-        assert done.returncode == 0, done.stderr
-        folders[study.stem] = out
-    return folders
+def runs(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Runs:
+    return Runs(tvimdesign, tmp_path_factory.mktemp("studies"))
 
 
 def _results(folder: Path) -> dict[str, Any]:
@@ -40,7 +50,7 @@ def _results(folder: Path) -> dict[str, Any]:
 
 
 @names
-def test_a_study_leaves_a_whole_folder(runs: dict[str, Path], study: Path) -> None:
+def test_a_study_leaves_a_whole_folder(runs: Runs, study: Path) -> None:
     folder = runs[study.stem]
     expected = FILES | (OPTIMISED if _results(folder)["status"] == "optimal" else set())
     assert {path.name for path in folder.iterdir() if path.is_file()} == expected
@@ -53,14 +63,14 @@ def test_a_study_leaves_a_whole_folder(runs: dict[str, Path], study: Path) -> No
 
 
 @names
-def test_a_study_s_design_keeps_every_limit(runs: dict[str, Path], study: Path) -> None:
+def test_a_study_s_design_keeps_every_limit(runs: Runs, study: Path) -> None:
     told = _results(runs[study.stem])
     assert told["feasible"], [check for check in told["checks"] if not check["kept"]]
     assert told["status"] in {"evaluated", "optimal"}
 
 
 @names
-def test_plots_are_pictures_with_something_on_them(runs: dict[str, Path], study: Path) -> None:
+def test_plots_are_pictures_with_something_on_them(runs: Runs, study: Path) -> None:
     import matplotlib.image as mpimg
 
     for name in PLOTS:
@@ -69,7 +79,7 @@ def test_plots_are_pictures_with_something_on_them(runs: dict[str, Path], study:
         assert picture[..., :3].std() > 0.02, f"{name} is blank"
 
 
-def test_the_published_module_is_the_paper_s(runs: dict[str, Path]) -> None:
+def test_the_published_module_is_the_paper_s(runs: Runs) -> None:
     values = _results(runs["paper_as_published"])["values"]
     # 1.4023, 5.61, 18.5 and 0.0966: from the paper's table by its own formula, worked by hand.
     assert values["spring_rate"]["value"] == pytest.approx(1.4023, rel=1e-4)
@@ -79,14 +89,15 @@ def test_the_published_module_is_the_paper_s(runs: dict[str, Path]) -> None:
     assert values["pcl_area"]["value"] == pytest.approx(1579.2, rel=1e-4)  # the paper's Table I
 
 
-def test_the_re_optimised_module_is_better_in_all_it_was_asked_for(runs: dict[str, Path]) -> None:
+def test_the_re_optimised_module_is_better_in_all_it_was_asked_for(runs: Runs) -> None:
     before = _results(runs["paper_as_published"])["values"]
     after = _results(runs["paper_shear"])["values"]
     for name in ("envelope_volume", "module_mass", "response_time"):
         assert after[name]["value"] < before[name]["value"], name
 
 
-def test_the_wrist_is_half_the_size_and_takes_wire_one_can_buy(runs: dict[str, Path]) -> None:
+@pytest.mark.slow
+def test_the_wrist_is_half_the_size_and_takes_wire_one_can_buy(runs: Runs) -> None:
     told = _results(runs["wrist_joint"])
     paper = _results(runs["paper_as_published"])["values"]["envelope_diameter"]["value"]
     assert told["values"]["envelope_diameter"]["value"] <= 0.5 * paper + 0.5
@@ -95,7 +106,8 @@ def test_the_wrist_is_half_the_size_and_takes_wire_one_can_buy(runs: dict[str, P
     assert min(abs(wire - gauge) for gauge in gauges) < 1e-6
 
 
-def test_both_wrists_are_asked_the_same_and_given_the_same(runs: dict[str, Path]) -> None:
+@pytest.mark.slow
+def test_both_wrists_are_asked_the_same_and_given_the_same(runs: Runs) -> None:
     shear, compression = (json.loads((runs[name] / "study.resolved.json").read_text())
                           for name in ("wrist_joint", "wrist_compression"))  # fmt: skip
     for what in ("require", "minimize", "operating_points", "profile", "catalog_folder"):
@@ -108,7 +120,7 @@ def test_both_wrists_are_asked_the_same_and_given_the_same(runs: dict[str, Path]
     }
 
 
-def test_the_csv_holds_what_the_json_holds(runs: dict[str, Path]) -> None:
+def test_the_csv_holds_what_the_json_holds(runs: Runs) -> None:
     import csv
 
     folder = runs["paper_shear"]
@@ -119,7 +131,7 @@ def test_the_csv_holds_what_the_json_holds(runs: dict[str, Path]) -> None:
     assert float(rows["module_mass"]["value"]) == pytest.approx(values["module_mass"]["value"])
 
 
-def test_a_run_is_the_same_run_twice(tvimdesign: Command, runs: dict[str, Path], tmp_path: Path) -> None:
+def test_a_run_is_the_same_run_twice(tvimdesign: Command, runs: Runs, tmp_path: Path) -> None:
     study = next(path for path in STUDIES if path.stem == "paper_shear")
     tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "out")
     first, second = _results(runs["paper_shear"])["values"], _results(tmp_path / "out")["values"]
@@ -127,7 +139,7 @@ def test_a_run_is_the_same_run_twice(tvimdesign: Command, runs: dict[str, Path],
 
 
 @pytest.mark.parametrize("name", RELEASED)
-def test_the_released_parts_are_of_the_design_the_study_gives(runs: dict[str, Path], name: str) -> None:
+def test_the_released_parts_are_of_the_design_the_study_gives(runs: Runs, name: str) -> None:
     released = json.loads((ROOT / f"cad/{name}/design.json").read_text())["values"]
     now = json.loads((runs[name] / "design.json").read_text())["values"]
     assert released.keys() == now.keys(), "run `make cad`"

@@ -1,5 +1,6 @@
 """Units: what people write becomes SI, and everything else becomes a clear error."""
 
+import json
 import math
 import subprocess
 import sys
@@ -10,8 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tvimdesign.device import Choice, table_for
 from tvimdesign.errors import UnitError
-from tvimdesign.units import format_quantity, from_si, parse_quantity, pretty, to_si
+from tvimdesign.units import USUAL_UNITS, format_quantity, from_si, parse_quantity, pretty, read_by_pint, to_si
 
 NAMES = (
     "1 mm m in mm^2 mm^3 cm^3 L deg rad turn % s min Hz rad/s A V ohm W J g kg K degC MPa GPa Pa*s N*m N*m/rad "
@@ -177,3 +179,13 @@ def test_numbers_for_people() -> None:
 def test_pint_loads_only_when_asked() -> None:
     code = "import sys, tvimdesign.units, tvimdesign.catalog; sys.exit('pint' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_the_usual_units_are_what_pint_reads() -> None:
+    assert json.loads(USUAL_UNITS.read_text(encoding="utf-8")) == read_by_pint(), "run `make schema`"
+
+
+@pytest.mark.parametrize("mode", ["shear", "compression"])
+def test_no_row_of_a_table_waits_for_pint(mode: str) -> None:
+    units = {row.unit for row in table_for(mode).rows if not isinstance(row, Choice)}
+    assert units <= read_by_pint().keys()

@@ -19,8 +19,6 @@ from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer, Run
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Requirement, Study, read_study_text
 
-pytestmark = pytest.mark.xdist_group("front")  # its costly fixture is made once, in one process
-
 TIME, MASS, SIZE = "response_time", "module_mass", "envelope_diameter"
 
 

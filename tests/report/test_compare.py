@@ -18,8 +18,6 @@ from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
 
-pytestmark = pytest.mark.xdist_group("compare")  # its costly fixture is made once, in one process
-
 PICTURES = {"fronts.png", "release.png", "heat.png"}
 
 
