@@ -12,7 +12,13 @@ from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.study.design import Design, write_design
 
 
-@pytest.fixture(scope="session", params=CASES)
+QUICK = {"paper", "blocks"}
+"""Cases that the fast tests take; every case is one of the slow tests."""
+
+
+@pytest.fixture(
+    scope="session", params=[pytest.param(case, marks=[] if case in QUICK else pytest.mark.slow) for case in CASES]
+)
 def design(request: pytest.FixtureRequest) -> Design:
     mode, overrides = CASES[request.param]
     return design_of(request.param, overrides, mode)

@@ -18,6 +18,7 @@ def pair() -> Pair:
     return paper_case.pair()
 
 
+@pytest.mark.slow
 def test_elasticities_are_those_of_the_implicit_function_theorem(pair: Pair) -> None:
     exact = []
     for model, simulator in zip(pair.models, pair._simulators, strict=True):

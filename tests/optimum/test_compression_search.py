@@ -51,6 +51,7 @@ def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
     assert 0.49 < solution.values["block_strain"] < 0.5005
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("row", "most"), [("backlash@cold", "<= 0.000002 rad"), ("relaxation_loss@cold", "<= 0.001")])
 def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most: str) -> None:
     def solved(more: str) -> Solution:

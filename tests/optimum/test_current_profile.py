@@ -73,6 +73,7 @@ def kelvins(solution: Solution, stage: str, line: Trajectory, i: int) -> np.ndar
     return np.asarray(compiled.temperatures(line.states[:, i], line.currents[i], solution.inputs)).ravel()[:2]
 
 
+@pytest.mark.slow
 def test_more_pieces_are_never_slower_than_fewer_and_any_beats_a_constant_current() -> None:
     # Nodes of four pieces are nodes of eight; each is also free to stay constant.
     times = [solve(with_pieces(pieces)).values["response_time"] for pieces in (0, 1, 4, 8)]
@@ -102,6 +103,7 @@ def test_the_limits_hold_all_along_the_simulated_heating() -> None:
     assert np.max(hot) > 398.15 - 0.3
 
 
+@pytest.mark.slow
 def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
     solution = solve(CYCLE)
     assert solution.status == "optimal"

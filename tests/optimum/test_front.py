@@ -90,6 +90,7 @@ def test_an_end_is_no_worse_than_what_a_study_with_that_goal_alone_finds(
     assert front.points[place].values[output] <= alone.values[output] * 1.01
 
 
+@pytest.mark.slow
 def test_a_point_takes_one_run_and_an_end_that_is_known_one_more(monkeypatch: pytest.MonkeyPatch) -> None:
     _, trade = _tradeoff(SHEAR)
     solve, runs = Optimizer.solve, list[Goal]()
@@ -155,6 +156,7 @@ def test_points_beyond_a_jump_between_optima_are_those_of_the_light_end(
     ]
 
 
+@pytest.mark.slow
 def test_a_point_between_that_the_solver_does_not_reach_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     _, trade = _tradeoff(SHEAR)
     solve = Optimizer.solve
@@ -174,6 +176,7 @@ def test_a_point_between_that_the_solver_does_not_reach_is_named(monkeypatch: py
     )
 
 
+@pytest.mark.slow
 def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:
     """Nothing that is free here changes the envelope's diameter, so the quickest is as small as any."""
     _, trade = _tradeoff(SHEAR.replace("  wire_diameter: [2 mm, 3 mm]\n", "").replace(
@@ -191,6 +194,7 @@ def test_what_the_solver_does_not_reach_is_named() -> None:
     assert "no design" in front.notes[0]
 
 
+@pytest.mark.slow
 def test_listed_sizes_stay_those_of_the_optimum_and_that_is_said() -> None:
     listed = SHEAR.replace("wire_diameter: [2 mm, 3 mm]", "wire_diameter: {choose: [2.3 mm, 2.5 mm]}")
     _, trade = _tradeoff(listed)

@@ -67,6 +67,7 @@ def _moved(study: Study, held: Held, share: float) -> Study:
     return study.model_copy(update={"require": tuple(require)})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [SMALL, CURVED], ids=["at a corner", "on a slope"])
 def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
     study = read_study_text(text, "a test")
@@ -81,7 +82,14 @@ def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
             assert saving == pytest.approx(shown, rel=1e-3, abs=2e-4), (held.text, name)
 
 
-@pytest.mark.parametrize("name", ["paper_shear", "fast_switch", "compare_compression"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "paper_shear",
+        pytest.param("fast_switch", marks=pytest.mark.slow),
+        pytest.param("compare_compression", marks=pytest.mark.slow),
+    ],
+)
 def test_savings_add_up_to_the_price_in_the_objective(name: str) -> None:
     """The envelope theorem: to first order the weighted sum changes by the multiplier."""
     study = read_study(ROOT / "studies" / f"{name}.yaml")

@@ -60,6 +60,7 @@ def test_ten_random_starts_come_to_one_optimum() -> None:
         assert np.allclose(others, value, rtol=1e-4), name
 
 
+@pytest.mark.slow
 def test_the_paper_s_study_ends_in_optima_that_are_all_told(paper: Solution) -> None:
     """A ring of narrow arcs farther out is an optimum of its own, 7 % worse than four wide ones near the hub."""
     assert sum(start.converged for start in paper.starts) >= 10
@@ -165,6 +166,7 @@ def test_listed_records_are_compared_by_one_measure() -> None:
     assert solution.objective == pytest.approx(min(by_material.values()), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_every_response_time_can_be_required_and_minimised() -> None:
     for criterion in ("near_face", "mean", "far_face", "softening"):
         text = SMALL.replace("vary:", f"module: {{response_criterion: {criterion}}}\nvary:")

@@ -161,6 +161,7 @@ def test_the_csv_and_the_summary_hold_what_the_json_holds(pair: Path) -> None:
     assert all(float(point["module_mass [g]"]) > 0.0 for point in points)
 
 
+@pytest.mark.slow
 def test_a_renamed_copy_is_the_same_in_everything(tvimdesign: Command, tmp_path: Path) -> None:
     paths = written(tmp_path, one=SHEAR, copy=SHEAR)
     done = tvimdesign("compare", *paths, "--points", 2, "--no-plots", "--json", "--out", tmp_path / "out")
@@ -176,6 +177,7 @@ def test_a_renamed_copy_is_the_same_in_everything(tvimdesign: Command, tmp_path:
     assert "copy and one do not differ" in told["sentence"]
 
 
+@pytest.mark.slow
 def test_a_study_without_a_design_leaves_the_other_its_results(tvimdesign: Command, tmp_path: Path) -> None:
     asked = '  holding_torque: ">= 5 N.m"', '  holding_torque: ">= 5 N.m"\n  response_time: "<= 80 s"'
     paths = written(tmp_path, fast=SHEAR.replace(*asked), slow=COMPRESSION.replace(*asked))

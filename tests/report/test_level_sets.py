@@ -12,6 +12,8 @@ from tvimdesign.errors import InputError
 from tvimdesign.report import level_sets
 from tvimdesign.report.level_sets import print_level_sets, write_level_sets
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:

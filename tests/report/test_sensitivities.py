@@ -57,6 +57,7 @@ def test_the_heat_map_has_no_empty_rows_and_columns(found: tuple[Elasticities, R
     assert "stiffness_over_stroke" not in data["outputs"]  # nothing changes it in this module
 
 
+@pytest.mark.slow
 def test_a_run_writes_them_where_the_study_or_the_command_asks(tvimdesign: Command, tmp_path: Path) -> None:
     plain, asked = tmp_path / "plain.yaml", tmp_path / "asked.yaml"
     plain.write_text(STUDY)

@@ -112,6 +112,7 @@ def test_a_record_with_a_negative_modulus_is_named_by_the_command(tvimdesign: Co
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_the_design_of_a_run_is_tested_in_place_of_the_start_of_its_study(tvimdesign: Command, tmp_path: Path) -> None:
     study = tmp_path / "thin.yaml"
     study.write_text("mode: shear\nvary: {pcl_thickness: [0.6 mm, 2 mm]}\nminimize: module_mass\nsolver: {starts: 1}\n")

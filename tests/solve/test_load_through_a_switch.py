@@ -79,6 +79,7 @@ def there_and_back() -> tuple[Carried, Callable[[float], Array]]:
     return carry(Changing(logarithms, times), SUPPORT, LOAD, times), at
 
 
+@pytest.mark.slow
 def test_loaded_link_moves_as_radau_with_inertia_says(
     there_and_back: tuple[Carried, Callable[[float], Array]],
 ) -> None:

@@ -16,7 +16,12 @@ Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "thick", "aluminium", "sink")
 
 
-@pytest.fixture(scope="module", params=DESIGNS)
+LONG = {"thick", "aluminium", "sink"}
+
+
+@pytest.fixture(
+    scope="module", params=[pytest.param(name, marks=pytest.mark.slow if name in LONG else []) for name in DESIGNS]
+)
 def pair(
     request: pytest.FixtureRequest, build: Callable[..., Model], switch_of: Callable[[str], Switch]
 ) -> tuple[Switch, dict[str, float]]:
