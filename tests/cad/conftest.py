@@ -11,7 +11,6 @@ from cad_designs import BLOCKS, CASES, Made, design_of
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.study.design import Design, write_design
 
-
 QUICK = {"paper", "blocks"}
 """Cases that the fast tests take; every case is one of the slow tests."""
 
