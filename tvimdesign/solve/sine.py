@@ -16,7 +16,8 @@ from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
 
 PERIODS = 10
 SAMPLES = 240  # of one period
-ROUNDING = 1e-9  # share of a period by which its first sample may be early
+ROUNDING = 1e-9
+"""Share of a period by which its first sample may be early, and of a stiffness below which its phase is none."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,7 @@ def _swung(rig: Rig, case: Case, periods: int) -> Swung:
     found = touch.swung(case, float(rig.row("stroke")), frequency, periods, SAMPLES)
     moved = found.motion
     complex_stiffness = complex_stiffness_of(moved, frequency)
+    lossy = complex_stiffness.imag
     rows = case.rows(rig, ("joint_stiffness", "joint_damping"))
     omega = 2.0 * np.pi * frequency
     expected = complex(rows["joint_stiffness"], omega * rows["joint_damping"])
@@ -78,7 +80,7 @@ def _swung(rig: Rig, case: Case, periods: int) -> Swung:
     return Swung(
         case, frequency, found,
         stiffness=complex_stiffness.real,
-        damping=complex_stiffness.imag / omega,
+        damping=lossy / omega if abs(lossy) > ROUNDING * abs(complex_stiffness) else 0.0,
         dissipated=-float(np.trapezoid(moved.torque[loop], moved.angle[loop])),
         apart=abs(complex_stiffness - expected) / abs(expected),
         contact_lost=found.lost_share(float(moved.times[loop][0]), float(moved.times[-1])),
