@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from quick import Quick
 from scipy.integrate import solve_ivp
 
 from tvimdesign.catalog import Catalog
@@ -52,26 +53,6 @@ class Contender:
 
     name: str
     solve: Callable[[float], Array]
-
-
-class Quick:
-    """A CasADi function of (state, inputs) called through its buffers, which the object keeps alive."""
-
-    def __init__(self, function: Any, inputs: Array) -> None:
-        """Hand the function the memory it reads from and writes to."""
-        self._buffer, self._call = function.buffer()
-        self._state, self._inputs = np.zeros(function.numel_in(0)), np.ascontiguousarray(inputs)
-        self._result = np.zeros(function.numel_out(0))
-        self._shape = function.size_out(0) if function.size2_out(0) > 1 else (function.numel_out(0),)
-        self._buffer.set_arg(0, memoryview(self._state))
-        self._buffer.set_arg(1, memoryview(self._inputs))
-        self._buffer.set_res(0, memoryview(self._result))
-
-    def __call__(self, _: float, state: Array) -> Array:
-        """Evaluate at a state; time plays no part."""
-        self._state[:] = state
-        self._call()
-        return self._result.reshape(self._shape, order="F").copy()
 
 
 def written_by_hand(model: Model, sparse: bool) -> Equations:
@@ -110,10 +91,15 @@ def compiled(model: Model) -> Equations:
     return Equations(
         np.asarray(stage.initial(model.start)).ravel(),
         *(
-            Quick(ca.Function(name, [state, inputs], [expression]), model.start)
+            _called(Quick(ca.Function(name, [state, inputs], [expression])), model.start)
             for name, expression in (("rates", rates), ("gaps", waits), ("jacobian", slope))
         ),
     )
+
+
+def _called(function: Quick, inputs: Array) -> Callable[[float, Array], Array]:
+    """A function of (state, inputs) as scipy calls it; time plays no part."""
+    return lambda _, state: function(state, inputs)
 
 
 def _pattern(model: Model) -> Array:

@@ -1,0 +1,116 @@
+"""The problem that all optimisers of `optimum.py` are given: one study, and its equations as plain functions.
+
+Every contender gets the same compiled equations from here; what differs is how the optimiser is told of them, how the
+switch is integrated, and where derivatives come from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from quick import Quick
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.study import Study, read_study
+
+Array = NDArray[np.float64]
+STUDY = Path(__file__).with_name("reference.yaml")
+LONGEST = 3600.0  # s, how long any contender simulates at most
+
+
+def study(cells: int | None = None) -> Study:
+    """The reference study, with another count of cells where asked."""
+    read = read_study(STUDY)
+    solver = read.solver.model_copy(update={"cells": cells or read.solver.cells})
+    return read.model_copy(update={"solver": solver})
+
+
+@dataclass(frozen=True)
+class Heat:
+    """The switch of one design as an initial-value problem."""
+
+    start: Array
+    rates: Callable[[float, Array], Array]
+    jacobian: Callable[[float, Array], Array]
+    gap: Callable[[float, Array], float]
+    """What the switch waits for: it rises through zero."""
+
+
+class Reference:
+    """The study's functions: algebra (objective and residuals given the time), and the heat equation."""
+
+    def __init__(self, asked: Study) -> None:
+        """Compile them once; no contender is charged for it but tvimdesign, which builds its own."""
+        catalog, table = Catalog(), table_for(asked.mode)
+        self.optimizer = Optimizer(asked, catalog, table, 1)
+        model, problem = self.optimizer.model, self.optimizer.problem
+        self.model, self.limits, self.free = model, problem.limits, self.optimizer.free
+        self.places = [model.index[free.name] for free in self.free]
+        self.lower, self.upper = (np.array([getattr(free, end) for free in self.free]) for end in ("lower", "upper"))
+        self.begin = model.start[self.places]
+        self.weights = {name: w / self.optimizer.reference[name] for name, w in asked.minimize.items()}
+        (self.event,) = problem.events
+        self.stage = model.stages["softening"]
+        self._state, self._inputs = ca.SX.sym("state", self.stage.state_size), ca.SX.sym("inputs", len(model.names))
+        self.current = model.index["current"]
+        self.algebra_function = self._algebra_function()
+        """(inputs, time) -> objective, then every limit's residual, kept where <= 0."""
+        self._algebra = Quick(self.algebra_function)
+        self._heat = self._heat_functions()
+
+    def _algebra_function(self) -> Any:
+        wanted = list(dict.fromkeys([*self.weights, *(limit.output for limit in self.limits)]))
+        time = ca.SX.sym("time")
+        switch = ca.vertcat(*(time if name == self.event else np.nan for name in self.model.switch_names))
+        values = self.model.outputs(wanted)(self._inputs, switch)
+        objective = sum(weight * values[wanted.index(name)] for name, weight in self.weights.items())
+        rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
+        return ca.Function("algebra", [self._inputs, time], [ca.vertcat(objective, *rows)])
+
+    def _heat_functions(self) -> tuple[Quick, Quick, Quick]:
+        drive = self._inputs[self.current]
+        rates = self.stage.rates(self._state, drive, self._inputs)
+        gap = self.stage.watch([self.event])(self._state, drive, self._inputs)
+        slope = ca.densify(ca.jacobian(rates, self._state))
+        arguments = [self._state, self._inputs]
+        rates_of, slope_of, gap_of = (
+            Quick(ca.Function(name, arguments, [value]))
+            for name, value in (("rates", rates), ("slope", slope), ("gap", gap))
+        )
+        return rates_of, slope_of, gap_of
+
+    def inputs(self, design: Array) -> Array:
+        """The device's inputs with the eight variables at a design."""
+        found = self.model.start.copy()
+        found[self.places] = design
+        return found
+
+    def heat(self, design: Array) -> Heat:
+        """The initial-value problem of a design."""
+        inputs = self.inputs(design)
+        start = np.asarray(self.stage.initial(inputs)).ravel()
+        rates, slope, gap = self._heat
+        return Heat(
+            start,
+            lambda _, state: rates(state, inputs),
+            lambda _, state: slope(state, inputs),
+            lambda _, state: float(gap(state, inputs)[0]),
+        )
+
+    def rows(self, design: Array, time: float) -> Array:
+        """Objective, then the residuals."""
+        return self._algebra(self.inputs(design), np.array([time])).ravel()
+
+    def random_starts(self, count: int) -> list[Array]:
+        """Designs drawn evenly in the logarithms between the bounds, the same for every contender."""
+        random = np.random.default_rng(1)
+        low, high = np.log(self.lower), np.log(self.upper)
+        return [np.exp(random.uniform(low, high)) for _ in range(count)]
