@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench-switch lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench bench-switch lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -27,8 +27,17 @@ test-all: $(STAMP)  ## all tests, the long ones too
 test-slow: $(STAMP)  ## the long tests alone
 	$(BIN)/python -m pytest -q -n 2 --dist loadfile -m slow
 
+BENCH := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python
+
+$(VENV)/.bench: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,bench]'
+	@touch $@
+
+bench: $(VENV)/.bench bench-switch  ## everything against what people would use instead, side by side (minutes)
+	$(BENCH) benchmarks/optimum.py
+
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/switch.py
+	$(BENCH) benchmarks/switch.py
 
 lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
 	$(BIN)/ruff check .

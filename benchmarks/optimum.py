@@ -15,7 +15,7 @@ import io
 import time
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -105,11 +105,13 @@ class Once:
     """Objective and residuals in the logarithms of the variables; a design asked for again is not simulated again."""
 
     def __init__(self, reference: Reference, switch: Callable[[Reference, Array], float]) -> None:
+        """Nothing is simulated yet."""
         self.reference, self.switch = reference, switch
         self.evaluations = 0
         self._last: tuple[bytes, Array] | None = None
 
     def rows(self, unknowns: Array) -> Array:
+        """Objective and residuals."""
         key = np.asarray(unknowns).tobytes()
         if self._last is None or self._last[0] != key:
             design = np.exp(unknowns)
@@ -118,12 +120,15 @@ class Once:
         return self._last[1]
 
     def objective(self, unknowns: Array) -> float:
+        """What is least."""
         return float(self.rows(unknowns)[0])
 
     def room(self, unknowns: Array) -> Array:
+        """What is left of every limit, as SLSQP wants it: not below zero."""
         return -self.rows(unknowns)[1:]
 
     def bounds(self) -> Bounds:
+        """Ends of the unknowns."""
         return Bounds(np.log(self.reference.lower), np.log(self.reference.upper), keep_feasible=True)
 
 
@@ -319,9 +324,7 @@ def main() -> None:
     rows: list[Row] = []
     best: float | None = None
     for contender in CONTENDERS:
-        counted = Contender(
-            contender.name, contender.solve, chosen.starts if chosen.starts is not None else contender.starts
-        )
+        counted = contender if chosen.starts is None else replace(contender, starts=chosen.starts)
         with contextlib.redirect_stdout(io.StringIO()):
             row, best = judged(reference, counted, best)
         rows.append(row)

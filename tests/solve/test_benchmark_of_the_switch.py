@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
-from types import ModuleType
-
 import numpy as np
 import pytest
-from support import ROOT
+import switch
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
@@ -17,25 +13,14 @@ from tvimdesign.study import given, read_study
 
 
 @pytest.fixture(scope="module")
-def bench() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("bench_switch", ROOT / "benchmarks/switch.py")
-    assert spec
-    assert spec.loader
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["bench_switch"] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-@pytest.fixture(scope="module")
-def model(bench: ModuleType) -> Model:
-    study = read_study(bench.STUDY)
+def model() -> Model:
+    study = read_study(switch.STUDY)
     table = table_for(study.mode)
     return Model(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
 
 
-def test_equations_by_hand_and_compiled_are_the_same(bench: ModuleType, model: Model) -> None:
-    hand, machine = bench.written_by_hand(model, sparse=True), bench.compiled(model)
+def test_equations_by_hand_and_compiled_are_the_same(model: Model) -> None:
+    hand, machine = switch.written_by_hand(model, sparse=True), switch.compiled(model)
     assert hand.start == pytest.approx(machine.start)
     generator = np.random.default_rng(1)
     for _ in range(5):
@@ -50,9 +35,9 @@ def test_equations_by_hand_and_compiled_are_the_same(bench: ModuleType, model: M
         assert change == pytest.approx(2.0 * slope @ shift, rel=1e-4, abs=1e-10)
 
 
-def test_all_rows_find_the_same_times(bench: ModuleType, model: Model) -> None:
-    machine = bench.compiled(model)
-    ours = bench.by_tvimdesign(model)(0.0)
-    assert bench.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-4)
-    assert bench.by_scipy(machine, "BDF")(1e-7) == pytest.approx(ours, rel=1e-4)
-    assert bench.by_scipy(bench.written_by_hand(model, sparse=True), "BDF")(1e-5) == pytest.approx(ours, rel=1e-4)
+def test_all_rows_find_the_same_times(model: Model) -> None:
+    machine = switch.compiled(model)
+    ours = switch.by_tvimdesign(model)(0.0)
+    assert switch.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-4)
+    assert switch.by_scipy(machine, "BDF")(1e-7) == pytest.approx(ours, rel=1e-4)
+    assert switch.by_scipy(switch.written_by_hand(model, sparse=True), "BDF")(1e-5) == pytest.approx(ours, rel=1e-4)
