@@ -133,7 +133,7 @@ def compare(
         Path | None,
         typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
     ] = None,
-    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 8,
+    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 6,
     overwrite: Overwrite = False,
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
     json: AsJson = False,
