@@ -59,6 +59,9 @@ def run(
     sensitivities: Annotated[
         bool, typer.Option("--sensitivities", help="Write what every variable does to every output at the design.")
     ] = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with a front where an earlier run in that folder was stopped.")
+    ] = False,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
@@ -66,7 +69,7 @@ def run(
 
     run_study(
         study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        as_json=json,
+        as_json=json, resume=resume,
     )  # fmt: skip
 
 

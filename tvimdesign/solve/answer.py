@@ -71,6 +71,11 @@ class Answer:
         return self.solution is None or self.design.status == "optimal"
 
     @property
+    def seconds(self) -> dict[str, float]:
+        """What setting up and solving took; empty where nothing was optimised."""
+        return self.solution.seconds if self.solution else {}
+
+    @property
     def undecided(self) -> tuple[Check, ...]:
         """The requirements and rules that are kept as nominally heated, and broken with another history."""
         return tuple(check for check in self.checks if check.kept and check.worst < -SWITCH_TOLERANCE)

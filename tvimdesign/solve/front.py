@@ -99,7 +99,7 @@ class _Tracer:
         self.frame = Frame.of(traded, [end.values for end in kept])
         self.lost += len(self.ends) - len(kept)
         self.ends = kept
-        if len(traded) == 2:
+        if len(traded) == 2 or shape.thin(np.array([self.frame.place(end.values) for end in self.ends])):
             self._along_a_line()
         else:
             self._over_a_surface()
@@ -148,10 +148,10 @@ class _Tracer:
     def _along_a_line(self) -> None:
         """Even steps from end to end, then back where the ends lie in different optima, then into gaps."""
         ends = sorted(self.ends, key=lambda end: end.values[self.frame.names[0]])
-        self.ends = [ends[0], ends[-1]]
-        begin, finish = (self.frame.place(end.values) for end in self.ends)
-        for step in range(1, self.count - 1):
-            share = step / (self.count - 1)
+        begin, finish = (self.frame.place(end.values) for end in (ends[0], ends[-1]))
+        steps = self.count - len(ends) + 1
+        for step in range(1, steps):
+            share = step / steps
             self._seek((1.0 - share) * begin + share * finish)
         self._settle()
         while len(self._all) < self.count and self._may_try:

@@ -22,6 +22,8 @@ Values = Mapping[str, float]
 
 FLAT = 0.03
 """Greatest distance from the chord, or the plane of the ends, of a front that has no knee."""
+_THIN = 0.1
+"""Width over length of the hull of the ends below which a front is a curve."""
 _STEPS = 24
 """Steps along the edge of a triangle in which places between ends are looked for."""
 
@@ -114,6 +116,12 @@ def affine(places: Array, target: Array) -> Array:
     to_target = (places[1:] - places[0]).T
     rest = np.linalg.lstsq(to_target, target - places[0], rcond=1e-3)[0]
     return np.concatenate([[1.0 - rest.sum()], rest])
+
+
+def thin(places: Array) -> bool:
+    """Whether places lie nearly on a line: a front of three outputs that is a curve, no surface."""
+    sizes = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
+    return bool(sizes[1] < _THIN * sizes[0])
 
 
 def candidates(ends: Array) -> Array:

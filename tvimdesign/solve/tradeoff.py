@@ -36,8 +36,6 @@ class Point:
     values: dict[str, float]
     """Every input and output in SI by full name."""
     drives: dict[str, Any]
-    normal: dict[str, float] = field(default_factory=dict)
-    """What one more of each output weighs there (per SI unit): along the front these weights times changes sum to 0."""
     trace: Trace | None = field(default=None, repr=False, compare=False)
     """What the solver left behind, for a neighbour to begin from."""
     goal: Goal | None = field(default=None, repr=False, compare=False)
@@ -209,14 +207,4 @@ class Tradeoff:
                 return "converged, but simulated it is not where it was sought"
         inputs = {name: float(run.inputs[i]) for name, i in optimizer.model.index.items()}
         drives = {stage: drive.plain() for stage, drive in run.drives.items()}
-        return Point(where, {**inputs, **values}, drives, self._normal(run, goal), run.trace, goal, run.start.objective)
-
-    def _normal(self, run: Run, goal: Goal) -> dict[str, float]:
-        """Weights of the outputs where a run ended: the goal's, and what its bounds press."""
-        first = self.optimizer.problem.equation_count + len(self.optimizer.problem.limits)
-        pressures = run.multipliers[first : first + len(goal.bounds)]
-        return {
-            name: goal.weights.get(name, 0.0) / self.optimizer.reference[name]
-            + sum(float(p) * bound.factors.get(name, 0.0) for p, bound in zip(pressures, goal.bounds, strict=True))
-            for name in self.optimizer.problem.traded
-        }
+        return Point(where, {**inputs, **values}, drives, run.trace, goal, run.start.objective)
