@@ -35,30 +35,29 @@ ROWS_SHOWN = 12
 class FrontOfRun:
     """The front a study asks for, where it does, on its way through a run."""
 
-    def __init__(self, study: Study, table: Table) -> None:
-        """Nothing is done yet."""
+    def __init__(self, study: Study, table: Table, folder: ResultsFolder) -> None:
+        """Nothing is done yet. Raises InputError where the folder holds the beginning of another study's front."""
         self.study, self.table = study, table
         self.outputs: tuple[str, ...] = study.front.of if study.front else ()
         self.front: Front | None = None
+        self._folder = folder
+        self._memory = FolderMemory(folder, study) if study.front else None
         self._built: list[tuple[Optimizer, list[Run]]] = []
 
     def keep(self, built: Optimizer, runs: list[Run]) -> None:
         """Take what found the study's optimum: the front is sought with it."""
         self._built.append((built, runs))
 
-    def seek(
-        self, folder: ResultsFolder, found: Answer, progress: Progress, told: dict[str, Any], troubles: list[TvimError]
-    ) -> list[Drawing]:
+    def seek(self, found: Answer, progress: Progress, told: dict[str, Any], troubles: list[TvimError]) -> list[Drawing]:
         """Seek the front and write all of it but its figure, which is returned; nothing where none is asked for.
 
-        What is to be told goes into `told`, points without a design into `troubles`. Raises InputError where the folder
-        holds another study's front.
+        What is to be told goes into `told`, points without a design into `troubles`.
         """
         if self.study.front is None or found.solution is None or not found.found:
             return []
-        trade = Tradeoff(self.study, found.solution, *self._built[0], progress, FolderMemory(folder, self.study))
+        trade = Tradeoff(self.study, found.solution, *self._built[0], progress, self._memory)
         front = self.front = trace_front(trade, self.outputs, self.study.front.points)
-        names = shown_names(self.study, front)
+        folder, names = self._folder, shown_names(self.study, front)
         told["front"] = plain(front, names, self.table)
         folder.write("front.csv", front_csv(front, names, self.table))
         folder.write_json("front.json", told["front"])

@@ -61,17 +61,16 @@ def run_study(
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        front = FrontOfRun(study, table)
+        front = FrontOfRun(study, table, folder)
         found = answer(study, catalog, table, progress, keep=front.keep, traded=front.outputs)
-        plotted: list[Drawing] = []
-        if drawing and found.found:
-            plotted += [Drawing(name, name, data) for name, data in plot_data(found, table).items()]
+        shown = plot_data(found, table) if drawing and found.found else {}
+        plotted = [Drawing(name, name, data) for name, data in shown.items()]
         told = results(found, table) | {"why": why(found, table)}
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
                 plotted += _sensitivities(folder, found, catalog, table, told)
-        plotted += front.seek(folder, found, progress, told, troubles)
+        plotted += front.seek(found, progress, told, troubles)
         if drawing and found.found:
             drawing.begin(folder.path / "plots", plotted)
         design = _write(folder, path, study, found, told, table)
