@@ -17,7 +17,7 @@ FILES = {
 PLOTS = {"bounds.png", "impedance.png", "mass.png", "cycle.png"}
 RELEASED = ("paper_shear", "paper_compression")
 OPTIMISED = {"why.csv"}
-QUICK = {"paper_as_published", "paper_shear", "paper_compression"}
+QUICK = {"paper_as_published", "paper_shear", "paper_compression", "front_shear"}
 """Studies that take seconds; the others are slow tests."""
 names = pytest.mark.parametrize(
     "study",
@@ -49,12 +49,21 @@ def _results(folder: Path) -> dict[str, Any]:
     return told
 
 
+def _front(folder: Path) -> list[dict[str, Any]]:
+    """Points of the front; none where the study asks for no front."""
+    points: list[dict[str, Any]] = _results(folder).get("front", {}).get("points", [])
+    return points
+
+
 @names
 def test_a_study_leaves_a_whole_folder(runs: Runs, study: Path) -> None:
     folder = runs[study.stem]
     expected = FILES | (OPTIMISED if _results(folder)["status"] == "optimal" else set())
+    front = _front(folder)
+    expected |= {"front.csv", "front.json"} if front else set()
     assert {path.name for path in folder.iterdir() if path.is_file()} == expected
-    assert {path.name for path in (folder / "plots").iterdir()} == PLOTS
+    assert {path.name for path in (folder / "plots").iterdir()} == PLOTS | ({"front.png"} if front else set())
+    assert {path.name for path in folder.glob("front/*")} == {Path(point["design"]).name for point in front}
     manifest = json.loads((folder / "manifest.json").read_text())
     assert manifest["inputs"]["study"] == "sha256:" + hashlib.sha256(study.read_bytes()).hexdigest()
     for name, told in manifest["files"].items():
@@ -73,7 +82,7 @@ def test_a_study_s_design_keeps_every_limit(runs: Runs, study: Path) -> None:
 def test_plots_are_pictures_with_something_on_them(runs: Runs, study: Path) -> None:
     import matplotlib.image as mpimg
 
-    for name in PLOTS:
+    for name in (path.name for path in (runs[study.stem] / "plots").iterdir()):
         picture = mpimg.imread(runs[study.stem] / "plots" / name)
         assert picture.shape[0] > 300, name
         assert picture[..., :3].std() > 0.02, f"{name} is blank"

@@ -60,6 +60,9 @@ def run(
     sensitivities: Annotated[
         bool, typer.Option("--sensitivities", help="Write what every variable does to every output at the design.")
     ] = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with a front where an earlier run in that folder was stopped.")
+    ] = False,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
@@ -67,7 +70,7 @@ def run(
 
     run_study(
         study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        as_json=json,
+        as_json=json, resume=resume,
     )  # fmt: skip
 
 
@@ -134,7 +137,7 @@ def compare(
         Path | None,
         typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
     ] = None,
-    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 8,
+    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 6,
     overwrite: Overwrite = False,
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
     json: AsJson = False,

@@ -260,7 +260,7 @@ def test_both_modes_of_the_shipped_pair_converge_from_ten_starts(tvimdesign: Com
         assert told["studies"][mode]["seconds"]["optimised"] > 0.0
     for front in told["fronts"]["fronts"]:
         assert front["failures"] == []
-        assert len(front["points"]) + len(front["dominated"]) >= 8
+        assert len(front["points"]) + front["dominated"] >= 6
     ratio = {row["name"]: row["ratio"]["compression"] for row in told["comparisons"]["optimised"]}
     shares = [f"{100.0 * (ratio[name] - 1.0):.0f} %" for name in ("response_time", "envelope_volume", "module_mass")]
     readme = " ".join((ROOT / "README.md").read_text().split())

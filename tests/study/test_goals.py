@@ -110,3 +110,38 @@ def test_refused_weights(problems: Refuse, written: str, said: str) -> None:
     lines = problems(f"mode: shear\nvary: {{coil_count: [2, 3]}}\nminimize: {written}\n")
     assert len(lines) == 1
     assert said in lines[0]
+
+
+FREE = "mode: shear\nvary: {current: [1 A, 2 A]}\nminimize: module_mass\n"
+
+
+def test_a_front_is_two_or_three_outputs_and_a_count(read: Read) -> None:
+    front = read(FREE + "front: {of: [response_time, joint_stiffness@hot, module_mass], points: 30}\n").front
+    assert front is not None
+    assert front.of == ("response_time", "joint_stiffness@hot", "module_mass")
+    assert front.points == 30
+    assert read(FREE + "front: {of: [response_time, module_mass]}\n").front is not None
+    assert read(FREE).front is None
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("{of: [response_time]}", "front.of: are not two or three outputs"),
+        ("{points: 5}", "front.of: are not two or three outputs"),
+        ("{of: [response_time, module_mas]}", "module_mass"),
+        ("{of: [response_time, current]}", "is something the study sets"),
+        ("{of: [response_time, response_time]}", "names an output twice"),
+        ("{of: [response_time, module_mass], points: 2}", "2 points"),
+        ("{of: [response_time, module_mass], pionts: 9}", "pionts"),
+        ("30", "front"),
+    ],
+)
+def test_a_front_that_cannot_be_is_refused_with_its_place(problems: Refuse, written: str, said: str) -> None:
+    found = problems(FREE + f"front: {written}\n")
+    assert any(said in problem for problem in found), found
+
+
+def test_a_front_of_a_module_that_is_only_evaluated_is_refused(problems: Refuse) -> None:
+    found = problems("mode: shear\nfront: {of: [response_time, module_mass]}\n")
+    assert any("nothing may change" in problem for problem in found)

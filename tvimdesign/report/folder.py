@@ -20,6 +20,8 @@ from tvimdesign.files import write_whole
 
 MANIFEST = "manifest.json"
 RUNNING = "running"
+PROGRESS = "front/progress"
+"""Folder of what a run can go on from where it was killed."""
 _LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh")
 
 
@@ -29,13 +31,18 @@ class ResultsFolder:
     As a context manager it always leaves a manifest: of a run that ended early, too.
     """
 
-    def __init__(self, path: Path, overwrite: bool = False) -> None:
-        """Make the folder, or empty it of an earlier run's files where `overwrite` says so. Raises InputError."""
+    def __init__(self, path: Path, overwrite: bool = False, resume: bool = False) -> None:
+        """Make the folder, or empty it of an earlier run's files where `overwrite` says so. Raises InputError.
+
+        With `resume` what an unfinished run can go on from stays.
+        """
+        if overwrite and resume:
+            raise InputError("--overwrite and --resume: choose one")
         self.path = path
         self._started = datetime.now(UTC)
         self._finished = False
         try:
-            self._claim(overwrite)
+            self._claim(overwrite, resume)
         except OSError as error:
             raise InputError(f"{path}: cannot be used as a results folder: {error.strerror}") from error
         self.write_json(MANIFEST, {"status": RUNNING, "process": os.getpid(), "host": platform.node()})
@@ -49,20 +56,29 @@ class ResultsFolder:
         if not self._finished:
             self.finish("interrupted" if kind is KeyboardInterrupt else "failed", {}, {})
 
-    def _claim(self, overwrite: bool) -> None:
+    def _claim(self, overwrite: bool, resume: bool) -> None:
         if self.path.exists() and not self.path.is_dir():
             raise InputError(f"{self.path}: is a file; name a folder with --out")
         self.path.mkdir(parents=True, exist_ok=True)
         if not any(self.path.iterdir()):
             return
-        if not overwrite and (self.path / MANIFEST).exists() and any(p.name != MANIFEST for p in self.path.iterdir()):
+        if resume and (self.path / MANIFEST).exists() and not (self.path / PROGRESS).is_dir():
+            raise InputError(f"{self.path}: there is nothing to resume in it; --overwrite to do it again")
+        if (
+            not (overwrite or resume)
+            and (self.path / MANIFEST).exists()
+            and any(p.name != MANIFEST for p in self.path.iterdir())
+        ):
             raise InputError(
-                f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder"
+                f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder; "
+                "--resume goes on with a front that was stopped"
             )
         for target in self._earlier():
+            if resume and target.parent == self.path / PROGRESS:
+                continue
             if target.resolve().is_relative_to(self.path.resolve()):
                 target.unlink(missing_ok=True)
-        for folder in ("plots", "cad"):
+        for folder in ("plots", "cad", "front"):
             _remove_if_empty(self.path / folder)
 
     def _earlier(self) -> list[Path]:

@@ -19,6 +19,7 @@ from tvimdesign.study import Study, read_study
 from tvimdesign.study.design import Design, read_design, write_design
 
 if TYPE_CHECKING:
+    from tvimdesign.report.front import FrontOfRun
     from tvimdesign.report.plots import Drawing
     from tvimdesign.solve.answer import Answer
 
@@ -41,9 +42,11 @@ def describe(study: Study) -> str:
 
 
 def run_study(
-    path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False
-) -> None:
+    path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
+    resume: bool = False,
+) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
+    from tvimdesign.report.front import FrontOfRun
     from tvimdesign.report.plot_data import plot_data
     from tvimdesign.report.plots import Drawing, PlotProcess
     from tvimdesign.report.summary import complaint, print_summary
@@ -55,25 +58,26 @@ def run_study(
     table, catalog = table_for(study.mode), catalog_of(study)
     troubles: list[TvimError] = []
     with ExitStack() as stack:
-        folder = stack.enter_context(ResultsFolder(out, overwrite))
+        folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
         progress = stack.enter_context(talk())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        found = answer(study, catalog, table, progress)
-        plotted: list[Drawing] = []
-        if drawing and found.found:
-            plotted += [Drawing(name, name, data) for name, data in plot_data(found, table).items()]
+        front = FrontOfRun(study, table, folder)
+        found = answer(study, catalog, table, progress, keep=front.keep, traded=front.outputs)
+        shown = plot_data(found, table) if drawing and found.found else {}
+        plotted = [Drawing(name, name, data) for name, data in shown.items()]
         told = results(found, table) | {"why": why(found, table)}
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
                 plotted += _sensitivities(folder, found, catalog, table, told)
+        plotted += front.seek(found, progress, told, troubles)
         if drawing and found.found:
             drawing.begin(folder.path / "plots", plotted)
         design = _write(folder, path, study, found, told, table)
         progress("")
         if not as_json:
             print_summary(found, table, wide_console())
-            _print_left_out(told)
+            _print_rest(told, front)
         if drawing and found.found:
             progress("drawing the plots")
             with _noting(troubles):
@@ -82,8 +86,7 @@ def run_study(
             with _noting(troubles):
                 told["cad"] = _parts(design, folder.path / "cad", progress)
         inputs = {"study": path, **_records(found.design, catalog, table)}
-        timing = found.solution.seconds if found.solution else {}
-        folder.finish(found.design.status, inputs, found.design.study, timing)
+        folder.finish(found.design.status, inputs, found.design.study, found.seconds)
     if as_json:
         told |= {"folder": str(folder.path), "not_done": [str(trouble) for trouble in troubles]}
         print(json.dumps(told, indent=2, allow_nan=False))
@@ -128,11 +131,12 @@ def _sensitivities(
     return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
 
 
-def _print_left_out(told: dict[str, Any]) -> None:
+def _print_rest(told: dict[str, Any], front: FrontOfRun) -> None:
     names = told.get("sensitivities_left_out")
     if names:
         said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(names)}."
         wide_console().print(f"[dim]{said}[/dim]")
+    front.show(wide_console())
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:

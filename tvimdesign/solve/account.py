@@ -46,7 +46,7 @@ def account(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: 
         objective=sum(w * values[n] / optimizer.reference[n] for n, w in optimizer.study.minimize.items()),
         starts=starts,
         held=(*limits, *_held_by_bounds(optimizer, run, response), *_held_by_currents(optimizer, run, response)),
-        reference=optimizer.reference,
+        reference={name: optimizer.reference[name] for name in optimizer.study.minimize},
         seconds=seconds,
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -17,10 +17,10 @@ from tvimdesign.solve.curves import Curves, impedance_sweep, stage_history
 from tvimdesign.solve.history import intervals
 from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch, refuse_impossible
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer, Progress
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Progress
 from tvimdesign.solve.release import contact_seen
 from tvimdesign.solve.rig import Rig
-from tvimdesign.solve.search import optimize
+from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.solve.solution import Solution
 from tvimdesign.study import Study, given
@@ -71,6 +71,11 @@ class Answer:
         return self.solution is None or self.design.status == "optimal"
 
     @property
+    def seconds(self) -> dict[str, float]:
+        """What setting up and solving took; empty where nothing was optimised."""
+        return self.solution.seconds if self.solution else {}
+
+    @property
     def undecided(self) -> tuple[Check, ...]:
         """The requirements and rules that are kept as nominally heated, and broken with another history."""
         return tuple(check for check in self.checks if check.kept and check.worst < -SWITCH_TOLERANCE)
@@ -87,13 +92,17 @@ def answer(
     table: Table,
     progress: Progress = lambda _: None,
     reference: dict[str, float] | None = None,
-    keep: Callable[[Optimizer], None] = lambda _: None,
+    keep: Keep = lambda *_: None,
+    traded: Sequence[str] = (),
 ) -> Answer:
-    """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError."""
+    """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError.
+
+    What found the optimum is handed to `keep`, able to trade some outputs afterwards.
+    """
     solution = None
     refuse_impossible(study, catalog, table)
     if study.task == "optimize":
-        solution = optimize(study, catalog, table, progress, reference, keep)
+        solution = optimize(study, catalog, table, progress, reference, keep, traded)
         model, inputs, switch, values = solution.model, solution.inputs, solution.switch, solution.values
         status, drives = solution.status, solution.drives
     else:

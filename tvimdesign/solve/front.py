@@ -1,289 +1,281 @@
-"""Fronts: how far one output can be had at the price of another, by epsilon-constraint on one built problem.
+"""Fronts of two or three outputs: designs none of which is better in all of them, from end to end.
 
-The two ends come first: the least of either output. Between them ceilings on the second output are spread evenly, and
-under each the first is made small, from the neighbour. Weights and ceilings are parameters, so nothing is built
-twice, for any pair of the outputs the trade-off was set up with.
+The ends come first: the least of each output. Between them points are sought on lines along which every output falls
+alike, spread evenly over the chord or the plane of the ends (`front_shape`); each line is one or two bounds on one
+built problem (`tradeoff`), and each point begins from what its neighbours left behind.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table
-from tvimdesign.errors import SimulationError
-from tvimdesign.solve.account import SWITCH_TOLERANCE
-from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.limits import in_words, on_switch
-from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, EXPAND_FROM, Optimizer, Progress, Run
-from tvimdesign.solve.solution import Solution
-from tvimdesign.study import Options, Requirement, Study
-from tvimdesign.units import format_quantity
+from tvimdesign.solve import front_shape as shape
+from tvimdesign.solve.front_shape import Frame
+from tvimdesign.solve.goal import Bound, Goal
+from tvimdesign.solve.optimizer import Trace
+from tvimdesign.solve.tradeoff import ONE_POINT, Failure, Point, Tradeoff
 
 SIDE_WEIGHT = 1e-2
-"""Weight of the other output against the one that is made small, both as ratios to the optimum: a front ends where a
+"""Weight of the other outputs against the one that is made small, both as ratios to the optimum: a front ends where a
 hundredth of one buys less than a ten-thousandth of the other, and no point gives anything away."""
-OUT_OF_THE_WAY = 100.0
-"""A ceiling that is not to be felt, over the usual value of its output."""
-ONE_POINT = 2e-3
-"""Share by which the ends must differ in both outputs to be a front; less is the simulation's tolerance."""
+BARELY = 0.02
+"""Share of an output's least that its value at the least of another may lie above it where the two barely conflict."""
+MOST_TRIES = 1.5
+"""Designs that may be sought for each point that is asked for: some lines lead to a point that is there already."""
+FAR = 3.0
+"""Largest weight of a neighbour in a guess: beyond it the guess is further from all of them than they are apart."""
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Point:
-    """One design of a front. `bound` is its ceiling (SI) on the second output; None at an end and at the optimum."""
-
-    bound: float | None
-    values: dict[str, float]
-    """Every input and output in SI by full name."""
-    drives: dict[str, Any]
-
-
-@dataclass(frozen=True)
-class Failure:
-    """A point that was asked for and has no design: its ceiling (SI; None at an end), and why."""
-
-    bound: float | None
-    reason: str
-
-
-@dataclass(frozen=True)
 class Front:
-    """Designs none of which is better in both outputs, from the least of the first to the least of the second."""
+    """Designs none of which is better in all outputs, by the first of them."""
 
-    first: str
-    second: str
+    outputs: tuple[str, ...]
     points: tuple[Point, ...]
-    dominated: tuple[Point, ...] = ()
-    """Points that were found and are no better in anything than another one."""
+    dominated: int = 0
+    """Count of points that were found and are no better in anything than another one."""
     failures: tuple[Failure, ...] = ()
-    notes: tuple[str, ...] = field(default=())
+    notes: tuple[str, ...] = ()
+    sought: int = 0
+    """Count of designs that were sought, ends included."""
+
+    @property
+    def shares(self) -> Array:
+        """Every point's outputs, from 0 (the least on the front) to 1 (the most)."""
+        numbers = np.array([[point.values[name] for name in self.outputs] for point in self.points])
+        ranges = np.ptp(numbers, axis=0)
+        return np.asarray((numbers - numbers.min(axis=0)) / np.where(ranges > 0.0, ranges, 1.0))
+
+    @property
+    def spread(self) -> float:
+        """The largest gap between neighbours over the mean one."""
+        return shape.spread(self.shares)
+
+    @property
+    def knee(self) -> int | None:
+        """Place of the point beyond which any output gets dear; None where there is none."""
+        return shape.knee(self.shares)
 
 
-class Tradeoff:
-    """One study's problem, built once for some outputs, any of which can be made small under ceilings on the others."""
+def trace_front(trade: Tradeoff, outputs: Sequence[str], count: int) -> Front:
+    """A front of about `count` points, of two or three of the outputs a trade-off can trade."""
+    return _Tracer(trade, tuple(outputs), count).front()
 
-    def __init__(
-        self, study: Study, catalog: Catalog, table: Table, solution: Solution, outputs: Sequence[str],
-        progress: Progress = lambda _: None, built: Optimizer | None = None,
-    ) -> None:  # fmt: skip
-        """Build it around a study's optimum, where every search begins; listed sizes and records stay those found.
 
-        Where what was `built` to find the optimum has a ceiling on every output (`with_ceilings`), it serves again.
-        """
-        self.table, self.outputs, self.progress = table, tuple(outputs), progress
-        self.listed = [name for name, vary in study.vary.items() if isinstance(vary, Options)]
-        reference = {name: abs(solution.values[name]) or 1.0 for name in self.outputs}
-        if built is None or self.listed or not _serves(built, self.outputs):
-            asked = _for_tradeoff(study, solution, self.outputs, self.listed)
-            built = Optimizer(asked, catalog, table, EXPAND_FROM, reference)
-        self._optimizer = built
-        # Weights are over what the problem was built with; a front weighs ratios to the optimum.
-        self._weights = {name: built.reference[name] / reference[name] for name in self.outputs}
-        self._ceilings = {
-            name: min((r.limit for r in study.require if (r.output, r.sense) == (name, "<=")), default=math.inf)
-            for name in self.outputs
-        }
-        index = solution.model.index
-        optima = self._optima(solution)
-        self._begins = optima if len(optima) > 1 else [self._optimizer.model.start, *optima]
-        inputs = {name: float(solution.inputs[i]) for name, i in index.items()}
-        drives = {stage: drive.plain() for stage, drive in solution.drives.items()}
-        self._optimum = Point(None, {**inputs, **solution.values}, drives)
-        self._found = [self._optimum]
-        self._ends: dict[str, Point] = {}
+class _Tracer:
+    """One front on its way."""
 
-    def front(self, first: str, second: str, count: int) -> Front:
-        """Trade `second` for `first` at `count` points, both ends included."""
-        ends = {name: self._end(name, other) for name, other in ((second, first), (first, second))}
-        failed = tuple(end for end in ends.values() if isinstance(end, Failure))
-        found = [end for end in ends.values() if isinstance(end, Point)]
-        if failed:
-            return Front(first, second, tuple(found), failures=failed, notes=("an end has no design",))
-        light, quick = found
-        if all(_close(light.values[name], quick.values[name]) for name in (first, second)):
-            return Front(first, second, (quick,), notes=self._notes(f"one point: {first} and {second} do not conflict"))
-        between = self._between(quick, light, first, second, count)
-        points = [quick, *(one for one in between if isinstance(one, Point)), light]
-        kept, dominated = self._with_optimum(points, first, second)
-        failures = tuple(one for one in between if isinstance(one, Failure))
-        return Front(first, second, kept, dominated, failures, self._notes())
+    def __init__(self, trade: Tradeoff, outputs: tuple[str, ...], count: int) -> None:
+        self.trade, self.outputs, self.count = trade, outputs, count
+        self.title = f"front of {' against '.join(outputs)}"
+        self.failures: list[Failure] = []
+        self.notes: list[str] = []
+        self.ends: list[Point] = []
+        self.between: list[Point] = []
+        self.lost = 0
+        self.first = trade.asked
 
-    def _end(self, name: str, other: str) -> Point | Failure:
-        """The least of an output; where another front has that end, from there."""
-        known = self._ends.get(name)
-        end = self._least(name, other, None, known)
-        if isinstance(end, Point):
-            self._ends[name] = end
-        return end
+    def front(self) -> Front:
+        """The whole front, or what there is of it."""
+        self._seek_ends()
+        if self.failures:
+            return self._done("an end has no design")
+        self.ends = self._distinct(self.ends)
+        kept = self._undominated(self.ends)
+        if len(kept) == 1:
+            self.ends = kept
+            return self._done(f"one point: {_and(self.outputs)} do not conflict")
+        flat = [name for name in self.outputs if _alike([end.values[name] for end in kept])]
+        traded = tuple(name for name in self.outputs if name not in flat)
+        self.notes += [f"{name} is the same all along" for name in flat]
+        self.notes += self._barely_conflicting()
+        self.frame = Frame.of(traded, [end.values for end in kept])
+        self.lost += len(self.ends) - len(kept)
+        self.ends = kept
+        if len(traded) == 2 or shape.thin(np.array([self.frame.place(end.values) for end in self.ends])):
+            self._along_a_line()
+        else:
+            self._over_a_surface()
+        return self._done()
 
-    def _between(self, quick: Point, light: Point, first: str, second: str, count: int) -> list[Point | Failure]:
-        """Points under ceilings spread evenly, each from its quicker neighbour; then back from the light end.
+    def _done(self, *notes: str) -> Front:
+        points = sorted([*self.ends, *self.between], key=lambda p: [p.values[name] for name in self.outputs])
+        listed = self.trade.listed
+        held = (f"{', '.join(listed)} as in the optimum: listed sizes and records are not traded",) if listed else ()
+        return Front(
+            self.outputs, tuple(points), self.lost, tuple(self.failures), (*notes, *self.notes, *held),
+            self.trade.asked - self.first,
+        )  # fmt: skip
 
-        The two ends may lie in different optima. The way back goes on as long as it finds better.
-        """
-        bounds = [float(bound) for bound in np.linspace(quick.values[second], light.values[second], count)[1:-1]]
-        between: list[Point | Failure] = []
-        near = quick
-        for number, bound in enumerate(bounds):
-            self.progress(f"front of {first} against {second}: point {number + 2} of {count}")
-            between.append(self._least(first, second, bound, near))
-            near = one if isinstance(one := between[-1], Point) else near
-        near = light
-        for place in reversed(range(len(bounds))):
-            again, there = self._least(first, second, bounds[place], near), between[place]
-            if isinstance(again, Failure) or (isinstance(there, Point) and not _better(again, there, first)):
+    # --- ends ---
+
+    def _seek_ends(self) -> None:
+        """The least of each output; of three also which of the other two is made small first."""
+        for name in self.outputs:
+            for others in itertools.permutations([other for other in self.outputs if other != name]):
+                weights = {other: SIDE_WEIGHT ** (i + 1) for i, other in enumerate(others)}
+                goal = Goal(self.trade.weights({name: 1.0, **weights}))
+                near = next((end for end in self.ends if end.where.startswith(f"least {name}")), None)
+                near = near or self.trade.ends.get(name)
+                guess = near.trace if near else None
+                found = self._sought(goal, f"least {name}, then {_and(others)}", near, guess)
+                if isinstance(found, Point):
+                    self.ends.append(replace(found, root=len(self.ends)))
+                    self.trade.ends.setdefault(name, found)
+
+    def _barely_conflicting(self) -> list[str]:
+        """Which pairs of outputs are nearly at their least together."""
+        return [
+            f"{one} and {other} barely conflict: at the least of one the other is within {100.0 * BARELY:g} % of it"
+            for one, other in itertools.combinations(self.outputs, 2)
+            if all(self._together(first, then) for first, then in ((one, other), (other, one)))
+        ]
+
+    def _together(self, first: str, then: str) -> bool:
+        least = {name: min(end.values[name] for end in self.ends) for name in (first, then)}
+        there = [end.values[then] for end in self.ends if end.values[first] <= least[first] * (1.0 + ONE_POINT)]
+        return min(there) <= least[then] + BARELY * abs(least[then])
+
+    # --- between ---
+
+    def _along_a_line(self) -> None:
+        """Even steps from end to end, then back where the ends lie in different optima, then into gaps."""
+        ends = sorted(self.ends, key=lambda end: end.values[self.frame.names[0]])
+        begin, finish = (self.frame.place(end.values) for end in (ends[0], ends[-1]))
+        steps = self.count - len(ends) + 1
+        for step in range(1, steps):
+            share = step / steps
+            self._seek((1.0 - share) * begin + share * finish)
+        self._settle()
+        while len(self._all) < self.count and self._may_try:
+            points = sorted(self._all, key=lambda point: point.values[self.frame.names[0]])
+            places = [self.frame.place(point.values) for point in points]
+            gaps = [(float(np.linalg.norm(b - a)), i) for i, (a, b) in enumerate(itertools.pairwise(places))]
+            widest = max(gaps)[1]
+            if not self._seek(0.5 * (places[widest] + places[widest + 1])):
+                self.notes.append("it has a jump: between two of its points there is no design")
                 break
-            between[place] = near = again
-        return between
+        self._settle()
 
-    def _with_optimum(
-        self, points: Sequence[Point], first: str, second: str
-    ) -> tuple[tuple[Point, ...], tuple[Point, ...]]:
-        """The points none is better than, and the rest; the study's own optimum joins them where it is one of them."""
-        kept, dominated = undominated([*points, self._optimum], (first, second))
-        ordered = sorted(kept, key=lambda point: -point.values[second])
-        return tuple(ordered), tuple(point for point in dominated if point is not self._optimum)
+    def _over_a_surface(self) -> None:
+        """Always where it is farthest from all that was sought and found."""
+        taken = [self.frame.place(end.values) for end in self.ends]
+        places = shape.candidates(np.array(taken))
+        for _ in range(2):
+            while len(self._all) < self.count and self._may_try:
+                place, _ = shape.farthest(places, np.array(taken))
+                taken.append(place)
+                if self._seek(place):
+                    taken.append(self.frame.place(self.between[-1].values))
+            self._settle()
 
-    def _notes(self, *more: str) -> tuple[str, ...]:
-        held = (f"{', '.join(self.listed)} as in the optimum: listed sizes and records are not traded",)
-        return (*more, *(held if self.listed else ()))
+    @property
+    def _all(self) -> list[Point]:
+        return [*self.ends, *self.between]
 
-    def _optima(self, solution: Solution) -> list[Array]:
-        """Inputs of every optimum the study's starts came to, the best one first."""
-        names, index = self._optimizer.model.names, solution.model.index
-        best = np.array([solution.inputs[index[name]] for name in names])
-        optima = []
-        for start in solution.distinct_optima():
-            values = {**dict(zip(names, best, strict=True)), **start.end}
-            optima.append(np.array([values[name] for name in names]))
-        return [best, *optima[1:]]
+    @property
+    def _may_try(self) -> bool:
+        return self.trade.asked - self.first < MOST_TRIES * self.count
 
-    def _least(self, name: str, other: str, bound: float | None, near: Point | None = None) -> Point | Failure:
-        """The least of an output below a ceiling on the other one.
+    def _seek(self, place: Array) -> bool:
+        """Seek the design on the line through a place; whether it is a new one."""
+        points = self._nearest(place)
+        where = f"point {len(self._all) + 1} of {self.count}"
+        goal = self._goal(self.frame.bounds(place, self.trade.reference))
+        found = self._sought(goal, where, points[0], self._guess(points, place))
+        if not isinstance(found, Point):
+            return False
+        if any(self._same(found, other) for other in self._all):
+            self.lost += 1
+            return False
+        self.between.append(found)
+        return True
 
-        From a point nearby; without one, or where that fails, from all the study's optima, and its start where there is
-        one alone. Where a design that was found before keeps the ceiling and is better, this has ended in a worse
-        optimum: then also from there.
-        """
-        ceilings = {**self._ceilings}
-        if bound is not None:
-            ceilings[other] = min(bound, ceilings[other])
-        goal = Goal({name: self._weights[name], other: SIDE_WEIGHT * self._weights[other]}, ceilings)
-        found: Point | Failure = Failure(bound, "")
-        if near is not None:
-            found = self._from([self._inputs(near)], goal, bound)
+    def _goal(self, bounds: Sequence[Bound]) -> Goal:
+        first, *others = self.outputs
+        return Goal(self.trade.weights({first: 1.0, **dict.fromkeys(others, SIDE_WEIGHT)}), tuple(bounds))
+
+    def _nearest(self, place: Array) -> list[Point]:
+        """All points, the nearest first; of equally near ones the one found first."""
+        return sorted(self._all, key=lambda point: float(np.linalg.norm(self.frame.place(point.values) - place)))
+
+    def _guess(self, points: Sequence[Point], place: Array) -> Trace | None:
+        """What the solver is to begin from: straight through the nearest points that descend from the same end."""
+        near = points[0]
+        if near.trace is None:
+            return None
+        kin = [point for point in points if point.root == near.root and point.trace is not None][
+            : len(self.frame.names)
+        ]
+        weights = shape.affine(np.array([self.frame.place(point.values) for point in kin]), place)
+        if len(kin) == 1 or max(abs(weights)) > FAR:
+            return near.trace
+        unknowns = sum(w * p.trace.unknowns for w, p in zip(weights, kin, strict=True) if p.trace is not None)
+        return near.trace._replace(unknowns=np.asarray(unknowns))
+
+    def _settle(self) -> None:
+        """Ends may lie in different optima: try neighbours from one another while that is better; drop the beaten."""
+        tried: set[tuple[int, int]] = set()
+        while (pair := self._next_pair(tried)) is not None:
+            place, other = pair
+            one = self.between[place]
+            tried.add((place, other.root))
+            self.between[place] = self.trade.again(one, other) or one
+        kept = self._undominated(self._distinct(self._all))
+        self.lost += len(self._all) - len(kept)
+        self.ends = [point for point in self.ends if any(point is one for one in kept)]
+        self.between = [point for point in self.between if any(point is one for one in kept)]
+
+    def _next_pair(self, tried: set[tuple[int, int]]) -> tuple[int, Point] | None:
+        """The place of a point, and a neighbour that descends from another end, not tried yet."""
+        points, first = self._all, len(self.ends)
+        for i, j, _ in shape.neighbours(np.array([self.frame.shares(point.values) for point in points])):
+            for one, other in ((i, j), (j, i)):
+                root = points[other].root
+                if one >= first and points[one].root != root and (one - first, root) not in tried:
+                    return one - first, points[other]
+        return None
+
+    # --- small things ---
+
+    def _sought(self, goal: Goal, where: str, near: Point | None, guess: Trace | None = None) -> Point | Failure:
+        found = self.trade.best(goal, f"{self.title}: {where}", near, guess)
+        found = replace(found, where=where)
         if isinstance(found, Failure):
-            found = self._from(self._begins, goal, bound)
-        keeping = [one for one in self._found if one.values[other] <= ceilings[other]]
-        best = min(keeping, key=lambda one: one.values[name], default=None)
-        if best and (isinstance(found, Failure) or _better(best, found, name)):
-            again = self._from([self._inputs(best)], goal, bound)
-            found = again if isinstance(again, Point) else found
-        if isinstance(found, Point):
-            self._found.append(found)
+            self.failures.append(found)
         return found
 
-    def _inputs(self, point: Point) -> Array:
-        return np.array([point.values[name] for name in self._optimizer.model.names])
+    def _distinct(self, points: Sequence[Point]) -> list[Point]:
+        found: list[Point] = []
+        for point in points:
+            if not any(self._same(point, other) for other in found):
+                found.append(point)
+        return found
 
-    def _from(self, begins: Sequence[Array], goal: Goal, bound: float | None) -> Point | Failure:
-        """The best design that runs from several inputs come to, or why there is none."""
-        runs = [self._optimizer.solve(begin=begin, goal=goal) for begin in begins]
-        reason = f"not converged: {runs[-1].start.status.replace('_', ' ').lower()}"
-        for run in sorted((run for run in runs if run.start.converged), key=lambda run: run.start.objective):
-            checked = self._checked(run, goal, bound)
-            if isinstance(checked, Point):
-                return checked
-            reason = checked
-        return Failure(bound, reason)
+    def _undominated(self, points: Sequence[Point]) -> list[Point]:
+        return undominated(points, self.outputs)
 
-    def _checked(self, run: Run, goal: Goal, bound: float | None) -> Point | str:
-        """The design simulated and held against every limit again; in words which one it breaks."""
-        optimizer = self._optimizer
-        try:
-            switch = optimizer.simulator.run(run.inputs, run.drives)
-        except SimulationError as error:
-            return str(error)
-        values = optimizer.model.values(run.inputs, switch.values)
-        limits = optimizer.problem.limits
-        for limit, room in zip(limits, goal.room(limits), strict=True):
-            tolerance = SWITCH_TOLERANCE if on_switch(self.table, limit.output) else ALGEBRAIC_TOLERANCE
-            if not limit.residual(values[limit.output]) <= room + tolerance:
-                value = format_quantity(values[limit.output], self.table.unit(limit.output))
-                return f"converged, but simulated it breaks {in_words(limit, self.table)}: {value}"
-        inputs = {name: float(run.inputs[i]) for name, i in optimizer.model.index.items()}
-        return Point(bound, {**inputs, **values}, {stage: drive.plain() for stage, drive in run.drives.items()})
+    def _same(self, one: Point, other: Point) -> bool:
+        return all(_alike([one.values[name], other.values[name]]) for name in self.outputs)
 
 
-def with_ceilings(study: Study, outputs: Iterable[str], usual: Mapping[str, float]) -> Study:
-    """The study with a ceiling far above the usual value (SI) of each output that has none, for a front to lower."""
-    own = {r.output for r in study.require if r.sense == "<="}
-    added = tuple(
-        Requirement(output=name, sense="<=", limit=OUT_OF_THE_WAY * usual[name], text="a ceiling of the front")
-        for name in outputs
-        if name not in own
-    )
-    return study.model_copy(update={"require": (*study.require, *added)})
+def undominated(points: Sequence[Point], names: Sequence[str]) -> list[Point]:
+    """The points no other one is as good as in every named output (less is better); of equal ones the first."""
+    if not points:
+        return []
+    return [points[i] for i in shape.kept(np.array([[point.values[name] for name in names] for point in points]))]
 
 
-def _serves(built: Optimizer, outputs: Iterable[str]) -> bool:
-    """Whether a built problem can trade some outputs: fast enough for many runs, each minimised and under a ceiling."""
-    under = {limit.output for limit in built.problem.limits if limit.sense == "<="}
-    return built.many and set(outputs) <= under & set(built.problem.minimize)
+def _alike(values: Sequence[float]) -> bool:
+    return max(values) - min(values) <= ONE_POINT * max(abs(value) for value in values)
 
 
-def _for_tradeoff(study: Study, solution: Solution, outputs: Iterable[str], listed: Sequence[str]) -> Study:
-    """The study with a ceiling on every output and its listed choices held."""
-    own = {r.output for r in study.require if r.sense == "<="}
-    added = tuple(
-        Requirement(output=name, sense="<=", limit=abs(solution.values[name]) or 1.0, text="a ceiling of the front")
-        for name in outputs
-        if name not in own
-    )
-    words, index = solution.model.words, solution.model.index
-    held = {
-        name: float(solution.inputs[index[name]]) if name in index else getattr(words[name], "name", words[name])
-        for name in listed
-    }
-    return study.model_copy(
-        update={
-            "module": {**study.module, **held},
-            "vary": {name: vary for name, vary in study.vary.items() if name not in held},
-            "require": (*study.require, *added),
-            "minimize": dict.fromkeys(outputs, 1.0),
-        }
-    )
-
-
-def _better(one: Point, other: Point, name: str) -> bool:
-    """Whether a point has less of an output than another, by more than the simulation's tolerance."""
-    return one.values[name] < other.values[name] * (1.0 - ONE_POINT)
-
-
-def _close(a: float, b: float) -> bool:
-    return abs(a - b) <= ONE_POINT * max(abs(a), abs(b))
-
-
-def undominated(points: Sequence[Point], names: Sequence[str]) -> tuple[tuple[Point, ...], tuple[Point, ...]]:
-    """The points no other one is as good as in every named output (less is better), and the rest; in their order.
-
-    Of points that are equal in all of them the first stays.
-    """
-    kept: list[Point] = []
-    dominated: list[Point] = []
-    for i, point in enumerate(points):
-        mine = [point.values[name] for name in names]
-        others = [[other.values[name] for name in names] for j, other in enumerate(points) if j != i]
-        earlier = [[other.values[name] for name in names] for other in points[:i]]
-        worse = any(o != mine and all(a <= b for a, b in zip(o, mine, strict=True)) for o in others)
-        (dominated if worse or mine in earlier else kept).append(point)
-    return tuple(kept), tuple(dominated)
+def _and(names: Sequence[str]) -> str:
+    return " and ".join(names) if len(names) < 3 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -8,24 +8,38 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.solve.limits import Limit
-
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
+class Bound:
+    """A sum of outputs that must not exceed a limit: `factors` by output, in whatever unit makes the sum one."""
+
+    factors: Mapping[str, float]
+    limit: float
+
+    def residual(self, values: Mapping[str, float]) -> float:
+        """How far it is broken; kept where <= 0."""
+        return sum(factor * values[name] for name, factor in self.factors.items()) - self.limit
+
+
+@dataclass(frozen=True)
 class Goal:
-    """Weights and ceilings of one run; both are numbers the solver is given, nothing is built for them."""
+    """Weights and bounds of one run; both are numbers the solver is given, nothing is built for them."""
 
     weights: Mapping[str, float]
     """Weight of each minimised output over its reference."""
-    ceilings: Mapping[str, float] = field(default_factory=dict)
-    """Upper limits (SI) in place of those the problem was built with, by output; infinite where there is none."""
+    bounds: Sequence[Bound] = field(default_factory=tuple)
+    """No more of them than the problem has traded outputs."""
 
-    def room(self, limits: Sequence[Limit]) -> Array:
-        """Largest residual of each limit: zero, or what another ceiling leaves."""
-        return np.array([
-            float(limit.residual(self.ceilings[limit.output]))
-            if limit.sense == "<=" and limit.output in self.ceilings else 0.0
-            for limit in limits
-        ])  # fmt: skip
+    def factors(self, traded: Sequence[str]) -> Array:
+        """Factors of every bound (a row) on every traded output (a column); rows that bound nothing are zero."""
+        found = np.zeros((len(traded), len(traded)))
+        for row, bound in zip(found, self.bounds, strict=False):
+            row[:] = [bound.factors.get(name, 0.0) for name in traded]
+        return found
+
+    def room(self, traded: Sequence[str]) -> Array:
+        """Largest sum of every bound; infinite where a row bounds nothing."""
+        limits = [bound.limit for bound in self.bounds]
+        return np.array(limits + [np.inf] * (len(traded) - len(limits)))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,11 +50,23 @@ _IPOPT = {
 }
 _WARM = {
     "warm_start_init_point": "yes",
-    "mu_init": 1e-7,
-    "warm_start_bound_push": 1e-6,
-    "warm_start_mult_bound_push": 1e-6,
-    "warm_start_slack_bound_push": 1e-6,
+    "mu_init": 1e-6,
+    "warm_start_bound_push": 1e-5,
+    "warm_start_mult_bound_push": 1e-5,
+    "warm_start_slack_bound_push": 1e-5,
 }
+_WARM_ITERATIONS = 30
+"""A warm start takes five to ten iterations or goes nowhere; who asks for one then starts from further back."""
+_DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_hess_l"}
+"""Derivatives a solver has built, by the option under which another one takes them."""
+
+
+class Trace(NamedTuple):
+    """What a run left behind for another one to begin from, warm."""
+
+    unknowns: Array
+    multipliers: Array
+    bound_multipliers: Array
 
 
 @dataclass
@@ -72,6 +84,11 @@ class Run:
     bound_multipliers: Array
     parameter_multipliers: Array
     """What the objective falls with every parameter of the problem, per unit."""
+
+    @property
+    def trace(self) -> Trace:
+        """Where another run may begin."""
+        return Trace(self.unknowns, self.multipliers, self.bound_multipliers)
 
 
 @dataclass(frozen=True)
@@ -101,11 +118,13 @@ class Optimizer:
         reference: dict[str, float] | None = None,
         progress: Progress = lambda _: None,
         simulator: Simulator | None = None,
+        traded: Sequence[str] = (),
     ) -> None:
         """Compile the device, simulate the study's start, and build the problem for about `runs` runs.
 
         `reference` are the values the minimised outputs are divided by: the study's start unless given. A `simulator`
-        of the same device saves compiling it again. Raises InfeasibleError where a limit is broken that nothing free
+        of the same device saves compiling it again. Outputs that are `traded` can be weighed and bounded by a `Goal`
+        whether the study minimises them or not. Raises InfeasibleError where a limit is broken that nothing free
         can mend, InputError from the table.
         """
         self.many = runs >= EXPAND_FROM
@@ -118,10 +137,10 @@ class Optimizer:
         rows = {current.row for current in self.currents}
         numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
         self.free = tuple(self._free(name) for name in numbers)
-        self.problem = self._problem(limits_of(study, table))
+        self.problem = self._problem(limits_of(study, table), traded)
         self.start_switch = self.simulator.run(self.model.start, stages=self.problem.stages)
         self.start_values = self.model.values(self.model.start, self.start_switch.values)
-        self.reference = reference or {name: self._reference(name) for name in study.minimize}
+        self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
@@ -151,7 +170,7 @@ class Optimizer:
         ramp_elements = math.ceil(ramp_time(vary.upper, slew) / RAMP_ELEMENT)
         return FreeCurrent(stage, row, pieces, vary.lower, vary.upper, ramp_elements)
 
-    def _problem(self, limits: list[Limit]) -> Problem:
+    def _problem(self, limits: list[Limit], traded: Sequence[str]) -> Problem:
         """The problem without the limits that nothing free can change; those are checked here and now."""
         free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
         constant = [limit for limit in limits if is_constant(limit, self.table, free)]
@@ -166,7 +185,7 @@ class Optimizer:
                 )
         kept = [limit for limit in limits if limit not in constant]
         elements = self.study.solver.elements
-        return Problem(self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents)
+        return Problem(self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents, traded)
 
     def _variables_behind(self, name: str) -> list[str]:
         above = self.table.ancestors(name)
@@ -182,10 +201,11 @@ class Optimizer:
 
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:
+            most = self.study.solver.max_iterations
             ipopt: dict[str, Any] = {
                 **_IPOPT,
                 **(_WARM if warm else {}),
-                "max_iter": self.study.solver.max_iterations,
+                "max_iter": min(most, _WARM_ITERATIONS) if warm else most,
                 "tol": self.study.solver.tolerance,
             }
             options: dict[str, Any] = {
@@ -194,7 +214,13 @@ class Optimizer:
                 "expand": self.many,
                 "show_eval_warnings": False,
             }
-            self._solvers[warm] = ca.nlpsol("design", "ipopt", self.problem.function, options)
+            known = next(iter(self._solvers.values()), None)
+            if known is None:
+                self._solvers[warm] = ca.nlpsol("design", "ipopt", self.problem.function, options)
+            else:  # the derivatives are most of the building: the other solver's serve again
+                derivatives = {option: known.get_function(name) for option, name in _DERIVATIVES.items()}
+                options |= {**derivatives, "expand": False}
+                self._solvers[warm] = ca.nlpsol("design", "ipopt", known.oracle(), options)
         return self._solvers[warm]
 
     # --- starts ---
@@ -284,13 +310,13 @@ class Optimizer:
     def solve(
         self,
         fixed: Mapping[str, float] | None = None,
-        warm: Run | None = None,
+        warm: Run | Trace | None = None,
         begin: Array | None = None,
         goal: Goal | None = None,
     ) -> Run:
         """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers fixed.
 
-        A `goal` stands in place of the study's weights and of some of its upper limits; nothing is built anew.
+        A `goal` stands in place of the study's weights and bounds what is traded; nothing is built anew.
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
@@ -301,11 +327,11 @@ class Optimizer:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         goal = goal or Goal(self.study.minimize)
         equations = self.problem.equation_count
-        rest = self.problem.slope_count + self.problem.peak_count
+        limits, rest = len(self.problem.limits), self.problem.slope_count + self.problem.peak_count
         answer = solver(
-            **arguments, p=self._parameters(goal.weights), lbx=lower, ubx=upper,
-            lbg=np.concatenate([np.zeros(equations), np.full(len(self.problem.limits) + rest, -np.inf)]),
-            ubg=np.concatenate([np.zeros(equations), goal.room(self.problem.limits), np.zeros(rest)]),
+            **arguments, p=self._parameters(goal), lbx=lower, ubx=upper,
+            lbg=np.concatenate([np.zeros(equations), np.full(limits + len(self.problem.traded) + rest, -np.inf)]),
+            ubg=np.concatenate([np.zeros(equations + limits), goal.room(self.problem.traded), np.zeros(rest)]),
         )  # fmt: skip
         stats = solver.stats()
         if stats["return_status"] == "User_Requested_Stop":  # an interrupt that reached IPOPT first
@@ -325,10 +351,10 @@ class Optimizer:
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
         return Run(start, end, drives, ends, unknowns, *multipliers)
 
-    def _parameters(self, weights: Mapping[str, float]) -> Array:
-        """The problem's parameters: the study's inputs, and weights over the references."""
-        over = [weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
-        return np.concatenate([self.model.start, over])
+    def _parameters(self, goal: Goal) -> Array:
+        """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
+        over = [goal.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
+        return np.concatenate([self.model.start, over, goal.factors(self.problem.traded).ravel(order="F")])
 
     def derivatives(self, run: Run) -> Derivatives:
         """The problem's values and derivatives where a run of the study's own goal ended.
@@ -336,12 +362,12 @@ class Optimizer:
         IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
         """
         solver = self._solver(warm=False)
-        parameters = self._parameters(self.study.minimize)
+        parameters = self._parameters(Goal(self.study.minimize))
         rows, jacobian = solver.get_function("nlp_jac_g")(run.unknowns, parameters)
         hessian = solver.get_function("nlp_hess_l")(run.unknowns, parameters, 1.0, run.multipliers)
         values, gradients = {}, {}
-        for name in self.problem.minimize:
-            alone = self._parameters({name: self.reference[name]})
+        for name in self.study.minimize:
+            alone = self._parameters(Goal({name: self.reference[name]}))
             value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
             values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
         return Derivatives(np.asarray(rows).ravel(), jacobian, ca.triu2symm(hessian), values, gradients)

@@ -81,9 +81,9 @@ class Problem:
 
     x: the free numbers; for each block its states, column by column, and its log time; the free currents at their
     nodes; the balances' states and currents; the peaks.
-    p: every input of the device, then the weights of what is minimised.
-    g: equations, zero; the limits' residuals, in their order, kept where <= 0; the currents' slopes; samples less
-    peaks, all <= 0.
+    p: every input of the device, then the weights of what is minimised, then the factors of the sums, column by column.
+    g: equations, zero; the limits' residuals, in their order, kept where <= 0; sums of what is traded, below what the
+    caller says; the currents' slopes; samples less peaks, all <= 0.
     """
 
     def __init__(
@@ -94,12 +94,17 @@ class Problem:
         minimize: Sequence[str],
         elements: int,
         currents: Sequence[FreeCurrent] = (),
+        traded: Sequence[str] = (),
     ) -> None:
-        """Write objective and constraints. `minimize` names the outputs whose weighted sum is least."""
+        """Write objective and constraints. `minimize` names the outputs whose weighted sum is least.
+
+        Those that are `traded` get a row each that bounds a sum of them, with factors that are parameters.
+        """
         self.model = model
         self.free = tuple(free)
         self.limits = tuple(limits)
-        self.minimize = tuple(minimize)
+        self.traded = tuple(traded)
+        self.minimize = tuple(dict.fromkeys([*minimize, *traded]))
         self._elements = elements
         self.free_currents = tuple(currents)
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
@@ -110,6 +115,7 @@ class Problem:
         unknowns = ca.MX.sym("free", len(self.free))
         inputs = ca.MX.sym("inputs", len(self.model.names))
         weights = ca.MX.sym("weights", len(self.minimize))
+        factors = ca.MX.sym("factors", len(self.traded), len(self.traded))
         device_inputs = self._device_inputs = self._with_unknowns(inputs, unknowns)
         self._nodes = {c.stage: ca.MX.sym(f"current_{c.stage}", c.nodes) for c in self.free_currents}
         self.blocks = self._write_blocks(device_inputs)
@@ -120,6 +126,8 @@ class Problem:
         values = self.model.outputs(wanted)(device_inputs, switch) if wanted else ca.MX(0, 1)
         objective = sum(weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
         rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
+        traded = ca.vertcat(*(values[wanted.index(name)] for name in self.traded))
+        sums = ca.mtimes(factors, traded) if self.traded else ca.MX(0, 1)
         equations = ca.vertcat(*(block.equations for block in self.blocks), *(b.equations for b in self.balances))
         slopes = self._slopes(device_inputs)
         everything = ca.vertcat(
@@ -129,11 +137,11 @@ class Problem:
         self.equation_count = equations.numel()
         self.slope_count = slopes.numel()
         self.peak_count = peak_rows.numel()
-        self.function = {
+        self.function: dict[str, Any] = {
             "x": everything,
-            "p": ca.vertcat(inputs, weights),
+            "p": ca.vertcat(inputs, weights, ca.vec(factors)),
             "f": objective,
-            "g": ca.vertcat(equations, *rows, slopes, peak_rows),
+            "g": ca.vertcat(equations, *rows, sums, slopes, peak_rows),
         }
         self.unknown_count = everything.numel()
 

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
 from tvimdesign.errors import InputError
 from tvimdesign.solve.account import account
-from tvimdesign.solve.optimizer import Array, Optimizer, Progress, Run
+from tvimdesign.solve.optimizer import EXPAND_FROM, Array, Optimizer, Progress, Run
 from tvimdesign.solve.reach import refuse_unreachable
 from tvimdesign.solve.solution import Constant, Solution, Start
 from tvimdesign.study import Options, Study
 from tvimdesign.units import format_quantity
 
 MAX_COMBINATIONS = 500
+Keep = Callable[[Optimizer, list[Run]], None]
 
 
 def optimize(
@@ -25,41 +26,45 @@ def optimize(
     table: Table,
     progress: Progress = lambda _: None,
     reference: dict[str, float] | None = None,
-    keep: Callable[[Optimizer], None] = lambda _: None,
+    keep: Keep = lambda *_: None,
+    traded: Sequence[str] = (),
 ) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
 
     `reference` are the values the minimised outputs are divided by: those of the study's start unless given.
-    `keep` is handed the problem, with its solvers, that the best design came from.
+    `keep` is handed the problem, with its solvers, that the best design came from, and the runs of its starts; outputs
+    that are `traded` can be weighed and bounded with it afterwards.
     """
     refuse_unreachable(study, catalog, table)
     sizes = _listed_sizes(study, table)
     records = _record_choices(study, table)
-    runs = study.solver.starts + len(sizes)
+    runs = study.solver.starts + len(sizes) + (EXPAND_FROM if traded else 0)
     if len(sizes) * len(records) > MAX_COMBINATIONS:
         raise InputError(
             f"vary: {len(sizes) * len(records)} combinations of listed choices; the limit is {MAX_COMBINATIONS}; "
             f"narrow a list with from and to"
         )
     best: tuple[Optimizer, Run] | None = None
+    runs_of: dict[int, list[Run]] = {}
     constant: Constant | None = None
     starts: list[Start] = []
     seconds = {"set_up": 0.0, "solve": 0.0}
     for choice in records:
-        optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress)
+        optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress, traded=traded)
         reference = optimizer.reference
         stepping_stone = SteppingStone(optimizer)
         for run, size in _runs(optimizer, stepping_stone, sizes, progress):
             relaxed = bool(sizes) and not size
             run.start = replace(run.start, number=len(starts), choices={**choice, **size}, relaxed=relaxed)
             starts.append(run.start)
+            runs_of.setdefault(id(optimizer), []).append(run)
             if relaxed:
                 continue
             if best is None or _order(run.start) < _order(best[1].start):
                 best, constant = (optimizer, run), stepping_stone.found()
         seconds = {key: seconds[key] + optimizer.seconds[key] for key in seconds}
     assert best is not None  # there is always one combination and one start
-    keep(best[0])
+    keep(best[0], runs_of[id(best[0])])
     return replace(account(*best, tuple(starts), seconds), constant=constant)
 
 

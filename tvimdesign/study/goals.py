@@ -1,4 +1,4 @@
-"""Reads the sections `require` and `minimize`: what must hold, and what is to be small."""
+"""Reads the sections `require`, `minimize` and `front`: what must hold, what is to be small, what is to be traded."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import re
 from collections.abc import Collection
 
 from tvimdesign.device import Output, Swing
-from tvimdesign.study.model import Requirement
+from tvimdesign.study.model import FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement
 from tvimdesign.study.problems import one_of, quoted, step
-from tvimdesign.study.values import Reading, below, entries, misfit, number, si_value, text
+from tvimdesign.study.values import Reading, below, entries, misfit, number, si_value, text, unknown_keys, whole
 from tvimdesign.study.yaml_text import Node, Sequence, Text
 from tvimdesign.units import format_quantity
 
 MOST_LIMITS = 10
+_FRONT = ["of", "points"]
 _INSTEAD = "limit `backlash` or `relaxation_loss`"
 _LIMIT = re.compile(r"(?P<sense><=|>=)\s*(?P<quantity>[^\s<>=].*)")
 
@@ -48,6 +49,39 @@ def read_minimize(reading: Reading, node: Node | None, points: Collection[str]) 
         elif weight is not None:
             found[name] = weight
     return found
+
+
+def read_front(reading: Reading, node: Node | None, points: Collection[str]) -> FrontOptions | None:
+    """Return the outputs to be traded and the count of points; every problem is noted."""
+    expected = "'{of: [response_time, module_mass], points: 12}'"
+    found = unknown_keys(reading.problems, entries(reading.problems, node, "front", expected), "front", "key", _FRONT)
+    if node is None or not found:
+        return None
+    outputs = found.get("of")
+    if not isinstance(outputs, Sequence) or len(outputs.items) not in (2, 3):
+        reading.problems.add(
+            outputs or node, "front.of", "are not two or three outputs", "[response_time, module_mass]"
+        )
+        return None
+    names = [_traded(reading, item, f"front.of[{i}]", points) for i, item in enumerate(outputs.items)]
+    count = whole(reading.problems, found["points"], "front.points") if "points" in found else None
+    if None in names:
+        return None
+    if len(set(names)) < len(names):
+        reading.problems.add(outputs, "front.of", "names an output twice", "two or three different ones")
+        return None
+    least, most = FEWEST_POINTS, MOST_POINTS
+    if count is not None and not least <= count <= most:
+        reading.problems.add(found["points"], "front.points", f"{count} points", f"{least} to {most}")
+        return None
+    return FrontOptions(of=tuple(filter(None, names)), **({} if count is None else {"points": count}))
+
+
+def _traded(reading: Reading, node: Node, path: str, points: Collection[str]) -> str | None:
+    word = text(reading.problems, node, path, "the name of an output")
+    if word is None or not isinstance(node, Text):
+        return None
+    return word if _output(reading, node, path, word, points) else None
 
 
 def _output(reading: Reading, key: Text, path: str, name: str, points: Collection[str]) -> Output | None:

@@ -9,6 +9,9 @@ from pydantic import BaseModel, ConfigDict, Field
 FORMAT = 1
 """The file format this version reads, the study's key `tvimdesign`."""
 
+FEWEST_POINTS, MOST_POINTS = 3, 200
+"""Designs on a front that a study may ask for."""
+
 STANDARD_POINTS: dict[str, dict[str, float]] = {
     "cold": {"temperature": 303.15, "frequency": 1.0},
     "hot": {"temperature": 373.15, "frequency": 1.0},
@@ -69,6 +72,13 @@ class ProfileOptions(_Part):
         return {stage: count for stage, count in self.model_dump().items() if count}
 
 
+class FrontOptions(_Part):
+    """Two or three outputs to be traded against one another."""
+
+    of: Annotated[tuple[str, ...], Field(min_length=2, max_length=3)]
+    points: int = Field(12, ge=FEWEST_POINTS, le=MOST_POINTS, description="designs on the front, its ends included")
+
+
 class WriteOptions(_Part):
     """What the results folder gets besides the numbers."""
 
@@ -87,6 +97,7 @@ class Study(_Part):
     vary: dict[str, Vary] = {}
     require: tuple[Requirement, ...] = ()
     minimize: dict[str, float] = {}
+    front: FrontOptions | None = None
     operating_points: dict[str, dict[str, float]]
     profile: ProfileOptions = ProfileOptions()
     solver: SolverOptions = SolverOptions()

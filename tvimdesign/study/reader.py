@@ -14,7 +14,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.errors import CatalogError, InputError
 from tvimdesign.study.files import printable
-from tvimdesign.study.goals import read_minimize, read_require
+from tvimdesign.study.goals import read_front, read_minimize, read_require
 from tvimdesign.study.model import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions
 from tvimdesign.study.problems import Problems, one_of, quoted, step
 from tvimdesign.study.settings import read_module, read_points
@@ -33,6 +33,7 @@ SECTIONS = (
     "vary",
     "require",
     "minimize",
+    "front",
     "operating_points",
     "profile",
     "solver",
@@ -117,6 +118,7 @@ class _Reader:
         check_against_module(reading, vary, module, get("module"))
         require = read_require(reading, get("require"), points)
         minimize = read_minimize(reading, get("minimize"), points)
+        front = read_front(reading, get("front"), points)
         self._both_or_neither()
         self._profile_has_a_range(reading.table, vary)
         return {
@@ -125,11 +127,16 @@ class _Reader:
             "vary": with_start(vary, module),
             "require": require,
             "minimize": minimize,
+            "front": front,
             "operating_points": points,
         }
 
     def _both_or_neither(self) -> None:
         vary, minimize = (self.sections.get(key) for key in ("vary", "minimize"))
+        front = self.sections.get("front")
+        if _says_something(front) and not _says_something(vary):
+            assert front is not None
+            self.problems.add(front, "front", "nothing may change: `vary` is missing", "`vary` and `minimize` with it")
         if _says_something(minimize) and not _says_something(vary):
             assert minimize is not None
             self.problems.add(minimize, "minimize", "nothing may change: `vary` is missing", "both or neither")

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 
 from tvimdesign.device import MODES, Choice, Input, Output, Swing, Table, table_for
-from tvimdesign.study.model import FORMAT, ProfileOptions, SolverOptions, WriteOptions
+from tvimdesign.study.model import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
 from tvimdesign.study.sizes import SIZES_SHELF
 
 SCHEMA_FILE = Path(__file__).with_name("schema.json")
@@ -22,6 +22,7 @@ _SECTIONS = {
     "vary": "what may change",
     "require": "what must hold",
     "minimize": "what is to be small, with weights",
+    "front": "two or three outputs to be traded against one another, and how many designs to find",
     "operating_points": "where stiffness and damping are wanted; `cold` and `hot` always exist",
 }
 """The sections whose names depend on the mode, and what they are for."""
@@ -72,6 +73,7 @@ def _of_mode(table: Table) -> _Schema:
         "vary": _section(about["vary"], {row.name: _vary(row) for row in settable if _varies(row)}),
         "require": _section(about["require"], {}, _by_output(table, _require)),
         "minimize": _minimize(table),
+        "front": _front(table),
         "operating_points": _points(table),
     }
 
@@ -153,6 +155,14 @@ def _minimize(table: Table) -> _Schema:
     names = "|".join(pattern[1:-1] for pattern in weights)
     section = _section(_SECTIONS["minimize"], {}, weights)
     return {"anyOf": [section, {"type": "string", "pattern": f"^({names})$"}]}
+
+
+def _front(table: Table) -> _Schema:
+    names = "|".join(pattern[1:-1] for pattern in _by_output(table, lambda _: {}))
+    output = {"type": "string", "pattern": f"^({names})$"}
+    outputs = {"type": "array", "minItems": 2, "maxItems": 3, "uniqueItems": True, "items": output}
+    points = {"type": "integer", "minimum": FEWEST_POINTS, "maximum": MOST_POINTS, "default": 12}
+    return _section(_SECTIONS["front"], {"of": outputs, "points": points})
 
 
 def _points(table: Table) -> _Schema:

@@ -10,7 +10,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -38,8 +38,13 @@ class _Child(NamedTuple):
     began: float
 
 
-def answers(asked: Sequence[Asked], points: int, progress: Progress) -> dict[str, dict[str, Any]]:
-    """What each study's job found, by label; a job that died has its reason under `troubles`."""
+def answers(
+    asked: Sequence[Asked], points: int, progress: Progress, when_idle: Callable[[], object] = lambda: None
+) -> dict[str, dict[str, Any]]:
+    """What each study's job found, by label; a job that died has its reason under `troubles`.
+
+    `when_idle` is called as soon as there is nothing more to start: from then on a core is free.
+    """
     waiting, running = list(asked), list[_Child]()
     found: dict[str, dict[str, Any]] = {}
     said: queue.Queue[tuple[str, str | None]] = queue.Queue()
@@ -58,6 +63,8 @@ def answers(asked: Sequence[Asked], points: int, progress: Progress) -> dict[str
                 child = next(child for child in running if child.label == label)
                 running.remove(child)
                 found[label] = _finish(child)
+                if not waiting and len(running) == AT_ONCE - 1:
+                    when_idle()
         finally:
             for child in running:
                 child.process.kill()

@@ -11,9 +11,9 @@ import json
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -28,9 +28,10 @@ from tvimdesign.report.summary import complaint
 from tvimdesign.report.tables import check_row
 from tvimdesign.report.why import binding
 from tvimdesign.solve.answer import Answer, answer
-from tvimdesign.solve.front import Front, Tradeoff, with_ceilings
-from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.front import Front, trace_front, undominated
+from tvimdesign.solve.optimizer import Optimizer, Run
 from tvimdesign.solve.rig import rig_of_design
+from tvimdesign.solve.tradeoff import Point, Tradeoff
 from tvimdesign.solve.trials import find_test
 from tvimdesign.study import Study, drawn, read_study
 from tvimdesign.units import from_si
@@ -57,7 +58,7 @@ class Job:
         self.catalog: Catalog = catalog_of(self.study)
         self.table = table_for(self.study.mode)
         self.points, self.say = points, say
-        self._built: list[Optimizer] = []
+        self._built: list[tuple[Optimizer, list[Run]]] = []
         self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}}
 
     def run(self) -> dict[str, Any]:
@@ -94,19 +95,15 @@ class Job:
     def _optimised(self) -> Answer:
         starts = [yardstick.at_its_start(study) for study in (self.study, *map(read_study, self.others))]
         common = yardstick.common(starts)
-        asked = self._traded(common) if self.points else self.study
-        answered = answer(asked, self.catalog, self.table, self.say, common, self._built.append)
-        design = answered.design.model_copy(update={"study": self.study.model_dump(mode="json")})
-        answered = replace(answered, design=design)
+        traded = front_outputs(self.study, self.table) if self.points else ()
+        answered = answer(self.study, self.catalog, self.table, self.say, common, self._keep, traded)
         if not answered.found:
             raise InfeasibleError(complaint(answered, self.table))
         self.found["optimised"] = self._told(answered)
         return answered
 
-    def _traded(self, usual: Mapping[str, float]) -> Study:
-        """The study with ceilings that a front can lower afterwards, where its outputs are minimised anyway."""
-        outputs = [name for name in front_outputs(self.study, self.table) if name in usual]
-        return with_ceilings(self.study, outputs, usual)
+    def _keep(self, built: Optimizer, runs: list[Run]) -> None:
+        self._built.append((built, runs))
 
     def _told(self, answered: Answer) -> dict[str, Any]:
         checks = [check_row(check, self.table) for check in answered.checks]
@@ -129,16 +126,23 @@ class Job:
 
     def _trade(self, best: Answer) -> None:
         assert best.solution is not None
+        trade = Tradeoff(self.study, best.solution, *self._built[0], self.say)
         first, *others = front_outputs(self.study, self.table)
-        trade = Tradeoff(self.study, self.catalog, self.table, best.solution, (first, *others), self.say,
-                         self._built[0] if self._built else None)  # fmt: skip
         for second in others:
-            self.found["fronts"].append(self._plain(trade.front(first, second, self.points)))
+            front = trace_front(trade, (first, second), self.points)
+            self.found["fronts"].append(self._plain(front, trade.optimum))
 
     @staticmethod
-    def _plain(front: Front) -> dict[str, Any]:
-        """A front in SI; every point a whole design, null where something never happens."""
-        plain: dict[str, Any] = json.loads(json.dumps(asdict(front)), parse_constant=lambda _: None)
+    def _plain(front: Front, optimum: Point) -> dict[str, Any]:
+        """A front in SI, with the study's own optimum where it is on it; null where something never happens."""
+        first, second = front.outputs
+        points = sorted(undominated([*front.points, optimum], front.outputs), key=lambda point: point.values[first])
+        told = {
+            "first": first, "second": second, "notes": front.notes, "dominated": front.dominated,
+            "failures": [asdict(failure) for failure in front.failures],
+            "points": [{"where": one.where, "values": one.values, "drives": one.drives} for one in points],
+        }  # fmt: skip
+        plain: dict[str, Any] = json.loads(json.dumps(told), parse_constant=lambda _: None)
         return plain
 
     def _release(self, best: Answer) -> None:

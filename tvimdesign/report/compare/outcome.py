@@ -93,12 +93,8 @@ class Outcome:
             "fronts": [
                 {
                     "study": label, "first": first, "second": second,
-                    **{kind: [self._point(point, second) for point in front[kind]] for kind in ("points", "dominated")},
-                    "failures": [
-                        {"bound": self._in_unit(second, one["bound"]), "reason": one["reason"]}
-                        for one in front["failures"]
-                    ],
-                    "notes": front["notes"],
+                    "points": [self._point(point) for point in front["points"]],
+                    **{kind: front[kind] for kind in ("dominated", "failures", "notes")},
                 }
                 for (first, second), fronts in self.fronts.items() for label, front in fronts.items()
             ],
@@ -120,9 +116,9 @@ class Outcome:
             for label, front in fronts.items():
                 yield from ((label, f"{first} against {second}", point) for point in front["points"])
 
-    def _point(self, point: dict[str, Any], second: str) -> dict[str, Any]:
+    def _point(self, point: dict[str, Any]) -> dict[str, Any]:
         values = {name: self._in_unit(name, value) for name, value in point["values"].items()}
-        return {"bound": self._in_unit(second, point["bound"]), "values": values, "drives": point["drives"]}
+        return {"where": point["where"], "values": values, "drives": point["drives"]}
 
     def _in_unit(self, name: str, value: float | None) -> float | None:
         return None if value is None else from_si(value, self.unit(name))

@@ -34,9 +34,14 @@ def compare_studies(
         folder = stack.enter_context(ResultsFolder(out, overwrite))
         progress = stack.enter_context(talk())
         asked = [Asked(label, entrant.path) for label, entrant in entrants.items()]
-        outcome = Outcome(entrants, answers(asked, points, progress))
+        drawing: PlotProcess | None = None
+
+        def begin_drawing() -> None:
+            nonlocal drawing
+            drawing = stack.enter_context(PlotProcess()) if plots else None
+
+        outcome = Outcome(entrants, answers(asked, points, progress, begin_drawing))
         outcome.seconds["all answers"] = time.perf_counter() - began
-        drawing = stack.enter_context(PlotProcess()) if plots else None
         asked_for = drawings(outcome)
         if drawing:
             drawing.begin(folder.path, asked_for)

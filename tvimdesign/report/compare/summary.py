@@ -112,8 +112,6 @@ def _print_fronts(outcome: Outcome, console: Console) -> None:
     for (first, second), fronts in outcome.fronts.items():
         for label, front in fronts.items():
             told = [f"{len(front['points'])} points", *front["notes"]]
-            told += [f"{len(front['dominated'])} more are no better in anything"] if front["dominated"] else []
-            for failure in front["failures"]:
-                at = "an end" if failure["bound"] is None else format_quantity(failure["bound"], outcome.unit(second))
-                told.append(f"no design at {at}: {failure['reason']}")
+            told += [f"{front['dominated']} more are no better in anything"] if front["dominated"] else []
+            told += [f"no design at {failure['where']}: {failure['reason']}" for failure in front["failures"]]
             console.print(f"[dim]Front of {first} against {second}, {escape(label)}: {escape('; '.join(told))}.[/dim]")

@@ -1,0 +1,122 @@
+"""A front in a run's folder: tables, designs, figure and words; killed and resumed it is the same, byte for byte."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from comparable import SHEAR, written
+from support import ROOT, Command
+
+from tvimdesign.device import table_for
+from tvimdesign.report.front import in_words
+from tvimdesign.solve.front import Front
+from tvimdesign.solve.tradeoff import Point
+from tvimdesign.study.design import read_design
+
+ASKED = SHEAR + "front: {of: [response_time, module_mass], points: 5}\n"
+
+
+@pytest.fixture(scope="module")
+def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A study with a front, run to its end."""
+    folder = tmp_path_factory.mktemp("front")
+    (study,) = written(folder, study=ASKED)
+    done = tvimdesign("run", study, "--no-cad", "--out", folder / "out")
+    assert done.returncode == 0, done.stderr
+    assert "point 3 of 5" in done.stderr
+    assert "Front of response_time against module_mass" in done.stdout
+    return folder / "out"
+
+
+def test_the_table_has_every_variable_and_every_minimised_output(run: Path) -> None:
+    with (run / "front.csv").open() as stream:
+        points = list(csv.DictReader(stream))
+    assert len(points) == 5
+    assert {"response_time [s]", "module_mass [g]", "wire_diameter [mm]", "pcl_thickness [mm]"} <= points[0].keys()
+    times = [float(point["response_time [s]"]) for point in points]
+    assert times == sorted(times)
+    assert points[0]["status"].startswith("least response_time")
+    told = json.loads((run / "front.json").read_text())
+    assert [point["values"]["response_time"] for point in told["points"]] == pytest.approx(times, rel=1e-6)
+    assert told["failures"] == []
+
+
+def test_every_point_is_a_design_that_can_be_read_and_evaluated_to_the_same(run: Path) -> None:
+    told = json.loads((run / "front.json").read_text())
+    for point in told["points"]:
+        design = read_design(run / point["design"])
+        assert design.status == "optimal"
+        again = table_for(design.mode).evaluate(design.values, ["module_mass"])["module_mass"]
+        assert again * 1e3 == pytest.approx(point["values"]["module_mass"], rel=1e-9)
+
+
+def test_the_figure_has_something_on_it(run: Path) -> None:
+    import matplotlib.image as mpimg
+
+    picture = mpimg.imread(run / "plots/front.png")
+    assert picture.shape[0] > 300
+    assert picture[..., :3].std() > 0.02
+
+
+def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(
+    tvimdesign: Command, run: Path, tmp_path: Path
+) -> None:
+    (study,) = written(tmp_path, study=ASKED)
+    out = tmp_path / "out"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "tvimdesign", "run", str(study), "--no-cad", "--no-plots", "--out", str(out)],
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    deadline = time.monotonic() + 120.0
+    while not (out / "front/progress/0002.json").exists() and time.monotonic() < deadline:
+        time.sleep(0.005)
+    process.kill()
+    process.wait()
+    known = len(list((out / "front/progress").glob("0*.json")))
+    assert 3 <= known < 7
+    assert not (out / "front.csv").exists()
+    done = tvimdesign("run", study, "--no-cad", "--no-plots", "--resume", "--out", out)
+    assert done.returncode == 0, done.stderr
+    assert "then module_mass" not in done.stderr  # the ends were known
+    for name in ("front.csv", "front.json", "front/03.design.json"):
+        assert (out / name).read_bytes() == (run / name).read_bytes(), name
+    assert not (out / "front/progress").exists()
+    refused = tvimdesign("run", study, "--no-cad", "--resume", "--out", out)
+    assert refused.returncode == 2
+    assert "nothing to resume" in refused.stderr
+
+
+def test_the_front_of_another_study_is_not_gone_on_with(tvimdesign: Command, tmp_path: Path) -> None:
+    (study,) = written(tmp_path, study=ASKED)
+    out = tmp_path / "out"
+    (out / "front/progress").mkdir(parents=True)
+    (out / "manifest.json").write_text(json.dumps({"status": "interrupted", "files": {}}))
+    (out / "front/progress/asked.json").write_text(json.dumps({"tvimdesign": "0.0.1", "study": {}}))
+    done = tvimdesign("run", study, "--no-cad", "--no-plots", "--resume", "--out", out)
+    assert done.returncode == 2
+    assert "another study or version" in done.stderr
+
+
+def test_the_words_say_what_a_hundredth_less_costs_beyond_the_knee() -> None:
+    """Time and mass by hand: from the knee 10 % less time costs 30 % mass, 10 % less mass 50 % time."""
+    pairs = [(0.9, 1.3), (1.0, 1.0), (1.5, 0.9)]
+    points = tuple(Point("", {"response_time": 100.0 * t, "module_mass": 0.1 * m}, {}) for t, m in pairs)
+    (said,) = in_words(Front(("response_time", "module_mass"), points), table_for("shear"))
+    assert "The knee is point 2: response_time 100 s, module_mass 100 g." in said
+    # ln 1.3 / ln (1/0.9) = 2.49, ln 1.5 / ln (1/0.9) = 3.85
+    assert "1 % less response_time costs 2.5 % module_mass (point 1)" in said
+    assert "1 % less module_mass costs 3.8 % response_time (point 3)" in said
+
+
+@pytest.mark.slow
+def test_a_point_becomes_parts(tvimdesign: Command, run: Path, tmp_path: Path) -> None:
+    done = tvimdesign("cad", run / "front/02.design.json", "--out", tmp_path / "parts")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "parts/assembly.step").stat().st_size > 10_000

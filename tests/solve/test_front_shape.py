@@ -1,0 +1,80 @@
+"""The shape of a front, against points whose answers are worked out by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tvimdesign.solve import front_shape as shape
+from tvimdesign.solve.front_shape import Frame
+
+QUARTER = np.array([[1.0 - np.sin(a), 1.0 - np.cos(a)] for a in np.linspace(0.0, np.pi / 2.0, 9)])
+"""A quarter circle that bulges towards the origin: its knee is half-way, at 45 degrees."""
+
+
+@given(st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5), st.integers(0, 5)), min_size=1, max_size=8))
+def test_kept_points_are_those_no_other_is_better_than(rows: list[tuple[int, int, int]]) -> None:
+    kept = [rows[i] for i in shape.kept(np.array(rows, dtype=float))]
+    assert len(set(kept)) == len(kept)
+    for row in rows:
+        beaten = any(o != row and all(x <= y for x, y in zip(o, row, strict=True)) for o in rows)
+        assert (row in kept) == (not beaten)
+
+
+def test_the_knee_of_a_quarter_circle_is_half_way() -> None:
+    assert shape.knee(QUARTER) == 4
+
+
+def test_the_knee_of_an_eighth_of_a_sphere_is_nearest_its_corner() -> None:
+    ends = np.array([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]])
+    inside = 1.0 - np.array([[0.8, 0.6, 0.0], [1.0, 1.0, 1.0] / np.sqrt(3.0), [0.0, 0.6, 0.8]])
+    assert shape.knee(np.vstack([ends, inside])) == 4
+
+
+def test_a_straight_front_has_no_knee() -> None:
+    assert shape.knee(np.array([[0.0, 1.0], [0.4, 0.6], [1.0, 0.0]])) is None
+
+
+def test_spread_is_the_largest_gap_over_the_mean_one_whatever_the_order() -> None:
+    points = np.array([[0.0, 0.0], [4.0, 0.0], [1.0, 0.0], [2.0, 0.0]])  # gaps 1, 1, 2
+    assert shape.spread(points) == pytest.approx(1.5)
+    assert shape.spread(points[::-1]) == pytest.approx(1.5)
+
+
+def test_a_line_leads_through_its_place_and_every_output_falls_alike_along_it() -> None:
+    names, reference = ("a", "b", "c"), {"a": 2.0, "b": 30.0, "c": 0.4}
+    ends = [{"a": 1.0, "b": 50.0, "c": 0.6}, {"a": 3.0, "b": 10.0, "c": 0.5}, {"a": 2.0, "b": 40.0, "c": 0.1}]
+    frame = Frame.of(names, ends)
+    for end in ends:
+        for bound in frame.bounds(frame.place(end), reference):
+            assert bound.residual(end) == pytest.approx(0.0, abs=1e-12)
+            lower = {name: end[name] - 0.3 * size for name, size in zip(names, frame.ranges, strict=True)}
+            assert bound.residual(lower) == pytest.approx(0.0, abs=1e-12)
+            name = next(one for one in names[1:] if one in bound.factors)
+            assert bound.residual({**end, name: 1.01 * end[name]}) > 0.0
+
+
+def test_weights_of_neighbours_make_up_the_target() -> None:
+    places = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0]])
+    weights = shape.affine(places, np.array([0.3, 0.5, -0.8]))
+    assert weights == pytest.approx([0.2, 0.3, 0.5])
+    assert shape.affine(places[:1], places[1]) == pytest.approx([1.0])
+
+
+def test_candidates_lie_in_the_hull_of_the_ends_and_reach_its_corners() -> None:
+    ends = np.array([[-2.0, 1.0, 1.0], [1.0, -2.0, 1.0], [1.0, 1.0, -2.0], [-0.2, 0.1, 0.1]]) / 3.0
+    places = shape.candidates(ends)
+    assert places.sum(axis=1) == pytest.approx(np.zeros(len(places)), abs=1e-12)
+    assert (places <= 1.0 / 3.0 + 1e-9).all()
+    for end in ends[:3]:
+        assert np.linalg.norm(places - end, axis=1).min() < 1e-12
+    # A circle within the triangle is no further from a place than half a step.
+    assert shape.farthest(places, places[:1])[1] == pytest.approx(np.linalg.norm(ends[0] - ends[1]), rel=1e-9)
+
+
+def test_ends_on_a_line_make_a_thin_front() -> None:
+    line = np.outer([0.0, 0.4, 1.0], [1.0, -0.5, -0.5])
+    assert shape.thin(line)
+    assert not shape.thin(np.array([[-2.0, 1.0, 1.0], [1.0, -2.0, 1.0], [1.0, 1.0, -2.0]]))
