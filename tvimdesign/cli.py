@@ -59,6 +59,7 @@ def run(
     sensitivities: Annotated[
         bool, typer.Option("--sensitivities", help="Write what every variable does to every output at the design.")
     ] = False,
+    prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
@@ -66,7 +67,7 @@ def run(
 
     run_study(
         study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        as_json=json,
+        prove=prove, as_json=json,
     )  # fmt: skip
 
 

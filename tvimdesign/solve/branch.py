@@ -1,9 +1,9 @@
 """Branch and bound over listed sizes and records: boxes of sizes, each bounded by its relaxed optimum.
 
-Within a box every listed number is free between the smallest and the largest of its sizes: no combination in the box can
-be better than the best design there. A box whose bound is no better than the best combinations found is left; any other
-is halved between two sizes, and its halves are solved warm from it. Every different optimum that the starts came to has
-a tree of its own, for the bound is local: it holds as far as the starts go.
+Within a box every listed number is free between the smallest and the largest of its sizes: no combination in it can be
+better than the best design there. A box whose bound is no better than the best combinations found is left; any other is
+halved between two sizes, and its halves are solved warm from it. The bound is local, it holds as far as the starts go:
+so every different optimum they came to is a box of its own to begin with.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from tvimdesign.solve.tree import Tree, order
 
 GAP = 1e-6
 """Share by which a box must promise better than what is known to be looked into."""
-SHOWN = 5
-"""Combinations that are told, and found for certain: bounds are held against the last of them."""
+_TOLD = 20
+"""Boxes between two words of progress."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,12 +42,14 @@ class BranchAndBound:
     """One search over the trees of all records; `found` are the runs of single combinations, by tree and box."""
 
     trees: Sequence[Tree]
-    keep: int = SHOWN
+    keep: int
+    """Combinations that are to be found for certain: bounds are held against the last of them."""
     found: dict[tuple[int, Box], Run] = field(default_factory=dict)
     inside: float = 0.0
     """Largest share by which a design within a box was better than the box's bound."""
     _open: list[Node] = field(default_factory=list)
     _made: int = 0
+    _told: int = 0
     _bounded: list[NDArray[np.bool_]] = field(default_factory=list)
 
     def run(self) -> None:
@@ -142,8 +144,10 @@ class BranchAndBound:
         return (*before, (first, cut), *after), (*before, (cut + 1, last), *after)
 
     def _tell(self, tree: Tree) -> None:
-        left = len(self._open)
-        tree.optimizer.progress(f"{len(self.found)} combinations solved, {left} boxes of them still open")
+        self._told += 1
+        if self._told % _TOLD == 1:
+            left = len(self._open)
+            tree.optimizer.progress(f"{len(self.found)} combinations solved, {left} boxes of them still open")
 
 
 def _inside(tree: Tree, run: Run, box: Box) -> bool:

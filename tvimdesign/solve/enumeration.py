@@ -1,4 +1,4 @@
-"""Every combination of listed sizes solved, each warm from the nearest one before it: slow, and the proof of the rest."""
+"""Every combination of listed sizes solved, each warm from the nearest before it: slow, and a proof of the rest."""
 
 from __future__ import annotations
 
@@ -6,14 +6,19 @@ from tvimdesign.solve.listed import Box
 from tvimdesign.solve.optimizer import Run
 from tvimdesign.solve.tree import Tree, order
 
+_TOLD = 100
+"""Combinations between two words of progress."""
+
 
 def enumerate_all(tree: Tree) -> dict[Box, Run]:
     """The best design of every combination that has one; a chain of runs from each of the tree's different optima."""
     found: dict[Box, Run] = {}
-    chains: list[list[tuple[Box, Run]]] = [[] for _ in tree.optima or [None]]
+    optima: list[Run | None] = [*tree.optima] or [None]
+    chains: list[list[tuple[Box, Run]]] = [[] for _ in optima]
     for number, box in enumerate(tree.sizes.each()):
-        tree.optimizer.progress(f"proof: combination {number + 1} of {tree.sizes.count}")
-        for chain, optimum in zip(chains, tree.optima or [None], strict=True):
+        if number % _TOLD == 0:
+            tree.optimizer.progress(f"proof: combination {number + 1} of {tree.sizes.count}")
+        for chain, optimum in zip(chains, optima, strict=True):
             near = min(chain, key=lambda one: _steps(one[0], box))[1] if chain else optimum
             run, _ = tree.exactly(box, near)
             if run is None:

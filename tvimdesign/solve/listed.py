@@ -1,4 +1,4 @@
-"""What a study lists to choose from: records, sizes of numbers, and boxes of neighbouring sizes that a search divides."""
+"""What a study lists to choose from: records, sizes of numbers, and boxes of sizes that a search divides."""
 
 from __future__ import annotations
 

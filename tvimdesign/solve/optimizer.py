@@ -357,10 +357,12 @@ class Optimizer:
             begin=self.free_values(inputs), end=self.free_values(end),
         )  # fmt: skip
         drives = self._drives_of(unknowns)
-        multipliers = (np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p"))
+        multipliers, of_bounds, of_parameters = (
+            np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p")
+        )
         times = self._times_of(unknowns)
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
-        return Run(start, end, drives, ends, unknowns, *multipliers, within or {})
+        return Run(start, end, drives, ends, unknowns, multipliers, of_bounds, of_parameters, within or {})
 
     def _parameters(self, weights: Mapping[str, float]) -> Array:
         """The problem's parameters: the study's inputs, and weights over the references."""

@@ -38,7 +38,7 @@ class Screen:
         function = ca.Function(
             "screen", [ca.vertcat(unknowns, worst), inputs], [worst, ca.vertcat(*broken)], ["x", "p"], ["f", "g"]
         ).expand()
-        options = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
+        options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
         self._solver: Any = ca.nlpsol("screen", "ipopt", function, options)
 
     def impossible(self, within: Mapping[str, Ends], begin: Array) -> bool:

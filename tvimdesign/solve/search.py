@@ -9,14 +9,14 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.errors import InfeasibleError, InputError
 from tvimdesign.solve.account import account
-from tvimdesign.solve.branch import SHOWN, BranchAndBound
+from tvimdesign.solve.branch import BranchAndBound
 from tvimdesign.solve.enumeration import enumerate_all
 from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
 from tvimdesign.solve.optimizer import Optimizer, Progress, Run
 from tvimdesign.solve.reach import refuse_unreachable
 from tvimdesign.solve.solution import Choosing, Solution, Standard, Work
 from tvimdesign.solve.tree import Tree, order
-from tvimdesign.study import Study
+from tvimdesign.study import SolverOptions, Study
 
 MAX_COMBINATIONS = 20_000
 MAX_RECORDS = 60
@@ -45,10 +45,10 @@ def optimize(
     free = [(tree, run) for tree in trees for run in tree.starts()]
     choosing: Choosing | None = None
     if sizes.names:
-        choosing, found = _choose(trees, len(records), prove=study.solver.prove)
+        choosing, found = _choose(trees, len(records), study.solver)
     else:
         found = free
-        choosing = _chosen(free, len(records)) if len(records) > 1 else None
+        choosing = _chosen(free, len(records), study.solver) if len(records) > 1 else None
     tree, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if sizes.names else [])]
     for number, (_, one) in enumerate(recorded):
@@ -97,32 +97,34 @@ def _trees(
     return trees
 
 
-def _choose(trees: Sequence[Tree], records: int, *, prove: bool) -> tuple[Choosing, list[tuple[Tree, Run]]]:
+def _choose(trees: Sequence[Tree], records: int, asked: SolverOptions) -> tuple[Choosing, list[tuple[Tree, Run]]]:
     """The best combinations by branch and bound, and where that is asked for by solving all."""
-    search = BranchAndBound(trees)
+    search = BranchAndBound(trees, asked.alternatives)
     search.run()
     found, proof = dict(search.found), Work()
     pruned, improved = search.pruned, 0.0
-    if prove:
+    if asked.prove:
         every = _enumerated(trees, proof)
         improved = _improvement(found, every)
         found = {key: min((one[key] for one in (found, every) if key in one), key=order) for key in {**found, **every}}
         pruned = 0
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
+    shown = ranked[: asked.alternatives]
     combinations = trees[0].sizes.count * records
     optima = [(tree, tree.optima[0]) for tree in trees if tree.optima]
     between = min(optima, key=lambda one: order(one[1]), default=None)
     choosing = Choosing(
         combinations=combinations, solved=len(found), pruned=pruned, without_design=combinations - len(found) - pruned,
-        best=tuple(_standard(trees[key[0]], found[key]) for key in ranked[:SHOWN]),
+        best=tuple(_standard(trees[key[0]], found[key]) for key in shown),
         between=_standard(*between) if between else None,
-        proven=prove, improved=improved, work=Work.total(tree.work for tree in trees), proof=proof, inside=search.inside,
+        proven=asked.prove, improved=improved, inside=search.inside,
+        work=Work.total(tree.work for tree in trees), proof=proof,
     )  # fmt: skip
-    told = [(trees[key[0]], found[key]) for key in ranked if key in search.found or key in ranked[:SHOWN]]
+    told = [(trees[key[0]], found[key]) for key in ranked if key in search.found or key in shown]
     return choosing, told or [_closest(trees[0])]
 
 
-def _chosen(runs: Sequence[tuple[Tree, Run]], records: int) -> Choosing:
+def _chosen(runs: Sequence[tuple[Tree, Run]], records: int, asked: SolverOptions) -> Choosing:
     """The account where records alone are listed: each has been searched from every start."""
     best: dict[int, tuple[Tree, Run]] = {}
     for tree, run in sorted(runs, key=lambda one: order(one[1])):
@@ -130,7 +132,7 @@ def _chosen(runs: Sequence[tuple[Tree, Run]], records: int) -> Choosing:
             best.setdefault(tree.place, (tree, run))
     return Choosing(
         combinations=records, solved=len(best), pruned=0, without_design=records - len(best),
-        best=tuple(_standard(*one) for one in list(best.values())[:SHOWN]), between=None,
+        best=tuple(_standard(*one) for one in list(best.values())[: asked.alternatives]), between=None,
         proven=True, improved=0.0, work=Work(), proof=Work(), inside=0.0,
     )  # fmt: skip
 

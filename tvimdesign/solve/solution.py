@@ -164,11 +164,6 @@ class Solution:
             start for start in self.starts if start.relaxed == sizes_listed and records.items() <= start.choices.items()
         )
 
-    @property
-    def size_runs(self) -> tuple[Start, ...]:
-        """One run for each combination of listed sizes; empty where none is listed."""
-        return tuple(s for s in self.starts if any(isinstance(value, float) for value in s.choices.values()))
-
     def distinct_optima(self) -> list[Start]:
         """Return one converged free start for each different optimum, the best first."""
         found: list[Start] = []
