@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
@@ -34,21 +35,25 @@ def listed(text: str = LISTED) -> Study:
     return read_study_text(text, "a test")
 
 
-def by_brute_force(study: Study, reference: dict[str, float]) -> dict[tuple[float, ...], float]:
-    """Objective of every combination of sizes that has a design, each solved alone and cold, from the study's start.
+def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> dict[tuple[float, ...], float]:
+    """Objective of every combination of sizes that has a design, each solved alone and cold.
 
-    Sizes come in the study's order; objectives are over `reference`.
+    The best of some starts, the study's own and random ones. Sizes come in the study's order; objectives are over
+    `reference`.
     """
     lists = {name: vary.values for name, vary in study.vary.items() if isinstance(vary, Options)}
-    optimizer = Optimizer(study, Catalog(), table_for(study.mode), 100, reference)
-    found = {}
+    asked = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": starts})})
+    optimizer = Optimizer(asked, Catalog(), table_for(study.mode), 100, reference)
+    begins = list(optimizer.begin_points())
+    found: dict[tuple[float, ...], float] = {}
     for combination in itertools.product(*lists.values()):
         sizes = [float(value) for value in combination]
         within = {name: (size, size) for name, size in zip(lists, sizes, strict=True)}
-        begin = optimizer.model.start.copy()
-        for name, size in zip(lists, sizes, strict=True):
-            begin[optimizer.model.index[name]] = size
-        run = optimizer.solve(within, begin=begin)
-        if run.start.converged:
-            found[tuple(sizes)] = run.start.objective
+        for begin in begins:
+            place = begin.copy()
+            for name, size in zip(lists, sizes, strict=True):
+                place[optimizer.model.index[name]] = size
+            run = optimizer.solve(within, begin=place)
+            if run.start.converged:
+                found[tuple(sizes)] = min(run.start.objective, found.get(tuple(sizes), math.inf))
     return found

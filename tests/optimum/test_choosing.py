@@ -22,7 +22,7 @@ pytestmark = pytest.mark.xdist_group("choosing")  # its costly fixture is made o
 TABLE = table_for("shear")
 WEIGHTS = "{envelope_volume: 1, module_mass: 1, response_time: 1}"
 WEIGHT_SETS = [
-    "envelope_volume",
+    "{envelope_volume: 3, response_time: 1}",
     "{module_mass: 3, response_time: 1}",
     "{envelope_volume: 1, response_time: 4}",
     "{module_mass: 1, switch_energy: 1}",
@@ -58,10 +58,10 @@ def _chosen(solution: Solution) -> Choosing:
     return solution.choosing
 
 
-def _agrees(study: Study, solution: Solution) -> None:
+def _agrees(study: Study, solution: Solution, starts: int = 3) -> None:
     """Hold the best combinations against brute force, and the tally against itself."""
     choosing = _chosen(solution)
-    expected = sorted(by_brute_force(study, solution.reference).items(), key=lambda one: one[1])
+    expected = sorted(by_brute_force(study, solution.reference, starts).items(), key=lambda one: one[1])
     assert solution.status == "optimal"
     for found, (sizes, objective) in zip(choosing.best, expected, strict=False):
         assert found.objective == pytest.approx(objective, rel=1e-6)
@@ -81,7 +81,7 @@ def found() -> Solution:
 
 
 def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(found: Solution) -> None:
-    _agrees(listed(), found)
+    _agrees(listed(), found, starts=1)
 
 
 @pytest.mark.slow
