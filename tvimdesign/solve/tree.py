@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -29,6 +29,8 @@ class Tree:
     stepping_stone: SteppingStone = field(init=False)
     optima: list[Run] = field(init=False, default_factory=list)
     """A run for each different optimum that the starts came to with every size free, the best first."""
+    _ends: list[Run] = field(init=False, default_factory=list)
+    """Where the starts came to instead, if none of them came to an optimum."""
 
     def __post_init__(self) -> None:
         """Nothing is solved yet."""
@@ -53,6 +55,7 @@ class Tree:
             objective = run.start.objective
             if all(abs(objective - o.start.objective) > SAME_OPTIMUM * abs(objective) for o in self.optima):
                 self.optima.append(run)
+        self._ends = [] if self.optima else runs
         return runs
 
     def choices(self, box: Box) -> dict[str, str | float]:
@@ -109,8 +112,8 @@ class Tree:
 
     def _begins(self, ends: Mapping[str, tuple[float, float]], near: Run | None) -> list[Array]:
         """Inputs to start from, moved into the ends: those of the run nearby, of the optima, of the study's start."""
-        optima: Sequence[Run] = [run for run in self.optima if run is not near]
-        found = [run.inputs for run in ([near] if near else []) + list(optima)] + [self.optimizer.model.start]
+        others = [run for run in (*self.optima, *self._ends) if run is not near]
+        found = [*(run.inputs for run in ([near] if near else []) + others), self.optimizer.model.start]
         moved = []
         for inputs in found:
             point = inputs.copy()
