@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -33,11 +33,14 @@ $(VENV)/.bench: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,bench]'
 	@touch $@
 
-bench: $(VENV)/.bench bench-switch  ## everything against what people would use instead, side by side (minutes)
+bench: $(VENV)/.bench bench-switch bench-choices  ## everything against what people would use instead, side by side (minutes)
 	$(BENCH) benchmarks/optimum.py
 
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
 	$(BENCH) benchmarks/switch.py
+
+bench-choices: $(STAMP)  ## the best of 2,028 combinations by branch and bound and by solving each, side by side
+	$(BENCH) benchmarks/choices.py
 
 lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
 	$(BIN)/ruff check .

@@ -63,6 +63,7 @@ def run(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with a front where an earlier run in that folder was stopped.")
     ] = False,
+    prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
@@ -70,7 +71,7 @@ def run(
 
     run_study(
         study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        as_json=json, resume=resume,
+        prove=prove, resume=resume, as_json=json,
     )  # fmt: skip
 
 

@@ -43,7 +43,7 @@ def describe(study: Study) -> str:
 
 def run_study(
     path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
-    resume: bool = False,
+    resume: bool = False, prove: bool = False,
 ) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.front import FrontOfRun
@@ -54,7 +54,7 @@ def run_study(
     from tvimdesign.report.why import why
     from tvimdesign.solve.answer import answer
 
-    study = read_study(path)
+    study = _proving(read_study(path)) if prove else read_study(path)
     table, catalog = table_for(study.mode), catalog_of(study)
     troubles: list[TvimError] = []
     with ExitStack() as stack:
@@ -96,6 +96,11 @@ def run_study(
         raise InfeasibleError(complaint(found, table))
     if troubles:
         raise _partly(troubles)
+
+
+def _proving(study: Study) -> Study:
+    """The study with every combination of listed choices solved."""
+    return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
 
 
 def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:

@@ -11,6 +11,7 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from tvimdesign.device import Input, Table
+from tvimdesign.report.choosing import best_rows, price_in_words, tally_in_words
 from tvimdesign.report.tables import (
     NOTHING,
     drive_rows,
@@ -28,7 +29,6 @@ from tvimdesign.units import format_quantity, from_si, pretty
 _LOOSE = 0.05
 """Share of the first swing without contact from which on small motions say little of the joint."""
 _SENTENCES_SHOWN = 3
-_SIZES_SHOWN = 12
 _ROUND = 1e-5  # of any unit a limit is written in
 
 
@@ -43,7 +43,7 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
         return
     _print_warnings(answer, table, console)
     _print_variables(answer, table, console, "What was varied")
-    _print_sizes(answer, table, console)
+    _print_choosing(answer, table, console)
     _print_drives(answer, table, console)
     _print_points(answer, table, console)
     grid = _grid("What the module is", ("", "value", "unit", "meaning"), right=(1,))
@@ -68,25 +68,20 @@ def _print_variables(answer: Answer, table: Table, console: Console, title: str)
     console.print(grid)
 
 
-def _print_sizes(answer: Answer, table: Table, console: Console) -> None:
-    """What each combination of listed sizes came to, the best first, and what a size in between would save."""
-    solution = answer.solution
-    if solution is None or not solution.size_runs:
+def _print_choosing(answer: Answer, table: Table, console: Console) -> None:
+    """The best combinations of what is listed, the price of going standard, and how the search went."""
+    choosing = answer.solution.choosing if answer.solution else None
+    if choosing is None or not choosing.best:
         return
-    runs = sorted(solution.size_runs, key=lambda s: (not s.converged, s.objective))
-    names = [name for name, value in runs[0].choices.items() if isinstance(value, float)]
-    grid = _grid("What the listed sizes come to", (*names, "objective", "against the best"), right=(0, len(names)))
-    for run in runs[:_SIZES_SHOWN]:
-        sizes = [format_quantity(float(run.choices[name]), table.unit(name)) for name in names]
-        more = f"{run.objective / runs[0].objective - 1.0:+.1%}"
-        grid.add_row(*sizes, *((f"{run.objective:.5g}", more) if run.converged else ("no design", "")))
+    columns, rows = best_rows(choosing, table)
+    grid = _grid("The best of what is listed, against the first", columns, right=tuple(range(len(columns))))
+    for row in rows:
+        grid.add_row(*row)
     console.print(grid)
-    failed = sum(not run.converged for run in runs)
-    between = min((s.objective for s in solution.starts if s.relaxed and s.converged), default=None)
-    said = [f"{len(runs)} tried, {failed} of them keep the limits with no design."]
-    if between is not None:
-        said.append(f"A size between the listed ones would do {1.0 - between / runs[0].objective:.1%} better.")
-    console.print(f"[dim]{' '.join(said)}[/dim]")
+    price = price_in_words(choosing, table)
+    if price:
+        console.print(escape(price))
+    console.print(f"[dim]{escape(tally_in_words(choosing))}[/dim]")
 
 
 def _print_drives(answer: Answer, table: Table, console: Console) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tvimdesign.device import Input, Output, Table
+from tvimdesign.report.choosing import choosing_data
 from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.solve.solution import Held
 from tvimdesign.study.design import Design
@@ -152,6 +153,7 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
             name: _entry(name, value, design, table) for name, value in answer.constant_current.items()
         },
         "best_constant_currents": _best_constant(answer, table),
+        "choosing": choosing_data(answer.solution.choosing if answer.solution else None, table),
         "solution": _all_finite(design.solution),
     }
 

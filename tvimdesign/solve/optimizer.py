@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,6 +30,8 @@ from tvimdesign.study import ProfileOptions, Range, Study, given
 
 Array = NDArray[np.float64]
 Progress = Callable[[str], None]
+Ends = tuple[float, float]
+"""Least and largest value of a number, SI; twice the same fixes it."""
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
@@ -57,6 +61,8 @@ _WARM = {
 }
 _WARM_ITERATIONS = 30
 """A warm start takes five to ten iterations or goes nowhere; who asks for one then starts from further back."""
+_NLP = (["x", "p"], ["f", "g"])
+"""The names nlpsol knows the parts of a problem by."""
 _DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_hess_l"}
 """Derivatives a solver has built, by the option under which another one takes them."""
 
@@ -84,6 +90,8 @@ class Run:
     bound_multipliers: Array
     parameter_multipliers: Array
     """What the objective falls with every parameter of the problem, per unit."""
+    within: Mapping[str, Ends]
+    """Ends of their own that some numbers were kept within."""
 
     @property
     def trace(self) -> Trace:
@@ -137,9 +145,9 @@ class Optimizer:
         rows = {current.row for current in self.currents}
         numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
         self.free = tuple(self._free(name) for name in numbers)
-        self.problem = self._problem(limits_of(study, table), traded)
-        self.start_switch = self.simulator.run(self.model.start, stages=self.problem.stages)
-        self.start_values = self.model.values(self.model.start, self.start_switch.values)
+        kept, elements = self.kept_limits(limits_of(study, table)), study.solver.elements
+        self.problem = Problem(self.model, self.free, kept, tuple(study.minimize), elements, self.currents, traded)
+        self.simulate_start()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
@@ -170,8 +178,28 @@ class Optimizer:
         ramp_elements = math.ceil(ramp_time(vary.upper, slew) / RAMP_ELEMENT)
         return FreeCurrent(stage, row, pieces, vary.lower, vary.upper, ramp_elements)
 
-    def _problem(self, limits: list[Limit], traded: Sequence[str]) -> Problem:
-        """The problem without the limits that nothing free can change; those are checked here and now."""
+    def with_records(self, study: Study) -> Optimizer | None:
+        """The same problem for a study that differs in its records alone, where their numbers are all that counts.
+
+        Nothing is built: such numbers are parameters. None where a row reads a table of a record that differs, or an
+        option. Raises InfeasibleError as a new one does.
+        """
+        numbers = given(study, self.catalog, self.table)
+        read = {need for row in self.table.outputs for need in row.needs}
+        model = copy(self.model)
+        model.words = {name: numbers[name] for name in self.model.words}
+        if any(model.words[name] != word for name, word in self.model.words.items() if name in read):
+            return None
+        model.start = np.array([float(numbers[name]) for name in model.names])
+        other = copy(self)
+        other.study, other.model = study, model
+        other.seconds = {"set_up": 0.0, "solve": 0.0}
+        other.kept_limits(limits_of(study, self.table))
+        other.simulate_start()
+        return other
+
+    def kept_limits(self, limits: list[Limit]) -> list[Limit]:
+        """The limits without those that nothing free can change, which are checked here and now."""
         free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
         constant = [limit for limit in limits if is_constant(limit, self.table, free)]
         without_switch = dict.fromkeys(self.model.switch_names, np.inf)
@@ -183,9 +211,12 @@ class Optimizer:
                     f"{in_words(limit, self.table)} does not hold, and nothing under `vary` can change it; "
                     f"vary one of: {', '.join(self._variables_behind(limit.output))}"
                 )
-        kept = [limit for limit in limits if limit not in constant]
-        elements = self.study.solver.elements
-        return Problem(self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents, traded)
+        return [limit for limit in limits if limit not in constant]
+
+    def simulate_start(self) -> None:
+        """Simulate the study's start as far as the problem needs it."""
+        self.start_switch = self.simulator.run(self.model.start, stages=self.problem.stages)
+        self.start_values = self.model.values(self.model.start, self.start_switch.values)
 
     def _variables_behind(self, name: str) -> list[str]:
         above = self.table.ancestors(name)
@@ -199,6 +230,13 @@ class Optimizer:
             return float(horizon)
         return value if value != 0.0 else 1.0
 
+    @cached_property
+    def _compiled(self) -> Any:
+        """The problem as one function; expanded to scalar operations where it is run many times."""
+        written = self.problem.function
+        function = ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *_NLP)
+        return function.expand() if self.many else function
+
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:
             most = self.study.solver.max_iterations
@@ -208,19 +246,10 @@ class Optimizer:
                 "max_iter": min(most, _WARM_ITERATIONS) if warm else most,
                 "tol": self.study.solver.tolerance,
             }
-            options: dict[str, Any] = {
-                "ipopt": ipopt,
-                "print_time": False,
-                "expand": self.many,
-                "show_eval_warnings": False,
-            }
-            known = next(iter(self._solvers.values()), None)
-            if known is None:
-                self._solvers[warm] = ca.nlpsol("design", "ipopt", self.problem.function, options)
-            else:  # the derivatives are most of the building: the other solver's serve again
-                derivatives = {option: known.get_function(name) for option, name in _DERIVATIVES.items()}
-                options |= {**derivatives, "expand": False}
-                self._solvers[warm] = ca.nlpsol("design", "ipopt", known.oracle(), options)
+            options: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False}
+            for other in self._solvers.values():  # deriving is most of the work of building one, and has been done
+                options |= {option: other.get_function(name) for option, name in _DERIVATIVES.items()}
+            self._solvers[warm] = ca.nlpsol("design", "ipopt", self._compiled, options)
         return self._solvers[warm]
 
     # --- starts ---
@@ -309,18 +338,19 @@ class Optimizer:
 
     def solve(
         self,
-        fixed: Mapping[str, float] | None = None,
+        within: Mapping[str, Ends] | None = None,
         warm: Run | Trace | None = None,
         begin: Array | None = None,
         goal: Goal | None = None,
     ) -> Run:
-        """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers fixed.
+        """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within`
+        ends of their own.
 
         A `goal` stands in place of the study's weights and bounds what is traded; nothing is built anew.
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        lower, upper = self.bounds(fixed or {})
+        lower, upper = self.bounds(within or {})
         solver = self._solver(warm is not None)
         arguments: dict[str, Any] = {"x0": self._guess(inputs) if warm is None else warm.unknowns}
         if warm is not None:
@@ -346,10 +376,12 @@ class Optimizer:
             begin=self.free_values(inputs), end=self.free_values(end),
         )  # fmt: skip
         drives = self._drives_of(unknowns)
-        multipliers = (np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p"))
+        multipliers, of_bounds, of_parameters = (
+            np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p")
+        )
         times = self._times_of(unknowns)
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
-        return Run(start, end, drives, ends, unknowns, *multipliers)
+        return Run(start, end, drives, ends, unknowns, multipliers, of_bounds, of_parameters, within or {})
 
     def _parameters(self, goal: Goal) -> Array:
         """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
@@ -372,12 +404,12 @@ class Optimizer:
             values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
         return Derivatives(np.asarray(rows).ravel(), jacobian, ca.triu2symm(hessian), values, gradients)
 
-    def bounds(self, fixed: Mapping[str, Any]) -> tuple[Array, Array]:
-        """Least and largest unknowns, with some free numbers fixed."""
+    def bounds(self, within: Mapping[str, Ends]) -> tuple[Array, Array]:
+        """Least and largest unknowns, with some free numbers kept within ends of their own."""
         lower = np.full(self.problem.unknown_count, -np.inf)
         upper = np.full(self.problem.unknown_count, np.inf)
         for i, free in enumerate(self.free):
-            low, high = (fixed[free.name],) * 2 if free.name in fixed else (free.lower, free.upper)
+            low, high = within.get(free.name, (free.lower, free.upper))
             lower[i], upper[i] = free.to_unknown(low), free.to_unknown(high)
         for current, place in self.places_of_currents():
             lower[place], upper[place] = current.lower / current.upper, 1.0

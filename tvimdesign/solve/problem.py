@@ -116,7 +116,7 @@ class Problem:
         inputs = ca.MX.sym("inputs", len(self.model.names))
         weights = ca.MX.sym("weights", len(self.minimize))
         factors = ca.MX.sym("factors", len(self.traded), len(self.traded))
-        device_inputs = self._device_inputs = self._with_unknowns(inputs, unknowns)
+        device_inputs = self._device_inputs = self.with_unknowns(inputs, unknowns)
         self._nodes = {c.stage: ca.MX.sym(f"current_{c.stage}", c.nodes) for c in self.free_currents}
         self.blocks = self._write_blocks(device_inputs)
         self.balances = self._write_balances(device_inputs)
@@ -145,7 +145,7 @@ class Problem:
         }
         self.unknown_count = everything.numel()
 
-    def _with_unknowns(self, inputs: Any, unknowns: Any) -> Any:
+    def with_unknowns(self, inputs: Any, unknowns: Any) -> Any:
         """Inputs with the free numbers in their places."""
         entries = ca.vertsplit(inputs)
         for i, free in enumerate(self.free):

@@ -94,7 +94,7 @@ class Response:
             if i not in tied and self._presses(run.multipliers[i], -derivatives.rows[i])
         ]
         rows = list((derivatives.jacobian[[i for _, i in places], :] @ ca.DM(along)).full()) if places else []
-        lower, upper = self._optimizer.bounds(run.start.choices)
+        lower, upper = self._optimizer.bounds(run.within)
         for i in np.flatnonzero(np.isfinite(lower) | np.isfinite(upper)):
             multiplier, value = run.bound_multipliers[i], run.unknowns[i]
             if lower[i] == upper[i]:

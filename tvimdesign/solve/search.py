@@ -1,23 +1,29 @@
-"""Searches a study's design space: every start, every listed size and record, the best of them accounted for."""
+"""Searches a study's design space: every start, what is listed by branch and bound, the best accounted for."""
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Input, Table
-from tvimdesign.errors import InputError
+from tvimdesign.device import Table
+from tvimdesign.errors import InfeasibleError, InputError
 from tvimdesign.solve.account import account
-from tvimdesign.solve.optimizer import EXPAND_FROM, Array, Optimizer, Progress, Run
+from tvimdesign.solve.branch import BranchAndBound
+from tvimdesign.solve.enumeration import enumerate_all
+from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
+from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer, Progress, Run
 from tvimdesign.solve.reach import refuse_unreachable
-from tvimdesign.solve.solution import Constant, Solution, Start
-from tvimdesign.study import Options, Study
-from tvimdesign.units import format_quantity
+from tvimdesign.solve.solution import Choosing, Solution, Standard, Work
+from tvimdesign.solve.tree import Tree, order
+from tvimdesign.study import SolverOptions, Study
 
-MAX_COMBINATIONS = 500
 Keep = Callable[[Optimizer, list[Run]], None]
+MAX_COMBINATIONS = 20_000
+MAX_RECORDS = 60
+"""Combinations of records: each is searched on its own, from every start."""
+_Found = dict[tuple[int, Box], Run]
+"""Designs of single combinations: the place of their tree, their sizes, the run that found them."""
 
 
 def optimize(
@@ -36,123 +42,133 @@ def optimize(
     that are `traded` can be weighed and bounded with it afterwards.
     """
     refuse_unreachable(study, catalog, table)
-    sizes = _listed_sizes(study, table)
-    records = _record_choices(study, table)
-    runs = study.solver.starts + len(sizes) + (EXPAND_FROM if traded else 0)
-    if len(sizes) * len(records) > MAX_COMBINATIONS:
+    sizes, records = listed_sizes(study, table), listed_records(study, table)
+    _refuse_too_many(sizes, len(records))
+    trees = _trees(study, catalog, table, sizes, records, reference, progress, traded)
+    free = [(tree, run) for tree in trees for run in tree.starts()]
+    choosing: Choosing | None = None
+    if sizes.names:
+        choosing, found = _choose(trees, len(records), study.solver)
+    else:
+        found = free
+        choosing = _chosen(free, len(records), study.solver) if len(records) > 1 else None
+    tree, run = min(found, key=lambda one: order(one[1]))
+    recorded = [*free, *(found if sizes.names else [])]
+    for number, (_, one) in enumerate(recorded):
+        one.start = replace(one.start, number=number)
+    keep(tree.optimizer, [one for other, one in recorded if other is tree])
+    starts = tuple(one.start for _, one in recorded)
+    seconds = {key: sum(tree.optimizer.seconds[key] for tree in trees) for key in trees[0].optimizer.seconds}
+    solution = account(tree.optimizer, run, starts, seconds)
+    return replace(solution, constant=tree.stepping_stone.found(), choosing=choosing)
+
+
+def _refuse_too_many(sizes: Sizes, records: int) -> None:
+    if sizes.count * records > MAX_COMBINATIONS:
         raise InputError(
-            f"vary: {len(sizes) * len(records)} combinations of listed choices; the limit is {MAX_COMBINATIONS}; "
-            f"narrow a list with from and to"
+            f"vary: {sizes.count * records} combinations of listed choices; the limit is {MAX_COMBINATIONS}; "
+            "narrow a list with from and to, take a longer step, or give a range in place of a list"
         )
-    best: tuple[Optimizer, Run] | None = None
-    runs_of: dict[int, list[Run]] = {}
-    constant: Constant | None = None
-    starts: list[Start] = []
-    seconds = {"set_up": 0.0, "solve": 0.0}
+    if records > MAX_RECORDS:
+        raise InputError(
+            f"vary: {records} combinations of records; the limit is {MAX_RECORDS}, as each is searched on its own; "
+            "choose among fewer records"
+        )
+
+
+def _trees(
+    study: Study, catalog: Catalog, table: Table, sizes: Sizes, records: Sequence[Mapping[str, str]],
+    reference: dict[str, float] | None, progress: Progress, traded: Sequence[str],
+) -> list[Tree]:  # fmt: skip
+    """The problem of each combination of records, built once for all whose numbers alone differ."""
+    trees: list[Tree] = []
+    refused: list[InfeasibleError] = []
     for choice in records:
-        optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress, traded=traded)
+        asked = with_records(study, choice)
+        try:
+            optimizer = next(filter(None, (tree.optimizer.with_records(asked) for tree in trees)), None)
+            runs = study.solver.starts + (sizes.count if sizes.names else 0) + (EXPAND_FROM if traded else 0)
+            optimizer = optimizer or Optimizer(asked, catalog, table, runs, reference, progress, traded=traded)
+        except InfeasibleError as error:  # a limit that nothing free can mend, with these records
+            refused.append(error)
+            continue
         reference = optimizer.reference
-        stepping_stone = SteppingStone(optimizer)
-        for run, size in _runs(optimizer, stepping_stone, sizes, progress):
-            relaxed = bool(sizes) and not size
-            run.start = replace(run.start, number=len(starts), choices={**choice, **size}, relaxed=relaxed)
-            starts.append(run.start)
-            runs_of.setdefault(id(optimizer), []).append(run)
-            if relaxed:
-                continue
-            if best is None or _order(run.start) < _order(best[1].start):
-                best, constant = (optimizer, run), stepping_stone.found()
-        seconds = {key: seconds[key] + optimizer.seconds[key] for key in seconds}
-    assert best is not None  # there is always one combination and one start
-    keep(best[0], runs_of[id(best[0])])
-    return replace(account(*best, tuple(starts), seconds), constant=constant)
+        trees.append(Tree(len(trees), optimizer, dict(choice), sizes, Work()))
+    if not trees:
+        raise refused[0]
+    return trees
 
 
-class SteppingStone:
-    """The same problem with constant currents: solved first, it is where a search for profiles begins, and what
-    they are held against."""
-
-    def __init__(self, optimizer: Optimizer) -> None:
-        """Nothing to do where no current follows a profile."""
-        self.optimizer = optimizer.with_constant_currents()
-        self.best: Run | None = None
-
-    def beyond(self, begin: Array) -> Array:
-        """Inputs of the optimum with constant currents from a start; the start itself where there is none."""
-        if self.optimizer is None:
-            return begin
-        run = self.optimizer.solve(begin=begin)
-        if not run.start.converged:
-            return begin
-        if self.best is None or run.start.objective < self.best.start.objective:
-            self.best = run
-        return run.inputs
-
-    def found(self) -> Constant | None:
-        """The best optimum with constant currents, simulated; None where there is none."""
-        if self.optimizer is None or self.best is None:
-            return None
-        switch = self.optimizer.simulator.run(self.best.inputs)
-        values = self.optimizer.model.values(self.best.inputs, switch.values)
-        inputs = {name: float(self.best.inputs[i]) for name, i in self.optimizer.model.index.items()}
-        return Constant(self.best.start.objective, {**inputs, **values})
+def _choose(trees: Sequence[Tree], records: int, asked: SolverOptions) -> tuple[Choosing, list[tuple[Tree, Run]]]:
+    """The best combinations by branch and bound, and where that is asked for by solving all."""
+    search = BranchAndBound(trees, asked.alternatives)
+    search.run()
+    found, proof = dict(search.found), Work()
+    pruned, improved = search.pruned, 0.0
+    if asked.prove:
+        every = _enumerated(trees, proof)
+        improved = _improvement(found, every)
+        found = {key: min((one[key] for one in (found, every) if key in one), key=order) for key in {**found, **every}}
+        pruned = 0
+    ranked = sorted(found, key=lambda key: (order(found[key]), key))
+    shown = ranked[: asked.alternatives]
+    combinations = trees[0].sizes.count * records
+    optima = [(tree, tree.optima[0]) for tree in trees if tree.optima]
+    between = min(optima, key=lambda one: order(one[1]), default=None)
+    choosing = Choosing(
+        combinations=combinations, solved=len(found), pruned=pruned, without_design=combinations - len(found) - pruned,
+        best=tuple(_standard(trees[key[0]], found[key]) for key in shown),
+        between=_standard(*between) if between else None,
+        proven=asked.prove, improved=improved, inside=search.inside,
+        work=Work.total(tree.work for tree in trees), proof=proof,
+    )  # fmt: skip
+    told = [(trees[key[0]], found[key]) for key in ranked if key in search.found or key in shown]
+    return choosing, told or [_closest(trees[0])]
 
 
-def _runs(
-    optimizer: Optimizer, stepping_stone: SteppingStone, sizes: list[dict[str, float]], progress: Progress
-) -> Iterator[tuple[Run, dict[str, float]]]:
-    """Every start, all free; where sizes are listed, then every combination of them, warm from the best start."""
-    starts = optimizer.study.solver.starts
-    best: Run | None = None
-    for number, begin in enumerate(optimizer.begin_points()):
-        progress(f"start {number + 1} of {starts}")
-        run = optimizer.solve(begin=stepping_stone.beyond(begin))
-        run.start = replace(run.start, begin=optimizer.free_values(begin))
-        best = run if best is None or _order(run.start) < _order(best.start) else best
-        yield run, {}
-    for number, fixed in enumerate(sizes):
-        progress(f"{_in_words(optimizer.table, fixed)} ({number + 1} of {len(sizes)})")
-        run = optimizer.solve(fixed, warm=best if best and best.start.converged else None)
-        if not run.start.converged:
-            run = optimizer.solve(fixed)
-        yield run, fixed
+def _chosen(runs: Sequence[tuple[Tree, Run]], records: int, asked: SolverOptions) -> Choosing:
+    """The account where records alone are listed: each has been searched from every start."""
+    best: dict[int, tuple[Tree, Run]] = {}
+    for tree, run in sorted(runs, key=lambda one: order(one[1])):
+        if run.start.converged:
+            best.setdefault(tree.place, (tree, run))
+    return Choosing(
+        combinations=records, solved=len(best), pruned=0, without_design=records - len(best),
+        best=tuple(_standard(*one) for one in list(best.values())[: asked.alternatives]), between=None,
+        proven=True, improved=0.0, work=Work(), proof=Work(), inside=0.0,
+    )  # fmt: skip
 
 
-def _in_words(table: Table, sizes: Mapping[str, float]) -> str:
-    return ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in sizes.items())
+def _enumerated(trees: Sequence[Tree], work: Work) -> _Found:
+    every: _Found = {}
+    for tree in trees:
+        own, tree.work = tree.work, work
+        every |= {(tree.place, box): run for box, run in enumerate_all(tree).items()}
+        tree.work = own
+    return every
 
 
-def _order(start: Start) -> tuple[bool, float]:
-    return (not start.converged, start.objective)
+def _improvement(found: _Found, every: _Found) -> float:
+    """Share by which the best of all combinations is better than what branch and bound found."""
+    best, least = (min((run.start.objective for run in runs.values()), default=None) for runs in (found, every))
+    if best is None or least is None:
+        return 0.0 if least is None else 1.0
+    return max(best - least, 0.0) / abs(best)
 
 
-def _listed_sizes(study: Study, table: Table) -> list[dict[str, float]]:
-    """Every combination of the listed sizes of numbers; empty where none is listed."""
-    listed = {
-        name: vary.values
-        for name, vary in study.vary.items()
-        if isinstance(vary, Options) and isinstance(table.row(name), Input)
-    }
-    if not listed:
-        return []
-    return [
-        {name: float(value) for name, value in zip(listed, combination, strict=True)}
-        for combination in itertools.product(*listed.values())
-    ]
+def _closest(tree: Tree) -> tuple[Tree, Run]:
+    """Where the solver ended at the sizes nearest to the best design between them, as no combination has a design."""
+    whole = tree.sizes.whole
+    optimum = tree.optima[0] if tree.optima else None
+    values = tree.values(optimum) if optimum else tree.start_values
+    return tree, tree.closest(tree.sizes.nearest(values, whole))
 
 
-def _record_choices(study: Study, table: Table) -> list[dict[str, str]]:
-    """Every combination of the records and options a study lists."""
-    listed = {
-        name: [str(value) for value in vary.values]
-        for name, vary in study.vary.items()
-        if isinstance(vary, Options) and not isinstance(table.row(name), Input)
-    }
-    return [dict(zip(listed, combination, strict=True)) for combination in itertools.product(*listed.values())]
-
-
-def _with_records(study: Study, records: Mapping[str, str]) -> Study:
-    if not records:
-        return study
-    vary = {name: value for name, value in study.vary.items() if name not in records}
-    return study.model_copy(update={"module": {**study.module, **records}, "vary": vary})
+def _standard(tree: Tree, run: Run) -> Standard:
+    """A design simulated, for what is told of it."""
+    optimizer = tree.optimizer
+    switch = optimizer.simulator.run(run.inputs, run.drives)
+    values = optimizer.model.values(run.inputs, switch.values)
+    numbers: dict[str, str | float] = dict(tree.values(run))
+    told = {name: values[name] for name in optimizer.study.minimize}
+    return Standard({**tree.records, **numbers}, run.start.objective, told)

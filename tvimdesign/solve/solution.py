@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import astuple, dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,6 +61,68 @@ class Held:
         return -self.residual
 
 
+@dataclass
+class Work:
+    """How many runs of the solver a search over listed choices took."""
+
+    warm: int = 0
+    warm_iterations: int = 0
+    cold: int = 0
+    """From a simulated point, where a warm run came to nothing."""
+    cold_iterations: int = 0
+    screened: int = 0
+    """Boxes of sizes in which the limits that depend on no switch cannot be kept."""
+
+    @classmethod
+    def total(cls, works: Iterable[Work]) -> Work:
+        """The work of several searches together."""
+        together = [astuple(work) for work in works]
+        return cls(*(sum(column) for column in zip(*together, strict=True)))
+
+    def count(self, start: Start, *, warm: bool) -> None:
+        """Add one run."""
+        if warm:
+            self.warm, self.warm_iterations = self.warm + 1, self.warm_iterations + start.iterations
+        else:
+            self.cold, self.cold_iterations = self.cold + 1, self.cold_iterations + start.iterations
+
+
+@dataclass(frozen=True)
+class Standard:
+    """One design whose every choice is listed: its choices, its objective, and its minimised outputs (SI)."""
+
+    choices: dict[str, str | float]
+    objective: float
+    values: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Choosing:
+    """The account of a search over listed choices."""
+
+    combinations: int
+    solved: int
+    """Combinations whose design was found."""
+    pruned: int
+    """Combinations that no bound leaves room for."""
+    without_design: int
+    """Combinations for which every search came to nothing."""
+    best: tuple[Standard, ...]
+    """The best combinations, the first of them the answer."""
+    between: Standard | None
+    """The best design with every listed number free between its smallest and its largest size; None where none is."""
+    proven: bool
+    """Whether every combination was solved, and not only those the bounds leave."""
+    improved: float
+    """Share by which that found better than branch and bound did; zero where they agree."""
+    work: Work
+    """Of branch and bound."""
+    proof: Work
+    """Of the enumeration."""
+    inside: float
+    """Largest share by which a design within a box was better than the bound of the box: zero if bounds were bounds."""
+
+
 @dataclass(frozen=True)
 class Constant:
     """The best design with constant currents, where the study lets them follow a profile."""
@@ -88,6 +151,8 @@ class Solution:
     """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
     seconds: dict[str, float]
     constant: Constant | None = None
+    choosing: Choosing | None = None
+    """How the listed choices were searched; None where none is listed."""
 
     @property
     def free_starts(self) -> tuple[Start, ...]:
@@ -98,11 +163,6 @@ class Solution:
         return tuple(
             start for start in self.starts if start.relaxed == sizes_listed and records.items() <= start.choices.items()
         )
-
-    @property
-    def size_runs(self) -> tuple[Start, ...]:
-        """One run for each combination of listed sizes; empty where none is listed."""
-        return tuple(s for s in self.starts if any(isinstance(value, float) for value in s.choices.values()))
 
     def distinct_optima(self) -> list[Start]:
         """Return one converged free start for each different optimum, the best first."""

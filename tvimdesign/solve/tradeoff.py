@@ -73,11 +73,12 @@ class Tradeoff:
     ) -> None:  # fmt: skip
         """Begin from what found a study's optimum: `optimize` hands it to `keep`."""
         self.optimizer, self.progress, self._memory = optimizer, progress, memory
-        self._fixed = {
+        chosen = {
             name: float(solution.inputs[solution.model.index[name]])
             for name, vary in optimizer.study.vary.items()
             if isinstance(vary, Options)
         }
+        self._fixed = {name: (size, size) for name, size in chosen.items()}
         self.listed = [name for name, vary in study.vary.items() if isinstance(vary, Options)]
         self.reference = {name: abs(solution.values[name]) or 1.0 for name in optimizer.problem.traded}
         numbers = [start.number for start in solution.distinct_optima()][:MOST_BEGINS]

@@ -59,6 +59,8 @@ class SolverOptions(_Part):
     elements: int = Field(8, ge=2, le=200, description="time elements of one switch")
     max_iterations: int = Field(300, ge=1, le=100_000, description="iterations before the solver gives up")
     tolerance: float = Field(1e-8, ge=1e-14, le=1e-2, description="relative tolerance of convergence")
+    alternatives: int = Field(5, ge=1, le=100, description="combinations of listed choices that are told, best first")
+    prove: bool = Field(False, description="solve every combination of listed choices, not only those bounds leave")
 
 
 class ProfileOptions(_Part):

@@ -134,6 +134,9 @@ def _vary(row: Input | Choice) -> _Schema:
     if isinstance(row, Input):
         record = {"type": "string", "description": f"a record of the shelf {SIZES_SHELF}, such as music_wire_gauge"}
         forms.append(_shape({"catalog": record, "from": value, "to": value}, ["catalog"]))
+    if isinstance(row, Input):
+        spaced = {"from": value, "to": value, "step": value}
+        forms.append(_shape(spaced, ["from", "to", *([] if row.integer else ["step"])]))
     if isinstance(row, Input) and not row.integer:
         forms.append({"type": "array", "minItems": 2, "maxItems": 2, "items": value})
         forms.append(_shape({"from": value, "to": value, "start": value}, ["from", "to"]))

@@ -15,6 +15,8 @@ from tvimdesign.study.values import (
     below,
     choice,
     entries,
+    expected_for,
+    in_unit,
     misfit,
     quantity,
     unknown_keys,
@@ -64,9 +66,9 @@ def _input(reading: Reading, node: Node, path: str, row: Input) -> Vary | None:
         misfit(reading.problems, node, path, expected)
         return None
     kinds = [kind for kind in ("choose", "catalog") if kind in node.entries]
-    known = {"choose": ["choose"], "catalog": ["catalog", "from", "to"]}.get(
-        kinds[0] if kinds else "", ["from", "to", "start"]
-    )
+    steps = row.integer or "step" in node.entries
+    span = ["from", "to", "step"] if steps else ["from", "to", "start"]
+    known = {"choose": ["choose"], "catalog": ["catalog", "from", "to"]}.get(kinds[0] if kinds else "", span)
     before = len(reading.problems.found)
     parts = unknown_keys(reading.problems, node.entries, path, f"key beside {kinds[0]!r}" if kinds else "key", known)
     if len(reading.problems.found) > before:
@@ -75,14 +77,17 @@ def _input(reading: Reading, node: Node, path: str, row: Input) -> Vary | None:
         return _listed(reading, parts["choose"], path, row)
     if "catalog" in parts:
         return read_sizes(reading, parts, path, row)
-    return _span(reading, node, parts, path, row)
+    return _steps(reading, node, parts, path, row) if steps else _span(reading, node, parts, path, row)
 
 
 def _forms(row: Input) -> str:
     unit = "" if row.unit == "1" else f" {row.unit}"
     if row.integer:
-        return "a list of whole numbers {choose: [3, 4, 6]}"
-    return f"a range [1{unit}, 2{unit}] or {{from: 1{unit}, to: 2{unit}}}, a list {{choose: [...]}} or {{catalog: ...}}"
+        return "a list of whole numbers {choose: [3, 4, 6]} or {from: 3, to: 6}"
+    return (
+        f"a range [1{unit}, 2{unit}] or {{from: 1{unit}, to: 2{unit}}}, with a step, a list {{choose: [...]}} or "
+        "{catalog: ...}"
+    )
 
 
 def _pair(reading: Reading, node: Sequence, path: str, row: Input) -> Range | None:
@@ -95,14 +100,53 @@ def _pair(reading: Reading, node: Sequence, path: str, row: Input) -> Range | No
 
 
 def _span(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Range | None:
+    values = _ends(reading, node, parts, path, row)
+    if values is None:
+        return None
+    where = parts.get("start", node)
+    return _checked(reading, where, path, row, (values["from"], values["to"], values.get("start")))
+
+
+def _ends(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> dict[str, float] | None:
+    """The values of `from`, `to` and what stands beside them; None (and a problem) where one is missing or wrong."""
     missing = [key for key in ("from", "to") if key not in parts]
     if missing:
         reading.problems.add(node, path, f"{' and '.join(map(repr, missing))} missing", _forms(row))
     values = {key: quantity(reading.problems, value, f"{path}.{key}", row) for key, value in parts.items()}
-    if missing or None in values.values():
+    read = {key: value for key, value in values.items() if value is not None}
+    return None if missing or len(read) < len(values) else read
+
+
+def _steps(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Options | None:
+    """Sizes evenly spaced between two ends, as quarters of a coil; whole things one by one unless said otherwise."""
+    place = parts.get("step", node)
+    width = 1.0
+    if "step" in parts:
+        read = in_unit(reading.problems, place, f"{path}.step", row.unit, expected_for(row))
+        if read is None or not _makes_steps(reading, place, f"{path}.step", row, read):
+            return None
+        width = read
+    values = _ends(reading, node, {key: parts[key] for key in ("from", "to") if key in parts}, path, row)
+    if values is None:
         return None
-    where = parts.get("start", node)
-    return _checked(reading, where, path, row, (values["from"], values["to"], values.get("start")))
+    lower, upper = values["from"], values["to"]
+    if below(upper, lower):
+        reading.problems.add(node, path, "the range is upside down", "from < to", "swap the two")
+        return None
+    count = int((upper - lower) / width * (1.0 + ROUNDING) + ROUNDING) + 1
+    if count > MOST_OPTIONS:
+        reading.problems.add(place, path, f"{count} sizes from end to end", f"1 to {MOST_OPTIONS}", "a longer step")
+        return None
+    return Options(values=tuple(lower + i * width for i in range(count)))
+
+
+def _makes_steps(reading: Reading, place: Node, path: str, row: Input, width: float) -> bool:
+    """Whether a step leads on, and from one whole thing to another where whole things are counted."""
+    if width <= 0.0:
+        reading.problems.add(place, path, "a step of that size leads nowhere", "a step above zero")
+    elif row.integer and not width.is_integer():
+        reading.problems.add(place, path, "counts whole things", "a whole step")
+    return width > 0.0 and (not row.integer or width.is_integer())
 
 
 def _checked(

@@ -1,0 +1,59 @@
+"""A study with short lists, and its combinations solved one by one without the search that is tested."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.study import Options, Study, read_study_text
+
+LISTED = """
+mode: shear
+vary:
+  wire_diameter: {catalog: metric, from: 1.8 mm, to: 2.4 mm}
+  coil_count: {from: 3, to: 4, step: 0.5}
+  arc_count: {choose: [3, 4]}
+  coil_diameter: [12 mm, 30 mm]
+  pcl_outer_radius: [32 mm, 40 mm]
+  pcl_thickness: [0.6 mm, 2 mm]
+  current: [0.5 A, 2 A]
+require:
+  spring_stiffness: ">= 5 N.m/rad"
+  spring_fatigue_safety: ">= 1.2"
+  peak_power: "<= 9 W"
+  layer_holding_torque: ">= 40 N.m"
+minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
+solver: {starts: 2, cells: 6, elements: 4, max_iterations: 100}
+"""
+
+
+def listed(text: str = LISTED) -> Study:
+    """The study of a text."""
+    return read_study_text(text, "a test")
+
+
+def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> dict[tuple[float, ...], float]:
+    """Objective of every combination of sizes that has a design, each solved alone and cold.
+
+    The best of some starts, the study's own and random ones. Sizes come in the study's order; objectives are over
+    `reference`.
+    """
+    lists = {name: vary.values for name, vary in study.vary.items() if isinstance(vary, Options)}
+    asked = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": starts})})
+    optimizer = Optimizer(asked, Catalog(), table_for(study.mode), 100, reference)
+    begins = list(optimizer.begin_points())
+    found: dict[tuple[float, ...], float] = {}
+    for combination in itertools.product(*lists.values()):
+        sizes = [float(value) for value in combination]
+        within = {name: (size, size) for name, size in zip(lists, sizes, strict=True)}
+        for begin in begins:
+            place = begin.copy()
+            for name, size in zip(lists, sizes, strict=True):
+                place[optimizer.model.index[name]] = size
+            run = optimizer.solve(within, begin=place)
+            if run.start.converged:
+                found[tuple(sizes)] = min(run.start.objective, found.get(tuple(sizes), math.inf))
+    return found

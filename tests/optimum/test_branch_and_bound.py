@@ -1,0 +1,112 @@
+"""Branch and bound against enumeration, on problems whose optimum within a box is known in closed form."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tvimdesign.solve.branch import BranchAndBound
+from tvimdesign.solve.listed import Box, Sizes, is_one
+from tvimdesign.solve.optimizer import Run
+from tvimdesign.solve.tree import Tree
+
+
+@dataclass
+class Bowl:
+    """Stands in for a tree: sum of w (x - c)^2 plus a base, the first number no less than `least`.
+
+    Where `fails` is true, boxes of more than one combination are never solved, as where the solver does not converge.
+    """
+
+    place: int
+    sizes: Sizes
+    centre: tuple[float, ...]
+    weights: tuple[float, ...]
+    base: float
+    least: float
+    fails: bool = False
+    optima: list[Run] = field(default_factory=list)
+    optimizer: Any = field(default_factory=lambda: SimpleNamespace(progress=lambda _: None))
+    solved: int = 0
+
+    def __post_init__(self) -> None:
+        whole, _ = self.best_within(self.sizes.whole, None)
+        self.optima = [] if whole is None else [whole]
+
+    def at(self, point: tuple[float, ...]) -> float:
+        return self.base + sum(w * (x - c) ** 2 for w, x, c in zip(self.weights, point, self.centre, strict=True))
+
+    def values(self, run: Any) -> dict[str, float]:
+        return dict(run.values)
+
+    def best_within(self, box: Box, near: Any) -> tuple[Any, bool]:  # noqa: ARG002  # the face of a tree
+        ends = list(self.sizes.ends(box).values())
+        if ends[0][1] < self.least:
+            return None, True
+        if self.fails and not is_one(box):
+            return None, False
+        ends[0] = (max(ends[0][0], self.least), ends[0][1])
+        point = tuple(min(max(c, low), high) for c, (low, high) in zip(self.centre, ends, strict=True))
+        self.solved += 1
+        values = dict(zip(self.sizes.names, point, strict=True))
+        return SimpleNamespace(values=values, start=SimpleNamespace(converged=True, objective=self.at(point))), True
+
+    def exactly(self, box: Box, near: Any) -> tuple[Any, bool]:
+        return self.best_within(box, near)
+
+    def enumerated(self) -> list[float]:
+        return [self.at(point) for point in itertools.product(*self.sizes.sizes) if point[0] >= self.least]
+
+
+_LISTS = st.lists(st.integers(1, 60), min_size=1, max_size=7, unique=True).map(lambda n: tuple(sorted(map(float, n))))
+
+
+@st.composite
+def bowls(draw: st.DrawFn) -> list[Bowl]:
+    """One tree or two of the same lists, each with a bowl of its own."""
+    count = draw(st.integers(1, 3))
+    sizes = Sizes(tuple("abc"[:count]), tuple(draw(_LISTS) for _ in range(count)))
+    numbers = st.tuples(*[st.floats(0.5, 65.0)] * count)
+    found = []
+    for place in range(draw(st.integers(1, 2))):
+        weights = draw(st.tuples(*[st.floats(0.1, 10.0)] * count))
+        base, least = draw(st.floats(1.0, 50.0)), draw(st.floats(0.5, 40.0))
+        found.append(Bowl(place, sizes, draw(numbers), weights, base, least, draw(st.booleans())))
+    return found
+
+
+@settings(deadline=None, derandomize=True, max_examples=60)
+@given(trees=bowls(), keep=st.integers(1, 5))
+def test_it_finds_the_best_combinations_and_accounts_for_all(trees: list[Bowl], keep: int) -> None:
+    search = BranchAndBound(cast("list[Tree]", trees), keep)
+    search.run()
+    expected = sorted(objective for tree in trees for objective in tree.enumerated())
+    found = sorted(run.start.objective for run in search.found.values())
+    assert found[:keep] == pytest.approx(expected[:keep], rel=1e-5)
+    assert search.inside <= 1e-12
+    assert len(found) + search.pruned <= sum(tree.sizes.count for tree in trees)
+    assert len(found) + search.pruned >= len(expected)
+
+
+def test_a_bowl_over_two_thousand_combinations_takes_a_few_runs() -> None:
+    sizes = Sizes(("a", "b", "c"), tuple(tuple(float(i) for i in range(1, 14)) for _ in range(3)))
+    bowl = Bowl(0, sizes, (6.4, 3.2, 9.7), (1.0, 2.0, 0.5), 5.0, 0.0)
+    search = BranchAndBound(cast("list[Tree]", [bowl]), 1)
+    search.run()
+    assert sizes.count == 2197
+    assert min(run.start.objective for run in search.found.values()) == pytest.approx(min(bowl.enumerated()))
+    assert bowl.solved < 40
+
+
+def test_neighbours_in_an_enumeration_differ_by_one_size() -> None:
+    sizes = Sizes(("a", "b", "c"), ((1.0, 2.0), (1.0, 2.0, 3.0), (1.0, 2.0)))
+    boxes = list(sizes.each())
+    assert len(set(boxes)) == sizes.count == 12
+    for one, other in itertools.pairwise(boxes):
+        assert sum(abs(a - b) for (a, _), (b, _) in zip(one, other, strict=True)) == 1

@@ -1,0 +1,204 @@
+"""Listed choices: the answer is that of solving every combination, and what is told of the search is so."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from choosing import LISTED, by_brute_force, listed
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.errors import InputError
+from tvimdesign.report.choosing import choosing_data, price_in_words, tally_in_words
+from tvimdesign.solve.listed import listed_sizes
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.screen import Screen
+from tvimdesign.solve.search import optimize
+from tvimdesign.solve.solution import Choosing, Solution
+from tvimdesign.study import Study, given
+
+pytestmark = pytest.mark.xdist_group("choosing")  # its costly fixture is made once, in one process
+TABLE = table_for("shear")
+WEIGHTS = "{envelope_volume: 1, module_mass: 1, response_time: 1}"
+WEIGHT_SETS = [
+    "{envelope_volume: 3, response_time: 1}",
+    "{module_mass: 3, response_time: 1}",
+    "{envelope_volume: 1, response_time: 4}",
+    "{module_mass: 1, switch_energy: 1}",
+]
+COMPRESSION = """
+mode: compression
+module: {response_criterion: mean, core_radius: 8 mm, rotor_rim: 8 mm, pcl_inner_radius: 13 mm, block_height: 11 mm}
+vary:
+  wire_diameter: {catalog: metric, from: 2.1 mm, to: 2.6 mm}
+  coil_count: {choose: [6.5, 6.75, 7]}
+  vane_count: {from: 5, to: 6}
+  coil_diameter: [10 mm, 16 mm]
+  pcl_outer_radius: [18 mm, 30 mm]
+  block_height: [4 mm, 14 mm]
+  block_depth: [2 mm, 8 mm]
+  vane_thickness: [2 mm, 6 mm]
+  current: [0.5 A, 2.5 A]
+require:
+  spring_stiffness: ">= 5 N.m/rad"
+  holding_torque: ">= 8 N.m"
+  peltier_temperature_reserve: ">= 0 K"
+minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
+solver: {starts: 3, cells: 6, elements: 4}
+"""
+
+
+def _solve(study: Study) -> Solution:
+    return optimize(study, Catalog(), table_for(study.mode))
+
+
+def _chosen(solution: Solution) -> Choosing:
+    assert solution.choosing is not None
+    return solution.choosing
+
+
+def _agrees(study: Study, solution: Solution, starts: int = 3) -> None:
+    """Hold the best combinations against brute force, and the tally against itself."""
+    choosing = _chosen(solution)
+    expected = sorted(by_brute_force(study, solution.reference, starts).items(), key=lambda one: one[1])
+    assert solution.status == "optimal"
+    for found, (sizes, objective) in zip(choosing.best, expected, strict=False):
+        assert found.objective == pytest.approx(objective, rel=1e-6)
+        assert tuple(found.choices.values()) == pytest.approx(sizes)
+    assert len(choosing.best) == min(study.solver.alternatives, len(expected))
+    assert choosing.solved + choosing.pruned + choosing.without_design == choosing.combinations
+    assert choosing.solved + choosing.pruned >= len(expected)
+    assert choosing.without_design >= choosing.combinations - len(expected) - choosing.pruned
+    assert choosing.inside <= 1e-6
+    assert choosing.between is not None
+    assert choosing.between.objective <= choosing.best[0].objective * (1.0 + 1e-6)
+
+
+@pytest.fixture(scope="module")
+def found() -> Solution:
+    return _solve(listed())
+
+
+def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(found: Solution) -> None:
+    _agrees(listed(), found, starts=1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("weights", WEIGHT_SETS)
+def test_it_is_as_good_whatever_is_minimised(weights: str) -> None:
+    study = listed(LISTED.replace(WEIGHTS, weights))
+    _agrees(study, _solve(study))
+
+
+@pytest.mark.slow
+def test_it_is_as_good_in_compression() -> None:
+    study = listed(COMPRESSION)
+    _agrees(study, _solve(study))
+
+
+def test_the_bounds_save_most_of_the_work() -> None:
+    """One design is asked for, and one in four of the combinations is solved at most."""
+    alone = listed(LISTED.replace("solver: {", "solver: {alternatives: 1, "))
+    choosing = _chosen(_solve(alone))
+    assert len(choosing.best) == 1
+    assert choosing.work.warm + choosing.work.cold <= choosing.combinations // 4
+
+
+def test_a_re_solve_takes_a_few_iterations(found: Solution) -> None:
+    work = _chosen(found).work
+    assert work.warm_iterations <= 8 * work.warm
+
+
+def test_a_proof_solves_every_combination_and_finds_the_same(found: Solution) -> None:
+    proven = _chosen(_solve(listed(LISTED.replace("solver: {", "solver: {prove: true, "))))
+    searched = _chosen(found)
+    assert proven.proven
+    assert proven.pruned == 0
+    assert proven.improved <= 1e-6
+    assert [one.choices for one in proven.best] == [one.choices for one in searched.best]
+    assert proven.solved == searched.combinations - proven.without_design > searched.solved
+    assert "All were then solved" in tally_in_words(proven)
+
+
+@pytest.mark.slow
+def test_the_order_of_a_list_changes_nothing(found: Solution) -> None:
+    turned = LISTED.replace("{choose: [3, 4]}", "{choose: [4, 3]}").replace(
+        "{from: 3, to: 4, step: 0.5}", "{choose: [4, 3.5, 3]}"
+    )
+    # Objectives are over the study's own start, which is the same module.
+    assert [one.choices for one in _chosen(_solve(listed(turned))).best] == [one.choices for one in _chosen(found).best]
+
+
+def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(found: Solution) -> None:
+    choosing = _chosen(found)
+    said, data = price_in_words(choosing, TABLE), choosing_data(choosing, TABLE)
+    assert choosing.between is not None
+    for name, value in choosing.best[0].values.items():
+        assert value == pytest.approx(found.values[name], rel=1e-5), "simulated at other samples"
+        share = value / choosing.between.values[name] - 1.0
+        assert data["price"][name] == pytest.approx(share, rel=1e-9)
+        assert f"{name} {share:+.1%}" in said
+    assert f"wire_diameter 2 mm instead of {1e3 * choosing.between.choices['wire_diameter']:.4g}" in said
+    assert data["best"][0]["choices"]["wire_diameter"] == {"value": pytest.approx(2.0), "unit": "mm"}
+
+
+def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:
+    text = LISTED.replace("vary:", "module: {structure_material: STUFF}\nvary:")
+    petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))
+    first = Optimizer(petg, Catalog(), TABLE, 1)
+    shared, own = first.with_records(metal), Optimizer(metal, Catalog(), TABLE, 1, first.reference)
+    assert shared is not None
+    assert shared.problem is first.problem
+    runs = [optimizer.solve(begin=own.model.start) for optimizer in (shared, own)]
+    assert all(run.start.converged for run in runs)
+    assert runs[0].start.objective == pytest.approx(runs[1].start.objective, rel=1e-7)
+    stainless = listed(text.replace("STUFF", "petg, spring_material: stainless_302"))
+    assert first.with_records(stainless) is None, "its strength is a table, which is built in"
+
+
+@pytest.mark.slow
+def test_records_and_sizes_are_chosen_together() -> None:
+    text = LISTED.replace("arc_count: {choose: [3, 4]}", "structure_material: {choose: [petg, aluminum_6061_t6]}")
+    both = _solve(listed(text))
+    alone = [
+        _solve(listed(text.replace("vary:", f"module: {{structure_material: {name}}}\nvary:").replace(
+            "  structure_material: {choose: [petg, aluminum_6061_t6]}\n", "")))
+        for name in ("petg", "aluminum_6061_t6")
+    ]  # fmt: skip
+    # Objectives are over each study's own start; that of the study that lists both is the common measure.
+    objectives = [
+        sum(one.values[name] / both.reference[name] for name in both.reference) for one in alone if one.feasible
+    ]
+    assert both.objective == pytest.approx(min(objectives), rel=1e-5)
+    assert _chosen(both).combinations == 2 * _chosen(alone[0]).combinations
+
+
+def test_where_no_combination_has_a_design_that_is_said() -> None:
+    none = _solve(listed(LISTED.replace('">= 5 N.m/rad"', '">= 60 N.m/rad"')))
+    assert none.status.startswith("not converged")
+    choosing = _chosen(none)
+    assert not choosing.best
+    assert choosing.without_design == choosing.combinations
+
+
+def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:
+    study = listed()
+    optimizer = Optimizer(study, Catalog(), TABLE, 1)
+    screen, begin = Screen(optimizer), optimizer.model.start
+    thin, thick = {"wire_diameter": (1.5e-3, 1.6e-3)}, {"wire_diameter": (1.5e-3, 2.4e-3)}
+    assert screen.impossible(thin, begin)
+    assert not screen.impossible(thick, begin)
+    # Of thin wire by hand: k = E d^4 / (64 D n) in N.m per radian, four springs, D and n as small as they may be.
+    rate = 196.5e9 * 1.6e-3**4 / (64.0 * 12e-3 * 3.0)
+    stress = 32.0 * rate * given(study, Catalog(), TABLE)["stroke"] / (math.pi * 1.6e-3**3)
+    assert 4.0 * rate < 5.0 or stress > 0.5 * 2211e6 / 1.6**0.145 / 1.2
+
+
+def test_more_combinations_than_can_be_searched_are_refused_with_what_to_do() -> None:
+    text = LISTED.replace("{from: 3, to: 4, step: 0.5}", "{from: 3, to: 8, step: 0.03}").replace(
+        "[12 mm, 30 mm]", "{from: 12 mm, to: 22 mm, step: 0.1 mm}"
+    )
+    assert listed_sizes(listed(text), TABLE).count > 20_000
+    with pytest.raises(InputError, match="combinations of listed choices; the limit is 20000; narrow a list"):
+        _solve(listed(text))

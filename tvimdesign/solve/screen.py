@@ -1,0 +1,57 @@
+"""Whether any design within some ends keeps the limits that depend on no switch: a small problem, asked first.
+
+The switch makes nearly all of the unknowns of a study's problem, and IPOPT takes longest where there is no design. The
+limits of arithmetic alone are a few dozen functions of the free numbers; what cannot keep those keeps no more of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.limits import on_switch
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Ends, Optimizer
+
+_IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
+
+Array = NDArray[np.float64]
+
+
+class Screen:
+    """The arithmetic limits of one problem, and the least by which the worst of them is broken within some ends."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Write the problem; nothing is solved yet."""
+        self._optimizer = optimizer
+        problem, model = optimizer.problem, optimizer.model
+        limits = [limit for limit in problem.limits if not on_switch(optimizer.table, limit.output)]
+        unknowns, inputs = ca.MX.sym("free", len(problem.free)), ca.MX.sym("inputs", len(model.names))
+        worst = ca.MX.sym("worst")
+        wanted = list(dict.fromkeys(limit.output for limit in limits))
+        switch = np.full(len(model.switch_names), np.nan)  # read by none of them
+        values = model.outputs(wanted)(problem.with_unknowns(inputs, unknowns), switch) if wanted else ca.MX(0, 1)
+        broken = [limit.residual(values[wanted.index(limit.output)]) - worst for limit in limits]
+        function = ca.Function(
+            "screen", [ca.vertcat(unknowns, worst), inputs], [worst, ca.vertcat(*broken)], ["x", "p"], ["f", "g"]
+        ).expand()
+        options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
+        self._solver: Any = ca.nlpsol("screen", "ipopt", function, options)
+
+    def impossible(self, within: Mapping[str, Ends], begin: Array) -> bool:
+        """Whether the limits are broken at the best point that a search from some inputs comes to.
+
+        A search that does not converge says nothing.
+        """
+        optimizer = self._optimizer
+        count = len(optimizer.free)
+        lower, upper = (ends[:count] for ends in optimizer.bounds(within))
+        start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
+        found = self._solver(
+            x0=np.append(np.clip(start, lower, upper), 0.1), p=optimizer.model.start,
+            lbx=np.append(lower, 0.0), ubx=np.append(upper, np.inf), lbg=-np.inf, ubg=0.0,
+        )  # fmt: skip
+        return bool(self._solver.stats()["success"]) and float(found["f"]) > ALGEBRAIC_TOLERANCE

@@ -1,0 +1,136 @@
+"""One study with its records chosen, searched over its listed sizes: its free optima, and the runs within a box."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from tvimdesign.solve.listed import Box, Sizes
+from tvimdesign.solve.optimizer import Array, Optimizer, Run
+from tvimdesign.solve.screen import Screen
+from tvimdesign.solve.solution import SAME_OPTIMUM, Work
+from tvimdesign.solve.stepping_stone import SteppingStone
+
+NO_DESIGN = "Infeasible_Problem_Detected"
+"""IPOPT's word for a point from which no step brings the limits nearer."""
+
+
+@dataclass(eq=False)
+class Tree:
+    """The problem of one choice of records, its free optima, and the work that was done on it."""
+
+    place: int
+    """Among the trees of a search."""
+    optimizer: Optimizer
+    records: dict[str, str]
+    sizes: Sizes
+    work: Work
+    stepping_stone: SteppingStone = field(init=False)
+    optima: list[Run] = field(init=False, default_factory=list)
+    """A run for each different optimum that the starts came to with every size free, the best first."""
+    _ends: list[Run] = field(init=False, default_factory=list)
+    """Where the starts came to instead, if none of them came to an optimum."""
+
+    def __post_init__(self) -> None:
+        """Nothing is solved yet."""
+        self.stepping_stone = SteppingStone(self.optimizer)
+
+    @cached_property
+    def _screen(self) -> Screen:
+        return Screen(self.optimizer)
+
+    def starts(self) -> list[Run]:
+        """A run from every start with every size free, and what different optima they are."""
+        runs = []
+        for number, begin in enumerate(self.optimizer.begin_points()):
+            self.optimizer.progress(f"start {number + 1} of {self.optimizer.study.solver.starts}")
+            run = self.optimizer.solve(begin=self.stepping_stone.beyond(begin))
+            run.start = replace(
+                run.start, begin=self.optimizer.free_values(begin), choices=dict(self.records),
+                relaxed=bool(self.sizes.names),
+            )  # fmt: skip
+            runs.append(run)
+        for run in sorted((run for run in runs if run.start.converged), key=order):
+            objective = run.start.objective
+            if all(abs(objective - o.start.objective) > SAME_OPTIMUM * abs(objective) for o in self.optima):
+                self.optima.append(run)
+        self._ends = [] if self.optima else runs
+        return runs
+
+    def choices(self, box: Box) -> dict[str, str | float]:
+        """Records and sizes of a box of one."""
+        return {**self.records, **{name: low for name, (low, _) in self.sizes.ends(box).items()}}
+
+    def values(self, run: Run) -> dict[str, float]:
+        """The listed numbers where a run ended."""
+        return {name: float(run.inputs[self.optimizer.model.index[name]]) for name in self.sizes.names}
+
+    @property
+    def start_values(self) -> dict[str, float]:
+        """The listed numbers of the study's start."""
+        model = self.optimizer.model
+        return {name: float(model.start[model.index[name]]) for name in self.sizes.names}
+
+    def best_within(self, box: Box, near: Run | None) -> tuple[Run | None, bool]:
+        """The best design within a box, warm from a run nearby; and where there is none, whether that is certain.
+
+        Certain means that limits which depend on no switch cannot be kept, or that searches from the run nearby and
+        from every free optimum all came to points where nothing brings the limits nearer.
+        """
+        ends = self.sizes.ends(box)
+        begins = self._begins(ends, near)
+        if all(self._screen.impossible(ends, begin) for begin in (begins[0], begins[-1])):
+            self.work.screened += 1
+            return None, True
+        statuses = []
+        if near is not None:
+            run = self._solved(ends, warm=near)
+            if run.start.converged:
+                return run, True
+            statuses.append(run.start.status)
+        for begin in begins:
+            run = self._solved(ends, begin=begin)
+            if run.start.converged:
+                return run, True
+            statuses.append(run.start.status)
+        return None, all(status == NO_DESIGN for status in statuses)
+
+    def closest(self, box: Box) -> Run:
+        """A run for one combination whether there is a design or not."""
+        best = self.optima[0] if self.optima else None
+        return self._named(self._solved(self.sizes.ends(box), warm=best), box)
+
+    def exactly(self, box: Box, near: Run | None) -> tuple[Run | None, bool]:
+        """The best design of one combination, with its choices said."""
+        run, certain = self.best_within(box, near)
+        return (run and self._named(run, box)), certain
+
+    def _named(self, run: Run, box: Box) -> Run:
+        run.start = replace(run.start, choices=self.choices(box))
+        return run
+
+    def _begins(self, ends: Mapping[str, tuple[float, float]], near: Run | None) -> list[Array]:
+        """Inputs to start from, moved into the ends: those of the run nearby, of the optima, of the study's start."""
+        others = [run for run in (*self.optima, *self._ends) if run is not near]
+        found = [*(run.inputs for run in ([near] if near else []) + others), self.optimizer.model.start]
+        moved = []
+        for inputs in found:
+            point = inputs.copy()
+            for name, (low, high) in ends.items():
+                place = self.optimizer.model.index[name]
+                point[place] = min(max(point[place], low), high)
+            moved.append(point)
+        return moved
+
+    def _solved(
+        self, ends: Mapping[str, tuple[float, float]], warm: Run | None = None, begin: Array | None = None
+    ) -> Run:
+        run = self.optimizer.solve(ends, warm=warm, begin=begin)
+        self.work.count(run.start, warm=warm is not None)
+        return run
+
+
+def order(run: Run) -> tuple[bool, float]:
+    """Converged runs first, the best of them first."""
+    return (not run.start.converged, run.start.objective)
