@@ -13,7 +13,7 @@ from tvimdesign.study import Options, Study, read_study_text
 LISTED = """
 mode: shear
 vary:
-  wire_diameter: {catalog: metric, from: 1.8 mm, to: 2.4 mm}
+  wire_diameter: {catalog: metric, from: 1.9 mm, to: 2.4 mm}
   coil_count: {from: 3, to: 4, step: 0.5}
   arc_count: {choose: [3, 4]}
   coil_diameter: [12 mm, 30 mm]

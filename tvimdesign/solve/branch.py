@@ -69,6 +69,18 @@ class BranchAndBound:
             else:
                 self._split(node)
                 self._tell(node.tree)
+        self._begin_afresh()
+
+    def _begin_afresh(self) -> None:
+        """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
+        best = sorted(self.found, key=lambda key: (order(self.found[key]), key))
+        for place, box in best[: self.keep]:
+            before = self.found[place, box]
+            again = self.trees[place].thoroughly(box, None)
+            if again is not None and order(again) < order(before):
+                self.found[place, box] = again
+                objective = before.start.objective
+                self.inside = max(self.inside, (objective - again.start.objective) / abs(objective))
 
     @property
     def cutoff(self) -> float:

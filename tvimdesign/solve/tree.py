@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from tvimdesign.solve.listed import Box, Sizes
-from tvimdesign.solve.optimizer import Array, Optimizer, Run
+from tvimdesign.solve.optimizer import Array, Ends, Optimizer, Run
 from tvimdesign.solve.screen import Screen
 from tvimdesign.solve.solution import SAME_OPTIMUM, Work
 from tvimdesign.solve.stepping_stone import SteppingStone
@@ -80,8 +80,7 @@ class Tree:
         """
         ends = self.sizes.ends(box)
         begins = self._begins(ends, near)
-        if all(self._screen.impossible(ends, begin) for begin in (begins[0], begins[-1])):
-            self.work.screened += 1
+        if self._screened(ends, begins):
             return None, True
         statuses = []
         if near is not None:
@@ -106,11 +105,32 @@ class Tree:
         run, certain = self.best_within(box, near)
         return (run and self._named(run, box)), certain
 
+    def thoroughly(self, box: Box, near: Run | None) -> Run | None:
+        """The best design of one combination: warm from a run nearby, cold from every optimum and the study's start.
+
+        A walk from neighbour to neighbour may end in a worse optimum and stay there; what begins afresh does not.
+        """
+        ends = self.sizes.ends(box)
+        begins = self._begins(ends, None)
+        if self._screened(ends, begins):
+            return None
+        runs = [self._solved(ends, warm=near)] if near else []
+        runs += [self._solved(ends, begin=begin) for begin in begins]
+        best = min(runs, key=order)
+        return self._named(best, box) if best.start.converged else None
+
+    def _screened(self, ends: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
+        """Whether the limits that depend on no switch cannot be kept, from the first of some inputs and the last."""
+        if not all(self._screen.impossible(ends, begin) for begin in (begins[0], begins[-1])):
+            return False
+        self.work.screened += 1
+        return True
+
     def _named(self, run: Run, box: Box) -> Run:
         run.start = replace(run.start, choices=self.choices(box))
         return run
 
-    def _begins(self, ends: Mapping[str, tuple[float, float]], near: Run | None) -> list[Array]:
+    def _begins(self, ends: Mapping[str, Ends], near: Run | None) -> list[Array]:
         """Inputs to start from, moved into the ends: those of the run nearby, of the optima, of the study's start."""
         others = [run for run in (*self.optima, *self._ends) if run is not near]
         found = [*(run.inputs for run in ([near] if near else []) + others), self.optimizer.model.start]
@@ -123,9 +143,7 @@ class Tree:
             moved.append(point)
         return moved
 
-    def _solved(
-        self, ends: Mapping[str, tuple[float, float]], warm: Run | None = None, begin: Array | None = None
-    ) -> Run:
+    def _solved(self, ends: Mapping[str, Ends], warm: Run | None = None, begin: Array | None = None) -> Run:
         run = self.optimizer.solve(ends, warm=warm, begin=begin)
         self.work.count(run.start, warm=warm is not None)
         return run
