@@ -27,10 +27,13 @@ CAD_TIME_LIMIT = 300.0  # s
 
 def check_study(path: Path) -> Study:
     """Read a study and everything it names. Raises InputError with all that is wrong with it."""
+    from tvimdesign.solve.contradiction import refuse_contradiction
     from tvimdesign.solve.limits import refuse_impossible
 
     study = read_study(path)
-    refuse_impossible(study, catalog_of(study), table_for(study.mode))
+    catalog, table = catalog_of(study), table_for(study.mode)
+    refuse_impossible(study, catalog, table)
+    refuse_contradiction(study, catalog, table)
     return study
 
 
@@ -46,9 +49,8 @@ def run_study(
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.plot_data import plot_data
     from tvimdesign.report.plots import Drawing, PlotProcess
-    from tvimdesign.report.summary import complaint, print_summary
-    from tvimdesign.report.tables import results
-    from tvimdesign.report.why import why
+    from tvimdesign.report.summary import print_summary
+    from tvimdesign.report.trouble import complaint
     from tvimdesign.solve.answer import answer
 
     study = read_study(path)
@@ -62,7 +64,7 @@ def run_study(
         plotted: list[Drawing] = []
         if drawing and found.found:
             plotted += [Drawing(name, name, data) for name, data in plot_data(found, table).items()]
-        told = results(found, table) | {"why": why(found, table)}
+        told = _told(found, table)
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
@@ -93,6 +95,18 @@ def run_study(
         raise InfeasibleError(complaint(found, table))
     if troubles:
         raise _partly(troubles)
+
+
+def _told(found: Answer, table: Table) -> dict[str, Any]:
+    """Everything a script wants to know of an answer."""
+    from tvimdesign.report.tables import results
+    from tvimdesign.report.trouble import quarrel_told, starts_told
+    from tvimdesign.report.why import why
+
+    told = results(found, table) | {"why": why(found, table)}
+    if found.solution:
+        told |= {"starts": starts_told(found), "quarrel": quarrel_told(found.solution.quarrel)}
+    return told
 
 
 def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:

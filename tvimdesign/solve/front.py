@@ -23,6 +23,7 @@ from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.limits import in_words, on_switch
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, EXPAND_FROM, Optimizer, Progress, Run
 from tvimdesign.solve.solution import Solution
+from tvimdesign.solve.statuses import meaning
 from tvimdesign.study import Options, Requirement, Study
 from tvimdesign.units import format_quantity
 
@@ -198,7 +199,7 @@ class Tradeoff:
     def _from(self, begins: Sequence[Array], goal: Goal, bound: float | None) -> Point | Failure:
         """The best design that runs from several inputs come to, or why there is none."""
         runs = [self._optimizer.solve(begin=begin, goal=goal) for begin in begins]
-        reason = f"not converged: {runs[-1].start.status.replace('_', ' ').lower()}"
+        reason = f"not converged: {meaning(runs[-1].start.status).words}"
         for run in sorted((run for run in runs if run.start.converged), key=lambda run: run.start.objective):
             checked = self._checked(run, goal, bound)
             if isinstance(checked, Point):

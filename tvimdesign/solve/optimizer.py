@@ -17,7 +17,7 @@ from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.drive import Drive, ramp_time
 from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.limits import Limit, impossible, in_words, is_constant, limits_of, on_switch
+from tvimdesign.solve.limits import Limit, impossible, is_constant, limits_of, on_switch, unchangeable
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
@@ -160,17 +160,10 @@ class Optimizer:
         for limit in constant:
             value = values[limit.output]
             if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
-                raise InfeasibleError(
-                    f"{in_words(limit, self.table)} does not hold, and nothing under `vary` can change it; "
-                    f"vary one of: {', '.join(self._variables_behind(limit.output))}"
-                )
+                raise InfeasibleError(unchangeable(limit, self.table))
         kept = [limit for limit in limits if limit not in constant]
         elements = self.study.solver.elements
         return Problem(self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents)
-
-    def _variables_behind(self, name: str) -> list[str]:
-        above = self.table.ancestors(name)
-        return [row.name for row in self.table.inputs if row.variable and row.name in above] or ["(nothing can)"]
 
     def _reference(self, name: str) -> float:
         value = self.start_values[name]
@@ -182,20 +175,26 @@ class Optimizer:
 
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:
-            ipopt: dict[str, Any] = {
-                **_IPOPT,
-                **(_WARM if warm else {}),
-                "max_iter": self.study.solver.max_iterations,
-                "tol": self.study.solver.tolerance,
-            }
-            options: dict[str, Any] = {
-                "ipopt": ipopt,
-                "print_time": False,
-                "expand": self.many,
-                "show_eval_warnings": False,
-            }
-            self._solvers[warm] = ca.nlpsol("design", "ipopt", self.problem.function, options)
+            self._solvers[warm] = self.solver_of(self.problem.function, _WARM if warm else {}, self.many)
         return self._solvers[warm]
+
+    def solver_of(
+        self, function: Mapping[str, Any], options: Mapping[str, Any] | None = None, expand: bool = False
+    ) -> Any:
+        """IPOPT for a problem, set up as all are here; `expand` writes it in scalar operations."""
+        ipopt: dict[str, Any] = {
+            **_IPOPT,
+            **(options or {}),
+            "max_iter": self.study.solver.max_iterations,
+            "tol": self.study.solver.tolerance,
+        }
+        settings: dict[str, Any] = {
+            "ipopt": ipopt,
+            "print_time": False,
+            "expand": expand,
+            "show_eval_warnings": False,
+        }
+        return ca.nlpsol("design", "ipopt", function, settings)
 
     # --- starts ---
 
@@ -246,7 +245,7 @@ class Optimizer:
             return None
         return switch if all(np.isfinite(switch.values[event]) for event in self.problem.events) else None
 
-    def _guess(self, inputs: Array) -> Array:
+    def guess(self, inputs: Array) -> Array:
         """Unknowns at a point: the free numbers, and the switch simulated there (as far as it goes where it stalls)."""
         switch = self._trial(inputs) or self.start_switch
         parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.free])]
@@ -287,32 +286,39 @@ class Optimizer:
         warm: Run | None = None,
         begin: Array | None = None,
         goal: Goal | None = None,
+        unknowns: Array | None = None,
     ) -> Run:
         """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers fixed.
 
-        A `goal` stands in place of the study's weights and of some of its upper limits; nothing is built anew.
+        `unknowns` stand in place of the switch simulated at `begin`. A `goal` stands in place of the study's weights
+        and of some of its upper limits; nothing is built anew.
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
         lower, upper = self.bounds(fixed or {})
         solver = self._solver(warm is not None)
-        arguments: dict[str, Any] = {"x0": self._guess(inputs) if warm is None else warm.unknowns}
+        if warm is not None:
+            unknowns = warm.unknowns
+        arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         goal = goal or Goal(self.study.minimize)
         equations = self.problem.equation_count
         rest = self.problem.slope_count + self.problem.peak_count
         answer = solver(
-            **arguments, p=self._parameters(goal.weights), lbx=lower, ubx=upper,
+            **arguments, p=self.parameters(goal.weights), lbx=lower, ubx=upper,
             lbg=np.concatenate([np.zeros(equations), np.full(len(self.problem.limits) + rest, -np.inf)]),
             ubg=np.concatenate([np.zeros(equations), goal.room(self.problem.limits), np.zeros(rest)]),
         )  # fmt: skip
-        stats = solver.stats()
-        if stats["return_status"] == "User_Requested_Stop":  # an interrupt that reached IPOPT first
-            raise KeyboardInterrupt
-        unknowns = np.asarray(answer["x"]).ravel()
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
+        return self.record(answer, solver.stats(), inputs, seconds)
+
+    def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
+        """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it."""
+        if stats["return_status"] == "User_Requested_Stop":
+            raise KeyboardInterrupt
+        unknowns = np.asarray(answer["x"]).ravel()
         end = self._inputs_of(unknowns)
         start = Start(
             number=0, status=stats["return_status"], converged=bool(stats["success"]),
@@ -325,7 +331,7 @@ class Optimizer:
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
         return Run(start, end, drives, ends, unknowns, *multipliers)
 
-    def _parameters(self, weights: Mapping[str, float]) -> Array:
+    def parameters(self, weights: Mapping[str, float]) -> Array:
         """The problem's parameters: the study's inputs, and weights over the references."""
         over = [weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
         return np.concatenate([self.model.start, over])
@@ -336,12 +342,12 @@ class Optimizer:
         IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
         """
         solver = self._solver(warm=False)
-        parameters = self._parameters(self.study.minimize)
+        parameters = self.parameters(self.study.minimize)
         rows, jacobian = solver.get_function("nlp_jac_g")(run.unknowns, parameters)
         hessian = solver.get_function("nlp_hess_l")(run.unknowns, parameters, 1.0, run.multipliers)
         values, gradients = {}, {}
         for name in self.problem.minimize:
-            alone = self._parameters({name: self.reference[name]})
+            alone = self.parameters({name: self.reference[name]})
             value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
             values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
         return Derivatives(np.asarray(rows).ravel(), jacobian, ca.triu2symm(hessian), values, gradients)

@@ -10,9 +10,11 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
 from tvimdesign.errors import InputError
 from tvimdesign.solve.account import account
+from tvimdesign.solve.contradiction import refuse_contradiction
 from tvimdesign.solve.optimizer import Array, Optimizer, Progress, Run
+from tvimdesign.solve.quarrel import make_peace
 from tvimdesign.solve.reach import refuse_unreachable
-from tvimdesign.solve.solution import Constant, Solution, Start
+from tvimdesign.solve.solution import Constant, Quarrel, Solution, Start
 from tvimdesign.study import Options, Study
 from tvimdesign.units import format_quantity
 
@@ -33,6 +35,7 @@ def optimize(
     `keep` is handed the problem, with its solvers, that the best design came from.
     """
     refuse_unreachable(study, catalog, table)
+    refuse_contradiction(study, catalog, table)
     sizes = _listed_sizes(study, table)
     records = _record_choices(study, table)
     runs = study.solver.starts + len(sizes)
@@ -43,24 +46,45 @@ def optimize(
         )
     best: tuple[Optimizer, Run] | None = None
     constant: Constant | None = None
+    beside: list[Run] = []
     starts: list[Start] = []
     seconds = {"set_up": 0.0, "solve": 0.0}
     for choice in records:
         optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress)
         reference = optimizer.reference
         stepping_stone = SteppingStone(optimizer)
+        tried: list[Run] = []
         for run, size in _runs(optimizer, stepping_stone, sizes, progress):
             relaxed = bool(sizes) and not size
             run.start = replace(run.start, number=len(starts), choices={**choice, **size}, relaxed=relaxed)
             starts.append(run.start)
+            tried.append(run)
             if relaxed:
                 continue
             if best is None or _order(run.start) < _order(best[1].start):
-                best, constant = (optimizer, run), stepping_stone.found()
+                best, constant, beside = (optimizer, run), stepping_stone.found(), tried
         seconds = {key: seconds[key] + optimizer.seconds[key] for key in seconds}
     assert best is not None  # there is always one combination and one start
     keep(best[0])
-    return replace(account(*best, tuple(starts), seconds), constant=constant)
+    run, quarrel = _reconciled(*best, beside, starts, progress)
+    found = replace(account(best[0], run, tuple(starts), seconds), constant=constant, quarrel=quarrel)
+    return replace(found, status="infeasible: this design breaks its limits least") if quarrel else found
+
+
+def _reconciled(
+    optimizer: Optimizer, best: Run, tried: list[Run], starts: list[Start], progress: Progress
+) -> tuple[Run, Quarrel | None]:
+    """The best run; where none converged, one that does after all, or the one that breaks least with the quarrel."""
+    if best.start.converged:
+        return best, None
+    peace = make_peace(optimizer, tried, progress)
+    listed = any(isinstance(value, float) for value in best.start.choices.values())
+    if peace is None or (peace.quarrel is None and listed):  # between the listed sizes there is one, at none of them
+        return best, None
+    peace.run.start = replace(peace.run.start, number=len(starts), choices=best.start.choices)
+    if peace.quarrel is None:
+        starts.append(peace.run.start)
+    return peace.run, peace.quarrel
 
 
 class SteppingStone:

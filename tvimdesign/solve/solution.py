@@ -33,6 +33,11 @@ class Start:
     """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
 
 
+def same_optimum(start: Start, other: Start) -> bool:
+    """Whether two converged runs ended at the same optimum."""
+    return abs(start.objective - other.objective) <= SAME_OPTIMUM * abs(other.objective)
+
+
 @dataclass(frozen=True)
 class Held:
     """One limit or bound at the solution: its residual (share of its scale, kept where <= 0) and what it costs.
@@ -58,6 +63,33 @@ class Held:
     def margin(self) -> float:
         """What is left of it, as a share of its scale."""
         return -self.residual
+
+
+@dataclass(frozen=True)
+class Side:
+    """One limit that is broken, or quarrels."""
+
+    text: str
+    origin: str
+    by: float
+    """How far the design that breaks least breaks it, as a share of its scale."""
+    move_to: float | None = None
+    """Where it would have to stand (SI) for all others to hold; None where no place of it alone was found."""
+    move_words: str = ""
+
+
+@dataclass(frozen=True)
+class Quarrel:
+    """What is known of a study that has no design."""
+
+    broken: tuple[Side, ...]
+    """What the design that breaks least breaks."""
+    sides: tuple[Side, ...]
+    """Limits that cannot hold together, while without any one of them the others can."""
+    ends: tuple[str, ...]
+    """Ends of ranges that keep them from it."""
+    proved: bool
+    """Whether bounds prove it; otherwise it is as far as the solver sees from where it began."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +120,8 @@ class Solution:
     """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
     seconds: dict[str, float]
     constant: Constant | None = None
+    quarrel: Quarrel | None = None
+    """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 
     @property
     def free_starts(self) -> tuple[Start, ...]:
@@ -104,10 +138,14 @@ class Solution:
         """One run for each combination of listed sizes; empty where none is listed."""
         return tuple(s for s in self.starts if any(isinstance(value, float) for value in s.choices.values()))
 
+    def reached(self, optimum: Start) -> int:
+        """How many of the free starts ended at an optimum."""
+        return sum(same_optimum(start, optimum) for start in self.free_starts if start.converged)
+
     def distinct_optima(self) -> list[Start]:
         """Return one converged free start for each different optimum, the best first."""
         found: list[Start] = []
         for start in sorted((s for s in self.free_starts if s.converged), key=lambda s: s.objective):
-            if not any(abs(start.objective - o.objective) <= SAME_OPTIMUM * abs(o.objective) for o in found):
+            if not any(same_optimum(start, o) for o in found):
                 found.append(start)
         return found
