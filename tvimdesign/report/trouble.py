@@ -47,14 +47,18 @@ def _quarrel_in_words(quarrel: Quarrel) -> list[str]:
     alone = len(quarrel.sides) == 1
     lines = [f"This cannot hold within the ranges, {how}:" if alone else f"These cannot hold together, {how}:"]
     for side in quarrel.sides:
-        place = f"alone it would have to move to {side.move_words}" if side.move_words else _NO_PLACE
-        lines.append(f"  {_named(side)}: {place}")
+        lines.append(f"  {_named(side)}: {_place(side)}")
     if quarrel.ends:
         lines.append(f"Ends of ranges that keep {'it' if alone else 'them'} from it: {', '.join(quarrel.ends)}.")
     return lines
 
 
-_NO_PLACE = "moving it alone helps nothing, as other limits cannot hold either"
+def _place(side: Side) -> str:
+    if side.move_words:
+        return f"alone it would have to move to {side.move_words}"
+    if side.beside:
+        return f"moving it alone is not enough, for then {' and '.join(side.beside)} cannot hold either"
+    return "how far it must move is not known"
 
 
 def _named(side: Side) -> str:
@@ -91,6 +95,7 @@ def starts_told(answer: Answer) -> dict[str, Any]:
         "count": len(starts),
         "converged": len(starts) - len(failed),
         "optima": optima(answer),
+        "passed_over": answer.solution.passed_over if answer.solution else {},
         "not_converged": [
             {"start": start.number, **meaning(start.status)._asdict(), "status": start.status} for start in failed
         ],
@@ -110,4 +115,7 @@ def quarrel_told(quarrel: Quarrel | None) -> dict[str, Any] | None:
 
 
 def _plain(side: Side) -> dict[str, Any]:
-    return {"limit": side.text, "origin": side.origin, "broken_by": side.by, "move_to": side.move_words or None}
+    return {
+        "limit": side.text, "origin": side.origin, "broken_by": side.by, "move_to": side.move_words or None,
+        "not_enough_for": list(side.beside),
+    }  # fmt: skip

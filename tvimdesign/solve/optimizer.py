@@ -22,6 +22,7 @@ from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
 from tvimdesign.solve.solution import Start
+from tvimdesign.solve.spread import unit_points
 from tvimdesign.solve.stage_model import StageModel
 from tvimdesign.solve.transcription import guess
 from tvimdesign.study import ProfileOptions, Range, Study, given
@@ -123,6 +124,8 @@ class Optimizer:
         self.start_values = self.model.values(self.model.start, self.start_switch.values)
         self.reference = reference or {name: self._reference(name) for name in study.minimize}
         self._solvers: dict[bool, Any] = {}
+        self.passed_over = {"switch never ends": 0, "no such module": 0}
+        """Points at which no search began, by the reason."""
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def with_constant_currents(self) -> Optimizer | None:
@@ -199,41 +202,44 @@ class Optimizer:
     # --- starts ---
 
     def begin_points(self) -> Iterator[Array]:
-        """Inputs to start from: the study's own, then random ones between the bounds, seeded.
+        """Inputs to start from: the study's own, then others spread between the bounds, seeded.
 
-        From a point whose switch never ends the solver mostly gets stuck there, so such points are drawn again; the
-        study's own is replaced by the first random one.
+        From a point whose switch never ends the solver mostly gets stuck there, so such points are passed over; the
+        study's own is replaced by the first other one.
         """
-        random = np.random.default_rng(self.study.solver.seed)
+        points = unit_points(self.study.solver.starts, len(self.free), self.study.solver.seed)
         if self._trial(self.model.start) is not None:
             yield self.model.start
         else:
             self.progress("the switch of the study's own start never ends: starting elsewhere")
-            yield self._ending_point(random)
+            self.passed_over["switch never ends"] += 1
+            yield self._ending_point(points)
         for _ in range(self.study.solver.starts - 1):
-            yield self._ending_point(random)
+            yield self._ending_point(points)
 
-    def _ending_point(self, random: np.random.Generator) -> Array:
+    def _ending_point(self, points: Iterator[Array]) -> Array:
         for _ in range(MAX_DRAWS):
-            point = self.random_point(random)
+            point = self.point_among(points)
             if self._trial(point) is not None:
                 return point
+            self.passed_over["switch never ends"] += 1
         return self.model.start
 
-    def random_point(self, random: np.random.Generator) -> Array:
-        """Inputs with every free number drawn evenly between its bounds (of its logarithm, where it is positive).
+    def point_among(self, points: Iterator[Array]) -> Array:
+        """Inputs at the next of some points of the unit cube, of the logarithm of a free number that is positive.
 
-        Drawn again where there is no such module, as with a leg that cannot reach its pin.
+        Points at which there is no such module, as with a leg that cannot reach its pin, are passed over.
         """
         for _ in range(MAX_DRAWS):
             point = self.model.start.copy()
-            for free in self.free:
+            for free, share in zip(self.free, next(points), strict=True):
                 low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
-                point[self.model.index[free.name]] = free.to_value(random.uniform(low, high))
+                point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
             values = self.model.values(point, self.start_switch.values)
             numbers = [value for name, value in values.items() if not on_switch(self.table, name)]
             if all(np.isfinite(number) for number in numbers) and not impossible(values, self.table):
                 return point
+            self.passed_over["no such module"] += 1
         return self.model.start
 
     def _trial(self, inputs: Array) -> Switch | None:

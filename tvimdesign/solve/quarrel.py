@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -54,6 +55,33 @@ def make_peace(optimizer: Optimizer, failed: Sequence[Run], progress: Progress) 
     members, ends = _quarrelling(elastic, least)
     least.run.start = replace(least.run.start, status="Infeasible_Problem_Detected", converged=False)
     return Peace(least.run, _told(elastic, least, members, ends, progress))
+
+
+class SecondTry:
+    """Starts that ended nowhere, begun again from a design that keeps all limits; the elastic problem is built once."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Nothing is built before it is needed."""
+        self._optimizer = optimizer
+
+    @cached_property
+    def _elastic(self) -> Elastic:
+        return Elastic(self._optimizer)
+
+    def from_peace(self, run: Run) -> Run:
+        """A run that converged after all, else the one that did not; its start says how many iterations all took."""
+        settled = self._elastic.settle(_weights(self._optimizer), _begin(self._optimizer, run))
+        if not settled.peace:
+            return run
+        again = self._optimizer.solve(begin=settled.run.inputs, unknowns=settled.run.unknowns)
+        if not again.start.converged:
+            return run
+        parts = (run.start, settled.run.start, again.start)
+        again.start = replace(
+            again.start, begin=run.start.begin, second_try=True,
+            iterations=sum(part.iterations for part in parts), seconds=sum(part.seconds for part in parts),
+        )  # fmt: skip
+        return again
 
 
 def _weights(optimizer: Optimizer) -> Array:
@@ -113,7 +141,9 @@ def _told(elastic: Elastic, least: Settled, members: Sequence[int], ends: Array,
     sides = []
     for k in members:
         progress(f"how far {limits[k].name} must move")
-        sides.append(_moved(optimizer, limits[k], float(least.slacks[k]), _alone(elastic, least, k)))
+        move, beside = _alone(elastic, least, k)
+        side = _moved(optimizer, limits[k], float(least.slacks[k]), move)
+        sides.append(replace(side, beside=tuple(in_words(limits[other], optimizer.table) for other in beside)))
     return Quarrel(
         broken=tuple(
             _moved(optimizer, limits[k], float(least.slacks[k]), float(least.slacks[k]) if len(broken) == 1 else None)
@@ -125,15 +155,15 @@ def _told(elastic: Elastic, least: Settled, members: Sequence[int], ends: Array,
     )
 
 
-def _alone(elastic: Elastic, least: Settled, member: int) -> float | None:
-    """How far one limit must move, in its scale, for all others to hold; None where that is not found."""
+def _alone(elastic: Elastic, least: Settled, member: int) -> tuple[float | None, list[int]]:
+    """How far one limit must move, in its scale, for all others to hold; else which others do not, none if unknown."""
     weights = np.full(elastic.count, _HEAVY)
     weights[member] = 1.0
     settled = elastic.settle(weights, least.run.inputs, least.run.unknowns)
-    others = np.delete(settled.slacks, member)
-    if not settled.converged or np.max(others, initial=0.0) > AT_PEACE:
-        return None
-    return float(settled.slacks[member])
+    if not settled.converged:
+        return None, []
+    others = [int(k) for k in np.flatnonzero(settled.slacks > AT_PEACE) if k != member]
+    return (None, others) if others else (float(settled.slacks[member]), [])
 
 
 def _moved(optimizer: Optimizer, limit: Limit, by: float, move: float | None) -> Side:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
@@ -12,9 +13,10 @@ from tvimdesign.errors import InputError
 from tvimdesign.solve.account import account
 from tvimdesign.solve.contradiction import refuse_contradiction
 from tvimdesign.solve.optimizer import Array, Optimizer, Progress, Run
-from tvimdesign.solve.quarrel import make_peace
+from tvimdesign.solve.quarrel import SecondTry, make_peace
 from tvimdesign.solve.reach import refuse_unreachable
 from tvimdesign.solve.solution import Constant, Quarrel, Solution, Start
+from tvimdesign.solve.spread import FEW
 from tvimdesign.study import Options, Study
 from tvimdesign.units import format_quantity
 
@@ -49,6 +51,7 @@ def optimize(
     beside: list[Run] = []
     starts: list[Start] = []
     seconds = {"set_up": 0.0, "solve": 0.0}
+    passed_over: Counter[str] = Counter()
     for choice in records:
         optimizer = Optimizer(_with_records(study, choice), catalog, table, runs, reference, progress)
         reference = optimizer.reference
@@ -63,11 +66,13 @@ def optimize(
                 continue
             if best is None or _order(run.start) < _order(best[1].start):
                 best, constant, beside = (optimizer, run), stepping_stone.found(), tried
+        passed_over.update(optimizer.passed_over)
         seconds = {key: seconds[key] + optimizer.seconds[key] for key in seconds}
     assert best is not None  # there is always one combination and one start
     keep(best[0])
     run, quarrel = _reconciled(*best, beside, starts, progress)
-    found = replace(account(best[0], run, tuple(starts), seconds), constant=constant, quarrel=quarrel)
+    found = account(best[0], run, tuple(starts), seconds)
+    found = replace(found, constant=constant, quarrel=quarrel, passed_over=dict(passed_over))
     return replace(found, status="infeasible: this design breaks its limits least") if quarrel else found
 
 
@@ -123,9 +128,12 @@ def _runs(
     """Every start, all free; where sizes are listed, then every combination of them, warm from the best start."""
     starts = optimizer.study.solver.starts
     best: Run | None = None
+    second_try = SecondTry(optimizer)
     for number, begin in enumerate(optimizer.begin_points()):
         progress(f"start {number + 1} of {starts}")
         run = optimizer.solve(begin=stepping_stone.beyond(begin))
+        if not run.start.converged and best is not None and best.start.converged and starts > FEW:
+            run = second_try.from_peace(run)
         run.start = replace(run.start, begin=optimizer.free_values(begin))
         best = run if best is None or _order(run.start) < _order(best.start) else best
         yield run, {}

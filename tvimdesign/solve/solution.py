@@ -31,6 +31,8 @@ class Start:
     """The listed records and sizes this run was held to."""
     relaxed: bool = False
     """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
+    second_try: bool = False
+    """Whether it converged only from a design that keeps all limits, which was sought from where it began."""
 
 
 def same_optimum(start: Start, other: Start) -> bool:
@@ -76,6 +78,8 @@ class Side:
     move_to: float | None = None
     """Where it would have to stand (SI) for all others to hold; None where no place of it alone was found."""
     move_words: str = ""
+    beside: tuple[str, ...] = ()
+    """The other limits that cannot hold either, however far this one moves."""
 
 
 @dataclass(frozen=True)
@@ -120,6 +124,8 @@ class Solution:
     """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
     seconds: dict[str, float]
     constant: Constant | None = None
+    passed_over: dict[str, int] = field(default_factory=dict)
+    """Points drawn at which no search began, by the reason."""
     quarrel: Quarrel | None = None
     """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 
