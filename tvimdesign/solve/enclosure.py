@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.device import Event
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.interval import OPERATIONS, Interval, add, anything, multiply, point, subtract
 from tvimdesign.solve.model import Model
@@ -72,16 +73,24 @@ class Slopes:
     high: Array
 
 
+def _time() -> Interval:
+    """What is known of a time."""
+    return Interval(np.array([0.0]), np.array([np.inf]), np.array([False]))
+
+
 class Enclosure:
-    """Algebraic outputs of a model as functions of the numbers that are free, everything else as in its start."""
+    """Outputs of a model as functions of the numbers that are free, everything else as in its start.
+
+    Of what a simulation supplies nothing is known, but that a time is never negative.
+    """
 
     def __init__(self, model: Model, outputs: Sequence[str], free: Sequence[str]) -> None:
-        """Compile the outputs; none may depend on a simulation."""
+        """Compile the outputs."""
         self.model, self.outputs, self.free = model, tuple(outputs), tuple(free)
         self._places = [model.index[name] for name in free]
         self._function = model.outputs(self.outputs)
         self._walk = Walk(self._function)
-        self._switch = [anything(point(0.0))] * len(model.switch_names)
+        self._switch = [_time() if isinstance(row, Event) else anything(point(0.0)) for row in model.table.supplied]
 
     @cached_property
     def _slope_walk(self) -> Walk:

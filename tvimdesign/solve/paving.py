@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.solve.enclosure import Enclosure
 from tvimdesign.solve.limits import Limit
+from tvimdesign.solve.relaxation import LinearBelow
 
 Array = NDArray[np.float64]
 _BATCH = 64
@@ -24,7 +25,7 @@ _BATCH = 64
 _ROUNDING = 1e-12
 """Share by which sums of interval ends are widened: far more than their rounding, far less than a tolerance."""
 _STEEP = 1e3
-"""What a slope nobody knows counts as, in scales of a limit across the side: it is halved first."""
+"""Scales of a limit across a side beyond which it matters no more."""
 _WIDTH_LEFT = 1e-9
 """Share of its range below which a side is not halved again."""
 
@@ -118,10 +119,33 @@ class Paver:
         alive &= np.all(least <= most, axis=1)
         if self.goal is not None:
             bound = np.maximum(bound, seen.low[:, -1])
-        with np.errstate(invalid="ignore"):
-            swing = np.maximum(np.abs(seen.slope_low), np.abs(seen.slope_high)) * (most - least)[:, None, :]
-        matters = np.sum(np.clip(np.nan_to_num(swing, nan=_STEEP), 0.0, _STEEP), axis=1)
+        if self.goal is not None and np.any(alive):
+            below = self._relaxed(seen, least[alive], most[alive], caps, alive)
+            bound[alive] = np.maximum(bound[alive], below)
+            alive &= bound <= caps[-1]
+        matters = self._matters(low, high) * (most - least)
         return least[alive], most[alive], bound[alive], matters[alive]
+
+    def _matters(self, low: Array, high: Array) -> Array:
+        """How much the rows change with each free number in the middle of boxes; the goal counts as all limits do."""
+        middle = 0.5 * (low + high)
+        slopes = self.enclosure.slopes(middle, middle)
+        sizes = np.abs(self._lower(slopes.low, slopes.high))
+        sizes = np.minimum(np.where(np.isfinite(sizes), sizes, 0.0), _STEEP / (high - low + 1e-300)[:, None, :])
+        total = np.sum(sizes[:, : len(self.limits)], axis=1)
+        return total + len(self.limits) * sizes[:, -1] if self.goal is not None else total
+
+    def _relaxed(self, seen: _Seen, low: Array, high: Array, caps: Array, alive: NDArray[np.bool_]) -> Array:
+        """What linear programmes below the rows say of boxes that are left."""
+        corners = []
+        for corner in (low, high):
+            found = self.enclosure.natural(corner, corner)
+            corners.append(self._lower(found.low, found.high) + self._offset)
+        width = (high - low)[:, None, :]
+        with np.errstate(invalid="ignore"):
+            rising, falling = seen.slope_low[alive] * width, seen.slope_high[alive] * width
+        boxes = zip(corners[0], rising, corners[1], falling, strict=True)
+        return np.array([LinearBelow(*box, caps).bound() for box in boxes])
 
     @staticmethod
     def _halved(
