@@ -172,9 +172,11 @@ def bound_in_words(found: LowerBound) -> str:
     """The certified bound, how far the best design is from it, and how much that says."""
     weak = ""
     if found.left_out:
-        weak = f" {', '.join(found.left_out)} is counted as nothing in it and limits on times are left out: it is weak."
+        weak = f" It is weak: limits on times are left out, and so is the share of {', '.join(found.left_out)}."
     if not math.isfinite(found.bound):
         return f"  lower bound: none; nothing is certain of {', '.join(found.left_out)} without simulating."
+    if not found.boxes:
+        return f"  lower bound: {found.bound:.5g}, and no more, as all that is minimised hangs on a simulation."
     if found.gap is None:
         return f"  lower bound: no design has an objective below {found.bound:.5g}.{weak}"
     return (

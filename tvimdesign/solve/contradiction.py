@@ -87,15 +87,17 @@ def refuse_contradiction(study: Study, catalog: Catalog, table: Table) -> None:
     combinations = list(itertools.product(*records.values()))
     if len(combinations) > _MOST_RECORDS:
         return
-    told = ""
+    every = []
     for words in combinations:
         chosen = {name: str(word) for name, word in zip(records, words, strict=True)}
         module = study.model_copy(update={"module": {**study.module, **chosen}, "vary": _without(study, records)})
-        ranges = ranges_of(module, catalog, table)
-        found = contradiction(ranges)
-        if found is None:
+        every.append(ranges_of(module, catalog, table))
+        if not proved(every[-1], every[-1].limits):
             return
-        told = told or _in_words(found, ranges)
+    found = contradiction(every[0])
+    if found is None:
+        return
+    told = _in_words(found, every[0])
     also = f" So it is with every listed {' and '.join(records)}." if records else ""
     raise InfeasibleError(f"{study.name}: {told}{also}")
 
@@ -116,7 +118,7 @@ def contradiction(ranges: Ranges, boxes: int = _BOXES) -> Contradiction | None:
     left = [limits[k] for k in proof.cutting]
     for limit in sorted(left, key=lambda one: one.origin == "require"):  # the machine's rules go first
         fewer = [one for one in left if one is not limit]
-        if _proved(ranges, fewer, boxes):
+        if proved(ranges, fewer, boxes):
             left = fewer
     return Contradiction(
         limits=tuple(left),
@@ -125,9 +127,9 @@ def contradiction(ranges: Ranges, boxes: int = _BOXES) -> Contradiction | None:
     )
 
 
-def _proved(ranges: Ranges, limits: Sequence[Limit], boxes: int) -> bool:
+def proved(ranges: Ranges, limits: Sequence[Limit], boxes: int = _BOXES) -> bool:
     """Whether bounds prove that nothing keeps the limits."""
-    if not limits:
+    if not limits or not ranges.free:
         return False
     enclosure = ranges.enclosure(list(dict.fromkeys(limit.output for limit in limits)))
     return Paver(enclosure, limits, ALGEBRAIC_TOLERANCE).pave(ranges.low, ranges.high, np.inf, boxes).empty

@@ -42,14 +42,14 @@ class Spread:
 
 @dataclass(frozen=True)
 class Conditioning:
-    """What limits and goal see of the decisions, over the whole of their ranges, the equations kept."""
+    """What limits and goal see of the free numbers, over the whole of their ranges, the equations kept."""
 
     equations: float
     """Condition number of the equations that states and times follow from, rows scaled to one; 1-norm."""
     decisions: float
-    """Greatest over least singular value of limits and goal by decisions, rows scaled to one."""
+    """Greatest over least singular value of limits and goal by the free numbers, rows scaled to one."""
     traded: tuple[tuple[str, ...], ...]
-    """Decisions that can be traded for each other without any limit or the goal noticing."""
+    """Free numbers that can be traded for each other without any limit or the goal noticing."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class Inspection:
         return Spread(*((names[i], float(greatest[i])) for i in ends))
 
     def conditioning(self) -> Conditioning:
-        """The equations' condition number, and what limits and goal see of the decisions."""
+        """The equations' condition number, and what limits and goal see of the free numbers."""
         decided, along, equations = self._along()
         first = self.problem.equation_count
         seen = [*range(first, first + len(self.problem.limits)), len(self._rows) - 1]
@@ -124,7 +124,7 @@ class Inspection:
         values[: len(directions.S)] = directions.S
         lost = [directions.Vh[i] for i in np.flatnonzero(values <= DEPENDENT * values[0])]
         names = np.array([self._columns[i] for i in decided])
-        traded = tuple(tuple(dict.fromkeys(names[np.abs(direction) > _PART])) for direction in lost)
+        traded = tuple(dict.fromkeys(tuple(names[np.abs(direction) > _PART]) for direction in lost))
         least = values[-1] if not lost else 0.0
         return Conditioning(equations, float(values[0] / least) if least > 0.0 else np.inf, traded)
 
@@ -134,13 +134,13 @@ class Inspection:
         return np.array([upper[i] - lower[i] for i in decided])
 
     def _along(self) -> tuple[list[int], Array, float]:
-        """The decisions, the derivatives of all unknowns by them, and the condition number of the equations."""
+        """The free numbers' places, derivatives of all unknowns by them, the condition number of the equations."""
         from scipy.sparse.linalg import LinearOperator, onenormest, splu
 
         problem = self.problem
         decided = [*range(len(problem.free))]
-        decided += [i for _, place in self.optimizer.places_of_currents() for i in range(place.start, place.stop)]
-        follow = [i for i in range(problem.unknown_count) if i not in set(decided)]
+        stay = {i for _, place in self.optimizer.places_of_currents() for i in range(place.start, place.stop)}
+        follow = [i for i in range(len(decided), problem.unknown_count) if i not in stay]
         along = np.zeros((problem.unknown_count, len(decided)))
         along[decided, range(len(decided))] = 1.0
         if not follow:

@@ -132,8 +132,10 @@ class Paver:
         slopes = self.enclosure.slopes(middle, middle)
         sizes = np.abs(self._lower(slopes.low, slopes.high))
         sizes = np.minimum(np.where(np.isfinite(sizes), sizes, 0.0), _STEEP / (high - low + 1e-300)[:, None, :])
-        total = np.sum(sizes[:, : len(self.limits)], axis=1)
-        return total + len(self.limits) * sizes[:, -1] if self.goal is not None else total
+        total: Array = np.sum(sizes[:, : len(self.limits)], axis=1)
+        if self.goal is not None:
+            total += len(self.limits) * sizes[:, -1]
+        return total
 
     def _relaxed(self, seen: _Seen, low: Array, high: Array, caps: Array, alive: NDArray[np.bool_]) -> Array:
         """What linear programmes below the rows say of boxes that are left."""

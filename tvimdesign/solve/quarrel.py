@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 
-from tvimdesign.solve.contradiction import contradiction, ranges_of
+from tvimdesign.solve.contradiction import proved, ranges_of
 from tvimdesign.solve.elastic import AT_PEACE, Elastic, Settled
 from tvimdesign.solve.limits import Limit, in_words, make_limit, on_switch
 from tvimdesign.solve.optimizer import Array, Optimizer, Progress, Run
@@ -191,5 +191,4 @@ def _proved(optimizer: Optimizer, limits: Sequence[Limit]) -> bool:
     table = optimizer.table
     if any(on_switch(table, limit.output) for limit in limits):
         return False
-    ranges = replace(ranges_of(optimizer.study, optimizer.catalog, table), limits=tuple(limits))
-    return contradiction(ranges, _PROOF_BOXES) is not None
+    return proved(ranges_of(optimizer.study, optimizer.catalog, table), limits, _PROOF_BOXES)

@@ -20,7 +20,7 @@ _ROUNDING = 1e-9
 
 
 class LinearBelow:
-    """Rows and goal (the last row) as a + B u over the unit cube, below the true ones; the rows are kept where <= cap."""
+    """Rows and goal (the last row) as a + B u over the unit cube, below the true ones; rows are kept where <= cap."""
 
     def __init__(self, at_low: Array, rising: Array, at_high: Array, falling: Array, caps: Array) -> None:
         """Rows at both corners, and their slopes times the sides of the box (rows by free numbers)."""
