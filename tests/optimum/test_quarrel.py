@@ -88,6 +88,7 @@ def test_a_limit_nothing_varied_can_change_is_told_before_anything_is_built() ->
     assert "nothing under `vary` can change it" in said
 
 
+@pytest.mark.slow
 def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> None:
     listed = HEAVY.replace("vary: {", "vary: {structure_material: {choose: [petg, aluminum_6061_t6]}, ")
     assert "every listed structure_material" in _refusal(listed)

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tvimdesign.solve import interval
@@ -53,6 +53,7 @@ def _holds(function: Callable[..., object], ends: list[tuple[float, float]], sha
 
 
 @pytest.mark.parametrize("name", OF_ONE)
+@settings(max_examples=40)
 @given(ends=st.tuples(NUMBERS, NUMBERS), share=SHARES)
 def test_a_function_of_a_point_lies_within_the_function_of_its_interval(
     name: str, ends: tuple[float, float], share: float
@@ -61,6 +62,7 @@ def test_a_function_of_a_point_lies_within_the_function_of_its_interval(
 
 
 @pytest.mark.parametrize("name", OF_TWO)
+@settings(max_examples=40)
 @given(first=st.tuples(NUMBERS, NUMBERS), second=st.tuples(NUMBERS, NUMBERS), shares=st.tuples(SHARES, SHARES))
 def test_an_operation_on_points_lies_within_the_operation_on_their_intervals(
     name: str, first: tuple[float, float], second: tuple[float, float], shares: tuple[float, float]
