@@ -39,7 +39,7 @@ def test_many_points_fill_every_slice_of_every_range() -> None:
 def test_few_starts_leave_the_sobol_sequence_unloaded() -> None:
     code = (
         "import sys; from tvimdesign.solve import search; from tvimdesign.solve.spread import unit_points; "
-        "next(unit_points(8, 3, 1)); assert 'scipy' not in sys.modules"
+        "next(unit_points(16, 3, 1)); assert 'scipy' not in sys.modules"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=False)
     assert done.returncode == 0, done.stderr

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-FEW = 8
+FEW = 16
 """Starts up to which points are simply drawn: for as few a sequence that fills the cube evenly has no merit yet."""
 
 
