@@ -17,6 +17,7 @@ from tvimdesign.solve.front import Front, Point, Tradeoff, undominated, with_cei
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer, Run
 from tvimdesign.solve.search import optimize
+from tvimdesign.solve.statuses import meaning
 from tvimdesign.study import Requirement, Study, read_study_text
 
 pytestmark = pytest.mark.xdist_group("front")  # its costly fixture is made once, in one process
@@ -169,7 +170,9 @@ def test_a_point_between_that_the_solver_does_not_reach_is_named(monkeypatch: py
 
     monkeypatch.setattr(Optimizer, "solve", lost_below_a_ceiling)
     front = trade.front(TIME, MASS, 4)
-    assert [failure.reason for failure in front.failures] == ["not converged: restoration failed"] * 2
+    assert [failure.reason for failure in front.failures] == [
+        f"not converged: {meaning('Restoration_Failed').words}"
+    ] * 2
     ends = [front.points[0].values[MASS], front.points[-1].values[MASS]]
     assert [failure.bound for failure in front.failures] == pytest.approx(
         [ends[0] + share * (ends[1] - ends[0]) for share in (1.0 / 3.0, 2.0 / 3.0)]
