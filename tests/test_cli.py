@@ -143,16 +143,51 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
 def test_requirements_that_quarrel_end_in_exit_code_3_and_keep_the_results(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "impossible.yaml"
     file.write_text(
-        "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm]}\n"
-        'require: {spring_stiffness: ">= 20 N.m/rad", envelope_diameter: "<= 120 mm"}\nminimize: module_mass\n'
+        "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], coil_count: [3, 8]}\n"
+        'require: {spring_stiffness: ">= 20 N.m/rad", spring_fatigue_safety: ">= 3"}\nminimize: module_mass\n'
+        "solver: {starts: 1, max_iterations: 60}\n"
     )
     done = tvimdesign("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")
     assert done.returncode == 3
-    assert "envelope_diameter <= 120 mm" in done.stderr
-    assert "these are broken" in done.stderr
+    assert "These cannot hold together" in done.stderr
+    assert re.search(r"spring_stiffness >= 20 N·m/rad: alone it would have to move to >= \d", done.stderr)
     told = json.loads((tmp_path / "out/results.json").read_text())
-    assert told["status"].startswith("not converged")
+    assert told["status"].startswith("infeasible")
     assert not told["feasible"]
+    assert {side["limit"].split(" ")[0] for side in told["quarrel"]["cannot_hold_together"]} == {
+        "spring_stiffness",
+        "spring_fatigue_safety",
+    }
+    assert (tmp_path / "out/design.json").exists()
+
+
+def test_what_bounds_prove_impossible_is_an_error_of_check_and_run(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "impossible.yaml"
+    file.write_text(
+        "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm]}\n"
+        'require: {envelope_diameter: "<= 120 mm"}\nminimize: module_mass\n'
+    )
+    for command in (("check", file), ("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")):
+        done = tvimdesign(*command)
+        assert done.returncode == 3
+        assert "envelope_diameter <= 120 mm cannot hold" in done.stderr
+        assert "coil_diameter >= 8 mm" in done.stderr
+
+
+def test_a_deep_check_says_what_depends_on_nothing(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "idle.yaml"
+    file.write_text(
+        "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [14 mm, 30 mm], current: [0.5 A, 2 A]}\n"
+        'require: {spring_stiffness: ">= 4 N.m/rad"}\nminimize: module_mass\n'
+    )
+    done = tvimdesign("check", file, "--deep")
+    assert done.returncode == 0, done.stderr
+    assert "no limit and no goal depends on current" in done.stdout
+    assert "no design has an objective below" in done.stdout
+    told = json.loads(tvimdesign("check", file, "--deep", "--json").stdout)
+    assert told["structure"]["idle"] == ["current"]
+    assert told["bound"]["bound"] <= told["start"]["objective"]
+    assert not told["sound"]
 
 
 def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path) -> None:

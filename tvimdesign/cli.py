@@ -76,8 +76,20 @@ def run(
 
 
 @app.command()
-def check(study: StudyFile, json: AsJson = False) -> None:
-    """Read a study and say everything that is wrong with it."""
+def check(
+    study: StudyFile,
+    deep: Annotated[
+        bool,
+        typer.Option("--deep", help="Build the problem too: scaling, conditioning, derivatives, what depends on what."),
+    ] = False,
+    json: AsJson = False,
+) -> None:
+    """Read a study and say everything that is wrong with it, limits that bounds prove impossible included."""
+    if deep:
+        from tvimdesign.report.deep import check_deep
+
+        check_deep(study, as_json=json)
+        return
     from tvimdesign.report.run import check_study, describe
 
     found = check_study(study)

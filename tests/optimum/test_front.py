@@ -17,6 +17,7 @@ from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.optimizer import Optimizer, Run
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.solution import Solution
+from tvimdesign.solve.statuses import meaning
 from tvimdesign.solve.tradeoff import Failure, Point, Tradeoff
 from tvimdesign.study import Requirement, read_study_text
 
@@ -191,7 +192,7 @@ def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeyp
     monkeypatch.setattr(Optimizer, "solve", lost_between)
     front = trace_front(solved.trade(), (TIME, MASS), 4)
     assert len(front.points) == 2
-    assert {failure.reason for failure in front.failures} == {"not converged: restoration failed"}
+    assert {failure.reason for failure in front.failures} == {f"not converged: {meaning('Restoration_Failed').words}"}
     assert len(front.failures) >= 2
 
 

@@ -273,9 +273,9 @@ def test_both_modes_of_the_shipped_pair_converge_from_ten_starts(tvimdesign: Com
 @pytest.mark.slow
 def test_no_compression_module_of_the_pair_is_found_that_damps_as_the_paper_s_does() -> None:
     """Said in the README; the shear module of the pair does."""
-    for mode, found in (("shear", "optimal"), ("compression", "not converged: infeasible problem detected")):
+    for mode, found in (("shear", "optimal"), ("compression", "infeasible")):
         text = (ROOT / f"studies/compare_{mode}.yaml").read_text()
         study = read_study_text(text.replace("require:", 'require:\n  joint_damping@hot: ">= 1 N.m.s/rad"'), mode)
         solution = optimize(study, Catalog(), table_for(mode))
-        assert solution.status == found
+        assert solution.status.startswith(found)
         assert len(solution.starts) == 10

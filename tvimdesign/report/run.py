@@ -28,10 +28,13 @@ CAD_TIME_LIMIT = 300.0  # s
 
 def check_study(path: Path) -> Study:
     """Read a study and everything it names. Raises InputError with all that is wrong with it."""
+    from tvimdesign.solve.contradiction import refuse_contradiction
     from tvimdesign.solve.limits import refuse_impossible
 
     study = read_study(path)
-    refuse_impossible(study, catalog_of(study), table_for(study.mode))
+    catalog, table = catalog_of(study), table_for(study.mode)
+    refuse_impossible(study, catalog, table)
+    refuse_contradiction(study, catalog, table)
     return study
 
 
@@ -49,9 +52,8 @@ def run_study(
     from tvimdesign.report.front import FrontOfRun
     from tvimdesign.report.plot_data import plot_data
     from tvimdesign.report.plots import Drawing, PlotProcess
-    from tvimdesign.report.summary import complaint, print_summary
-    from tvimdesign.report.tables import results
-    from tvimdesign.report.why import why
+    from tvimdesign.report.summary import print_summary
+    from tvimdesign.report.trouble import complaint
     from tvimdesign.solve.answer import answer
 
     study = _proving(read_study(path)) if prove else read_study(path)
@@ -65,7 +67,7 @@ def run_study(
         found = answer(study, catalog, table, progress, keep=front.keep, traded=front.outputs)
         shown = plot_data(found, table) if drawing and found.found else {}
         plotted = [Drawing(name, name, data) for name, data in shown.items()]
-        told = results(found, table) | {"why": why(found, table)}
+        told = _told(found, table)
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
@@ -101,6 +103,18 @@ def run_study(
 def _proving(study: Study) -> Study:
     """The study with every combination of listed choices solved."""
     return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
+
+
+def _told(found: Answer, table: Table) -> dict[str, Any]:
+    """Everything a script wants to know of an answer."""
+    from tvimdesign.report.tables import results
+    from tvimdesign.report.trouble import quarrel_told, starts_told
+    from tvimdesign.report.why import why
+
+    told = results(found, table) | {"why": why(found, table)}
+    if found.solution:
+        told |= {"starts": starts_told(found), "quarrel": quarrel_told(found.solution.quarrel)}
+    return told
 
 
 def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:

@@ -22,6 +22,7 @@ from tvimdesign.report.tables import (
     value_text,
     variable_rows,
 )
+from tvimdesign.report.trouble import endings
 from tvimdesign.report.why import binding, sentences, slack_in_words
 from tvimdesign.solve.answer import Answer, Check
 from tvimdesign.units import format_quantity, from_si, pretty
@@ -258,23 +259,13 @@ def _print_warnings(answer: Answer, table: Table, console: Console) -> None:
             f"[yellow]Mind[/yellow] {check.text} holds as nominally heated, and not with every history: a point lies "
             f"in the melting range, and the margin is {_worst(check, table)} at worst."
         )
-    for start in answer.solution.distinct_optima()[1:] if answer.solution else []:
+    solution = answer.solution
+    for start in solution.distinct_optima()[1:] if solution else []:
         where = ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in start.end.items())
-        console.print(f"[yellow]Mind[/yellow] another optimum, objective {start.objective:.5g}: {where}.")
-
-
-def complaint(answer: Answer, table: Table) -> str:
-    """What to say where no design was found: what is broken at the point that came closest, and what stops it there."""
-    broken = sorted((check for check in answer.checks if not check.kept), key=lambda check: check.margin)
-    lines = [f"{answer.design.name}: no design found that keeps every limit ({answer.design.status})."]
-    if broken:
-        lines.append("Where the solver ended, these are broken:")
-        lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-+')}" for check in broken]
-    held = [h.text for h in answer.solution.held if abs(h.residual) <= NOTHING] if answer.solution else []
-    if held:
-        lines.append("These stand in the way there, at their limits:")
-        lines += [f"  {text}" for text in held]
-    if math.isinf(answer.design.value("response_time")):
-        lines.append("The switch does not end there within `horizon`.")
-    lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")
-    return "\n".join(lines)
+        count, all_ = solution.reached(start) if solution else 0, len(solution.free_starts) if solution else 0
+        console.print(
+            f"[yellow]Mind[/yellow] another optimum, objective {start.objective:.5g}, reached by {count} of {all_} "
+            f"starts: {where}."
+        )
+    for line in endings(solution.free_starts) if solution else []:
+        console.print(f"[dim]{escape(line)}[/dim]")

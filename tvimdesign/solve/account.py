@@ -10,6 +10,7 @@ from tvimdesign.solve.limits import Limit, in_words, make_limit, on_switch
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer, Run
 from tvimdesign.solve.response import Place, Response
 from tvimdesign.solve.solution import Held, Solution, Start
+from tvimdesign.solve.statuses import meaning
 from tvimdesign.study import Range
 
 SWITCH_TOLERANCE = 2e-3
@@ -34,7 +35,7 @@ def account(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: 
     if run.start.converged:
         status = "optimal" if feasible else "converged, but a check outside the solver fails"
     else:
-        status = f"not converged: {run.start.status.replace('_', ' ').lower()}"
+        status = f"not converged: {meaning(run.start.status).words}"
     return Solution(
         status=status,
         feasible=feasible,

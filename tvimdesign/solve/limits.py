@@ -72,6 +72,16 @@ def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
     return not on_switch(table, limit.output) and not set(free) & table.ancestors(limit.output)
 
 
+def unchangeable(limit: Limit, table: Table) -> str:
+    """Say of a limit that is broken and stands on nothing free what could be freed."""
+    above = table.ancestors(limit.output)
+    behind = [row.name for row in table.inputs if row.variable and row.name in above] or ["(nothing can)"]
+    return (
+        f"{in_words(limit, table)} does not hold, and nothing under `vary` can change it; "
+        f"vary one of: {', '.join(behind)}"
+    )
+
+
 def refuse_impossible(study: Study, catalog: Catalog, table: Table) -> None:
     """Raise InputError, naming what is wrong, where a study's start is no geometry and nothing can be said of it."""
     rows = [row.name for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]

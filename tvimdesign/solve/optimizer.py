@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -19,11 +19,12 @@ from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.drive import Drive, ramp_time
 from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.limits import Limit, impossible, in_words, is_constant, limits_of, on_switch
+from tvimdesign.solve.limits import Limit, impossible, is_constant, limits_of, on_switch, unchangeable
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
 from tvimdesign.solve.solution import Start
+from tvimdesign.solve.spread import unit_points
 from tvimdesign.solve.stage_model import StageModel
 from tvimdesign.solve.transcription import guess
 from tvimdesign.study import ProfileOptions, Range, Study, given
@@ -61,7 +62,7 @@ _WARM = {
 }
 _WARM_ITERATIONS = 30
 """A warm start takes five to ten iterations or goes nowhere; who asks for one then starts from further back."""
-_NLP = (["x", "p"], ["f", "g"])
+NLP = (["x", "p"], ["f", "g"])
 """The names nlpsol knows the parts of a problem by."""
 _DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_hess_l"}
 """Derivatives a solver has built, by the option under which another one takes them."""
@@ -90,7 +91,7 @@ class Run:
     bound_multipliers: Array
     parameter_multipliers: Array
     """What the objective falls with every parameter of the problem, per unit."""
-    within: Mapping[str, Ends]
+    within: Mapping[str, Ends] = field(default_factory=dict)
     """Ends of their own that some numbers were kept within."""
 
     @property
@@ -150,6 +151,8 @@ class Optimizer:
         self.simulate_start()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}
+        self.passed_over = {"switch never ends": 0, "no such module": 0}
+        """Points at which no search began, by the reason."""
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def with_constant_currents(self) -> Optimizer | None:
@@ -194,6 +197,7 @@ class Optimizer:
         other = copy(self)
         other.study, other.model = study, model
         other.seconds = {"set_up": 0.0, "solve": 0.0}
+        other.passed_over = dict.fromkeys(self.passed_over, 0)
         other.kept_limits(limits_of(study, self.table))
         other.simulate_start()
         return other
@@ -207,20 +211,13 @@ class Optimizer:
         for limit in constant:
             value = values[limit.output]
             if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
-                raise InfeasibleError(
-                    f"{in_words(limit, self.table)} does not hold, and nothing under `vary` can change it; "
-                    f"vary one of: {', '.join(self._variables_behind(limit.output))}"
-                )
+                raise InfeasibleError(unchangeable(limit, self.table))
         return [limit for limit in limits if limit not in constant]
 
     def simulate_start(self) -> None:
         """Simulate the study's start as far as the problem needs it."""
         self.start_switch = self.simulator.run(self.model.start, stages=self.problem.stages)
         self.start_values = self.model.values(self.model.start, self.start_switch.values)
-
-    def _variables_behind(self, name: str) -> list[str]:
-        above = self.table.ancestors(name)
-        return [row.name for row in self.table.inputs if row.variable and row.name in above] or ["(nothing can)"]
 
     def _reference(self, name: str) -> float:
         value = self.start_values[name]
@@ -234,62 +231,77 @@ class Optimizer:
     def _compiled(self) -> Any:
         """The problem as one function; expanded to scalar operations where it is run many times."""
         written = self.problem.function
-        function = ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *_NLP)
+        function = ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
         return function.expand() if self.many else function
 
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:
             most = self.study.solver.max_iterations
-            ipopt: dict[str, Any] = {
-                **_IPOPT,
-                **(_WARM if warm else {}),
-                "max_iter": min(most, _WARM_ITERATIONS) if warm else most,
-                "tol": self.study.solver.tolerance,
+            options = {**_WARM, "max_iter": min(most, _WARM_ITERATIONS)} if warm else {}
+            known = {  # deriving is most of the work of building one, and has been done
+                option: other.get_function(name)
+                for other in self._solvers.values()
+                for option, name in _DERIVATIVES.items()
             }
-            options: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False}
-            for other in self._solvers.values():  # deriving is most of the work of building one, and has been done
-                options |= {option: other.get_function(name) for option, name in _DERIVATIVES.items()}
-            self._solvers[warm] = ca.nlpsol("design", "ipopt", self._compiled, options)
+            self._solvers[warm] = self.solver_of(self._compiled, options, derivatives=known)
         return self._solvers[warm]
+
+    def solver_of(
+        self, function: Any, options: Mapping[str, Any] | None = None, derivatives: Mapping[str, Any] | None = None
+    ) -> Any:
+        """IPOPT for a problem, set up as all are here, with derivatives that are known."""
+        ipopt: dict[str, Any] = {
+            **_IPOPT,
+            "max_iter": self.study.solver.max_iterations,
+            "tol": self.study.solver.tolerance,
+            **(options or {}),
+        }
+        settings: dict[str, Any] = {
+            "ipopt": ipopt, "print_time": False, "show_eval_warnings": False, **(derivatives or {}),
+        }  # fmt: skip
+        return ca.nlpsol("design", "ipopt", function, settings)
 
     # --- starts ---
 
     def begin_points(self) -> Iterator[Array]:
-        """Inputs to start from: the study's own, then random ones between the bounds, seeded.
+        """Inputs to start from: the study's own, then others spread between the bounds, seeded.
 
-        From a point whose switch never ends the solver mostly gets stuck there, so such points are drawn again; the
-        study's own is replaced by the first random one.
+        From a point whose switch never ends the solver mostly gets stuck there, so such points are passed over; the
+        study's own is replaced by the first other one.
         """
-        random = np.random.default_rng(self.study.solver.seed)
+        points = unit_points(self.study.solver.starts, len(self.free), self.study.solver.seed)
         if self._trial(self.model.start) is not None:
             yield self.model.start
         else:
             self.progress("the switch of the study's own start never ends: starting elsewhere")
-            yield self._ending_point(random)
+            self.passed_over["switch never ends"] += 1
+            yield self._ending_point(points)
         for _ in range(self.study.solver.starts - 1):
-            yield self._ending_point(random)
+            yield self._ending_point(points)
 
-    def _ending_point(self, random: np.random.Generator) -> Array:
+    def _ending_point(self, points: Iterator[Array]) -> Array:
         for _ in range(MAX_DRAWS):
-            point = self.random_point(random)
+            point = self.point_among(points)
             if self._trial(point) is not None:
                 return point
+            self.passed_over["switch never ends"] += 1
         return self.model.start
 
-    def random_point(self, random: np.random.Generator) -> Array:
-        """Inputs with every free number drawn evenly between its bounds (of its logarithm, where it is positive).
+    def point_among(self, points: Iterator[Array]) -> Array:
+        """Inputs at the next of some points of the unit cube, of the logarithm of a free number that is positive.
 
-        Drawn again where there is no such module, as with a leg that cannot reach its pin.
+        Points at which there is no such module, as with a leg that cannot reach its pin, are passed over.
         """
         for _ in range(MAX_DRAWS):
             point = self.model.start.copy()
-            for free in self.free:
+            for free, share in zip(self.free, next(points), strict=True):
                 low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
-                point[self.model.index[free.name]] = free.to_value(random.uniform(low, high))
+                point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
             values = self.model.values(point, self.start_switch.values)
             numbers = [value for name, value in values.items() if not on_switch(self.table, name)]
             if all(np.isfinite(number) for number in numbers) and not impossible(values, self.table):
                 return point
+            self.passed_over["no such module"] += 1
         return self.model.start
 
     def _trial(self, inputs: Array) -> Switch | None:
@@ -301,7 +313,7 @@ class Optimizer:
             return None
         return switch if all(np.isfinite(switch.values[event]) for event in self.problem.events) else None
 
-    def _guess(self, inputs: Array) -> Array:
+    def guess(self, inputs: Array) -> Array:
         """Unknowns at a point: the free numbers, and the switch simulated there (as far as it goes where it stalls)."""
         switch = self._trial(inputs) or self.start_switch
         parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.free])]
@@ -342,33 +354,41 @@ class Optimizer:
         warm: Run | Trace | None = None,
         begin: Array | None = None,
         goal: Goal | None = None,
+        unknowns: Array | None = None,
     ) -> Run:
         """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within`
         ends of their own.
 
-        A `goal` stands in place of the study's weights and bounds what is traded; nothing is built anew.
+        `unknowns` stand in place of the switch simulated at `begin`. A `goal` stands in place of the study's weights
+        and bounds what is traded; nothing is built anew.
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
         lower, upper = self.bounds(within or {})
         solver = self._solver(warm is not None)
-        arguments: dict[str, Any] = {"x0": self._guess(inputs) if warm is None else warm.unknowns}
+        if warm is not None:
+            unknowns = warm.unknowns
+        arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         goal = goal or Goal(self.study.minimize)
         equations = self.problem.equation_count
         limits, rest = len(self.problem.limits), self.problem.slope_count + self.problem.peak_count
         answer = solver(
-            **arguments, p=self._parameters(goal), lbx=lower, ubx=upper,
+            **arguments, p=self.parameters(goal), lbx=lower, ubx=upper,
             lbg=np.concatenate([np.zeros(equations), np.full(limits + len(self.problem.traded) + rest, -np.inf)]),
             ubg=np.concatenate([np.zeros(equations + limits), goal.room(self.problem.traded), np.zeros(rest)]),
         )  # fmt: skip
-        stats = solver.stats()
-        if stats["return_status"] == "User_Requested_Stop":  # an interrupt that reached IPOPT first
-            raise KeyboardInterrupt
-        unknowns = np.asarray(answer["x"]).ravel()
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
+        run = self.record(answer, solver.stats(), inputs, seconds)
+        return replace(run, within=within or {})
+
+    def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
+        """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it."""
+        if stats["return_status"] == "User_Requested_Stop":
+            raise KeyboardInterrupt
+        unknowns = np.asarray(answer["x"]).ravel()
         end = self._inputs_of(unknowns)
         start = Start(
             number=0, status=stats["return_status"], converged=bool(stats["success"]),
@@ -381,9 +401,9 @@ class Optimizer:
         )
         times = self._times_of(unknowns)
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
-        return Run(start, end, drives, ends, unknowns, multipliers, of_bounds, of_parameters, within or {})
+        return Run(start, end, drives, ends, unknowns, multipliers, of_bounds, of_parameters)
 
-    def _parameters(self, goal: Goal) -> Array:
+    def parameters(self, goal: Goal) -> Array:
         """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
         over = [goal.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
         return np.concatenate([self.model.start, over, goal.factors(self.problem.traded).ravel(order="F")])
@@ -394,12 +414,12 @@ class Optimizer:
         IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
         """
         solver = self._solver(warm=False)
-        parameters = self._parameters(Goal(self.study.minimize))
+        parameters = self.parameters(Goal(self.study.minimize))
         rows, jacobian = solver.get_function("nlp_jac_g")(run.unknowns, parameters)
         hessian = solver.get_function("nlp_hess_l")(run.unknowns, parameters, 1.0, run.multipliers)
         values, gradients = {}, {}
         for name in self.study.minimize:
-            alone = self._parameters(Goal({name: self.reference[name]}))
+            alone = self.parameters(Goal({name: self.reference[name]}))
             value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
             values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
         return Derivatives(np.asarray(rows).ravel(), jacobian, ca.triu2symm(hessian), values, gradients)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
@@ -10,11 +11,13 @@ from tvimdesign.device import Table
 from tvimdesign.errors import InfeasibleError, InputError
 from tvimdesign.solve.account import account
 from tvimdesign.solve.branch import BranchAndBound
+from tvimdesign.solve.contradiction import refuse_contradiction
 from tvimdesign.solve.enumeration import enumerate_all
 from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
 from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer, Progress, Run
+from tvimdesign.solve.quarrel import make_peace
 from tvimdesign.solve.reach import refuse_unreachable
-from tvimdesign.solve.solution import Choosing, Solution, Standard, Work
+from tvimdesign.solve.solution import Choosing, Quarrel, Solution, Standard, Work
 from tvimdesign.solve.tree import Tree, order
 from tvimdesign.study import SolverOptions, Study
 
@@ -42,6 +45,7 @@ def optimize(
     that are `traded` can be weighed and bounded with it afterwards.
     """
     refuse_unreachable(study, catalog, table)
+    refuse_contradiction(study, catalog, table)
     sizes, records = listed_sizes(study, table), listed_records(study, table)
     _refuse_too_many(sizes, len(records))
     trees = _trees(study, catalog, table, sizes, records, reference, progress, traded)
@@ -54,13 +58,32 @@ def optimize(
         choosing = _chosen(free, len(records), study.solver) if len(records) > 1 else None
     tree, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if sizes.names else [])]
+    run, quarrel = _reconciled(tree, run, [one for other, one in recorded if other is tree], progress)
+    if run.start.converged and all(run is not one for _, one in recorded):
+        recorded.append((tree, run))
     for number, (_, one) in enumerate(recorded):
         one.start = replace(one.start, number=number)
     keep(tree.optimizer, [one for other, one in recorded if other is tree])
     starts = tuple(one.start for _, one in recorded)
     seconds = {key: sum(tree.optimizer.seconds[key] for tree in trees) for key in trees[0].optimizer.seconds}
-    solution = account(tree.optimizer, run, starts, seconds)
-    return replace(solution, constant=tree.stepping_stone.found(), choosing=choosing)
+    passed_over = sum((Counter(tree.optimizer.passed_over) for tree in trees), Counter[str]())
+    solution = replace(
+        account(tree.optimizer, run, starts, seconds), constant=tree.stepping_stone.found(), choosing=choosing,
+        quarrel=quarrel, passed_over=dict(passed_over),
+    )  # fmt: skip
+    return replace(solution, status="infeasible: this design breaks its limits least") if quarrel else solution
+
+
+def _reconciled(tree: Tree, best: Run, tried: list[Run], progress: Progress) -> tuple[Run, Quarrel | None]:
+    """The best run; where none converged, one that does after all, or the one that breaks least with the quarrel."""
+    if best.start.converged:
+        return best, None
+    peace = make_peace(tree.optimizer, tried, progress)
+    listed = any(isinstance(value, float) for value in best.start.choices.values())
+    if peace is None or (peace.quarrel is None and listed):  # between the listed sizes there is one, at none of them
+        return best, None
+    peace.run.start = replace(peace.run.start, choices=best.start.choices)
+    return peace.run, peace.quarrel
 
 
 def _refuse_too_many(sizes: Sizes, records: int) -> None:

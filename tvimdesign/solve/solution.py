@@ -32,6 +32,13 @@ class Start:
     """The listed records and sizes this run was held to."""
     relaxed: bool = False
     """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
+    second_try: bool = False
+    """Whether it converged only from a design that keeps all limits, which was sought from where it began."""
+
+
+def same_optimum(start: Start, other: Start) -> bool:
+    """Whether two converged runs ended at the same optimum."""
+    return abs(start.objective - other.objective) <= SAME_OPTIMUM * abs(other.objective)
 
 
 @dataclass(frozen=True)
@@ -124,6 +131,35 @@ class Choosing:
 
 
 @dataclass(frozen=True)
+class Side:
+    """One limit that is broken, or quarrels."""
+
+    text: str
+    origin: str
+    by: float
+    """How far the design that breaks least breaks it, as a share of its scale."""
+    move_to: float | None = None
+    """Where it would have to stand (SI) for all others to hold; None where no place of it alone was found."""
+    move_words: str = ""
+    beside: tuple[str, ...] = ()
+    """The other limits that cannot hold either, however far this one moves."""
+
+
+@dataclass(frozen=True)
+class Quarrel:
+    """What is known of a study that has no design."""
+
+    broken: tuple[Side, ...]
+    """What the design that breaks least breaks."""
+    sides: tuple[Side, ...]
+    """Limits that cannot hold together, while without any one of them the others can."""
+    ends: tuple[str, ...]
+    """Ends of ranges that keep them from it."""
+    proved: bool
+    """Whether bounds prove it; otherwise it is as far as the solver sees from where it began."""
+
+
+@dataclass(frozen=True)
 class Constant:
     """The best design with constant currents, where the study lets them follow a profile."""
 
@@ -153,6 +189,10 @@ class Solution:
     constant: Constant | None = None
     choosing: Choosing | None = None
     """How the listed choices were searched; None where none is listed."""
+    passed_over: dict[str, int] = field(default_factory=dict)
+    """Points drawn at which no search began, by the reason."""
+    quarrel: Quarrel | None = None
+    """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 
     @property
     def free_starts(self) -> tuple[Start, ...]:
@@ -164,10 +204,14 @@ class Solution:
             start for start in self.starts if start.relaxed == sizes_listed and records.items() <= start.choices.items()
         )
 
+    def reached(self, optimum: Start) -> int:
+        """How many of the free starts ended at an optimum."""
+        return sum(same_optimum(start, optimum) for start in self.free_starts if start.converged)
+
     def distinct_optima(self) -> list[Start]:
         """Return one converged free start for each different optimum, the best first."""
         found: list[Start] = []
         for start in sorted((s for s in self.free_starts if s.converged), key=lambda s: s.objective):
-            if not any(abs(start.objective - o.objective) <= SAME_OPTIMUM * abs(o.objective) for o in found):
+            if not any(same_optimum(start, o) for o in found):
                 found.append(start)
         return found

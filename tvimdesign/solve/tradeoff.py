@@ -16,6 +16,7 @@ from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.limits import in_words, on_switch
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer, Progress, Run, Trace
 from tvimdesign.solve.solution import Solution
+from tvimdesign.solve.statuses import meaning
 from tvimdesign.study import Options, Study
 from tvimdesign.units import format_quantity
 
@@ -178,9 +179,7 @@ class Tradeoff:
 
     def _checked(self, runs: Sequence[Run], goal: Goal, where: str) -> Point | Failure:
         """The best of some runs that keeps every limit when it is simulated, or why there is none."""
-        reason = (
-            f"not converged: {runs[-1].start.status.replace('_', ' ').lower()}" if runs else "nothing to begin from"
-        )
+        reason = f"not converged: {meaning(runs[-1].start.status).words}" if runs else "nothing to begin from"
         for run in sorted((run for run in runs if run.start.converged), key=lambda run: run.start.objective):
             checked = self._simulated(run, goal, where)
             if isinstance(checked, Point):

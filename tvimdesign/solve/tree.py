@@ -8,8 +8,10 @@ from functools import cached_property
 
 from tvimdesign.solve.listed import Box, Sizes
 from tvimdesign.solve.optimizer import Array, Ends, Optimizer, Run
+from tvimdesign.solve.quarrel import SecondTry
 from tvimdesign.solve.screen import Screen
 from tvimdesign.solve.solution import SAME_OPTIMUM, Work
+from tvimdesign.solve.spread import FEW
 from tvimdesign.solve.stepping_stone import SteppingStone
 
 NO_DESIGN = "Infeasible_Problem_Detected"
@@ -42,10 +44,14 @@ class Tree:
 
     def starts(self) -> list[Run]:
         """A run from every start with every size free, and what different optima they are."""
-        runs = []
+        runs: list[Run] = []
+        count = self.optimizer.study.solver.starts
+        second_try = SecondTry(self.optimizer)
         for number, begin in enumerate(self.optimizer.begin_points()):
-            self.optimizer.progress(f"start {number + 1} of {self.optimizer.study.solver.starts}")
+            self.optimizer.progress(f"start {number + 1} of {count}")
             run = self.optimizer.solve(begin=self.stepping_stone.beyond(begin))
+            if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
+                run = second_try.from_peace(run)
             run.start = replace(
                 run.start, begin=self.optimizer.free_values(begin), choices=dict(self.records),
                 relaxed=bool(self.sizes.names),

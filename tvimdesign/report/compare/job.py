@@ -24,8 +24,8 @@ from tvimdesign.files import write_whole
 from tvimdesign.report.compare import yardstick
 from tvimdesign.report.run import catalog_of
 from tvimdesign.report.simulate import figure_data, findings
-from tvimdesign.report.summary import complaint
 from tvimdesign.report.tables import check_row
+from tvimdesign.report.trouble import complaint
 from tvimdesign.report.why import binding
 from tvimdesign.solve.answer import Answer, answer
 from tvimdesign.solve.front import Front, trace_front, undominated

@@ -1,0 +1,124 @@
+"""The deep check finds what is wrong with a problem, and nothing where nothing is."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.contradiction import ranges_of
+from tvimdesign.solve.inspection import DERIVATIVE_TOLERANCE, Inspection
+from tvimdesign.solve.lower_bound import lower_bound
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.study import Study, read_study_text
+
+TABLE = table_for("shear")
+TIMED = """
+mode: shear
+vary:
+  wire_diameter: [1.5 mm, 3 mm]
+  coil_diameter: [12 mm, 30 mm]
+  pcl_thickness: [0.6 mm, 2 mm]
+  current: [0.5 A, 2 A]
+require:
+  spring_stiffness: ">= 2 N.m/rad"
+  peak_power: "<= 12 W"
+  envelope_diameter: "<= 400 mm"
+  pcl_area: ">= 100 mm^2"
+minimize: {module_mass: 1, response_time: 1}
+solver: {starts: 1, cells: 6, elements: 4}
+"""
+
+
+def _study(text: str) -> Study:
+    return read_study_text(text, "test")
+
+
+@pytest.fixture(scope="module")
+def inspection() -> Inspection:
+    return Inspection(Optimizer(_study(TIMED), Catalog(), TABLE, 1))
+
+
+def test_exact_derivatives_agree_with_differences(inspection: Inspection) -> None:
+    found = inspection.derivatives()
+    assert found.right
+    assert 0.0 < found.worst[0][2] <= DERIVATIVE_TOLERANCE
+
+
+def test_a_wrong_derivative_is_found_and_named() -> None:
+    spoilt = Inspection(Optimizer(_study(TIMED), Catalog(), TABLE, 1))
+    names = spoilt._rows
+    row = names.index("spring_stiffness >=")
+    spoilt._jacobian[row, 0] *= 1.001
+    found = spoilt.derivatives()
+    assert not found.right
+    assert found.worst[0][:2] == ("spring_stiffness >=", "wire_diameter")
+    assert found.worst[0][2] == pytest.approx(1e-3, rel=0.5)
+
+
+def test_rows_and_unknowns_are_named_in_full(inspection: Inspection) -> None:
+    problem = inspection.problem
+    assert len(inspection._columns) == problem.unknown_count
+    assert len(inspection._rows) == problem.function["g"].numel() + 1
+    rows, columns = inspection.scaling()
+    assert rows.ratio >= 1.0
+    assert columns.ratio >= 1.0
+
+
+def test_the_condition_number_is_that_of_the_dense_matrix(inspection: Inspection) -> None:
+    problem = inspection.problem
+    count = problem.equation_count
+    follow = range(len(problem.free), len(problem.free) + count)
+    tied = inspection._tied_peaks()
+    rows, columns = [*range(count), *tied], [*follow, *range(problem.unknown_count - len(tied), problem.unknown_count)]
+    dense = inspection._jacobian[rows, columns].full()
+    dense = dense / np.abs(dense).max(axis=1, keepdims=True)
+    assert inspection.conditioning().equations == pytest.approx(np.linalg.cond(dense, 1), rel=0.5)
+
+
+def test_numbers_that_only_count_together_are_named() -> None:
+    """With nothing but the diameter left, the springs' radius and the wall only add up."""
+    text = """
+mode: shear
+vary: {placement_radius: [40 mm, 45 mm], wall_thickness: [2 mm, 6 mm]}
+require: {envelope_diameter: "<= 400 mm"}
+minimize: envelope_diameter
+solver: {starts: 1}
+"""
+    found = Inspection(Optimizer(_study(text), Catalog(), TABLE, 1))
+    rows = [i for i, name in enumerate(found._rows) if not name.startswith(("envelope", "goal"))]
+    found._jacobian[rows, :] = 0.0
+    conditioning = found.conditioning()
+    assert {name for names in conditioning.traded for name in names} == {"placement_radius", "wall_thickness"}
+
+
+def test_what_bounds_prove_to_hold_anywhere_is_told(inspection: Inspection) -> None:
+    study = inspection.optimizer.study
+    structure = inspection.structure(ranges_of(study, Catalog(), TABLE))
+    assert "envelope_diameter <= 400 mm" in structure.slack
+    assert not any("spring_stiffness" in text for text in structure.slack)
+    assert structure.unchangeable == ("pcl_area >= 100 mm²",)
+    assert structure.idle == ()
+
+
+def test_no_design_is_below_the_lower_bound_and_a_longer_look_raises_it() -> None:
+    text = TIMED.replace("minimize: {module_mass: 1, response_time: 1}", "minimize: module_mass")
+    optimizer = Optimizer(_study(text), Catalog(), TABLE, 1)
+    ranges = ranges_of(optimizer.study, Catalog(), TABLE)
+    best = optimizer.solve().start.objective
+    found = lower_bound(optimizer, ranges, best, 1.0)
+    assert 0.0 < found.bound <= best
+    assert found.gap is not None
+    assert 0.0 <= found.gap < 0.5
+
+
+def test_a_time_adds_nothing_to_the_lower_bound_and_that_is_told(inspection: Inspection) -> None:
+    optimizer = inspection.optimizer
+    ranges = ranges_of(optimizer.study, Catalog(), TABLE)
+    found = lower_bound(optimizer, ranges, None, 0.2)
+    assert found.left_out == ("response_time",)
+    random = np.random.default_rng(3)
+    enclosure = ranges.enclosure(["module_mass"])
+    masses = [enclosure.values(ranges.low + random.random(4) * (ranges.high - ranges.low))[0] for _ in range(100)]
+    assert found.bound <= np.nanmin(masses) / optimizer.reference["module_mass"]

@@ -1,0 +1,151 @@
+"""Where there is no design: bounds or the solver name a set that cannot hold, and the way out they name is one."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.errors import InfeasibleError
+from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.solve.contradiction import contradiction, proved, ranges_of, refuse_contradiction
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.quarrel import SecondTry
+from tvimdesign.study import Study, read_study_text
+
+TABLE = table_for("shear")
+STIFF = """
+mode: shear
+vary:
+  wire_diameter: [1.2 mm, 3.2 mm]
+  coil_diameter: [8 mm, 32 mm]
+  coil_count: [3, 8]
+  preload_angle: [0.12 rad, 0.4 rad]
+require: {spring_stiffness: ">= 20 N.m/rad", spring_fatigue_safety: ">= 3", module_mass: "<= 300 g"}
+minimize: module_mass
+solver: {starts: 1, max_iterations: 60}
+"""
+HEAVY = """
+mode: shear
+vary: {wire_diameter: [1.5 mm, 3 mm], coil_diameter: [12 mm, 30 mm], pcl_thickness: [0.6 mm, 2 mm]}
+require: {spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"}
+minimize: module_mass
+solver: {starts: 1}
+"""
+HURRIED = """
+mode: shear
+vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], current: [0.5 A, 2 A]}
+require: {response_time: "<= 90 s", peak_power: "<= 9 W", spring_stiffness: ">= 5 N.m/rad"}
+minimize: module_mass
+solver: {cells: 8, starts: 1}
+"""
+
+
+def _study(text: str) -> Study:
+    return read_study_text(text, "test")
+
+
+def _answer(text: str) -> Answer:
+    return answer(_study(text), Catalog(), TABLE)
+
+
+def _refusal(text: str) -> str:
+    with pytest.raises(InfeasibleError) as caught:
+        refuse_contradiction(_study(text), Catalog(), TABLE)
+    return str(caught.value)
+
+
+def test_a_limit_that_bounds_prove_impossible_is_named_with_what_the_ranges_allow() -> None:
+    said = _refusal(HEAVY)
+    assert "module_mass <= 60 g cannot hold" in said
+    assert "pcl_thickness >= 0.6 mm" in said
+    best = float(re.search(r"at least ([\d.]+) g", said)[1])  # type: ignore[index]
+    free = _answer(HEAVY.replace(', module_mass: "<= 60 g"', ""))
+    lightest = 1e3 * free.design.values["module_mass"]
+    assert 0.8 * lightest < best <= lightest * (1.0 + 1e-6)
+
+
+def test_what_a_design_keeps_is_never_refused() -> None:
+    free = _answer(HEAVY.replace(', module_mass: "<= 60 g"', ""))
+    just = 1e3 * free.design.values["module_mass"] * (1.0 + 1e-6)
+    refuse_contradiction(_study(HEAVY.replace("<= 60 g", f"<= {just:.9g} g")), Catalog(), TABLE)
+
+
+def test_limits_that_bounds_prove_apart_are_named_without_the_others() -> None:
+    text = HEAVY.replace('"<= 60 g"', '"<= 400 g", spring_index: "<= 6", coil_pitch: "<= 2 mm"')
+    found = contradiction(ranges_of(_study(text), Catalog(), TABLE), boxes=200)
+    assert found is not None
+    assert {limit.name for limit in found.limits} == {"spring_index <=", "coil_pitch <="} or len(found.limits) == 1
+
+
+def test_a_limit_nothing_varied_can_change_is_told_before_anything_is_built() -> None:
+    said = _refusal(
+        "mode: shear\nvary: {pcl_thickness: [0.6 mm, 2 mm]}\n"
+        'require: {envelope_diameter: "<= 100 mm"}\nminimize: pcl_mass\n'
+    )
+    assert "nothing under `vary` can change it" in said
+
+
+@pytest.mark.slow
+def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> None:
+    listed = HEAVY.replace("vary: {", "vary: {structure_material: {choose: [petg, aluminum_6061_t6]}, ")
+    assert "every listed structure_material" in _refusal(listed)
+    light = ranges_of(_study(HEAVY.replace("<= 60 g", "<= 170 g")), Catalog(), TABLE)
+    assert not proved(light, light.limits)
+    refuse_contradiction(_study(listed.replace("<= 60 g", "<= 170 g")), Catalog(), TABLE)
+
+
+@pytest.mark.slow
+def test_the_smallest_set_holds_once_one_of_it_moves_as_far_as_told() -> None:
+    found = _answer(STIFF)
+    assert found.design.status.startswith("infeasible")
+    assert found.solution is not None
+    quarrel = found.solution.quarrel
+    assert quarrel is not None
+    sides = {side.text.split(" ")[0]: side for side in quarrel.sides}
+    assert set(sides) == {"spring_stiffness", "spring_fatigue_safety"}
+    place = sides["spring_stiffness"].move_to
+    assert place is not None
+    eased = STIFF.replace(">= 20 N.m/rad", f">= {0.999 * place:.6g} N.m/rad")
+    assert _answer(eased).design.status == "optimal"
+    short = STIFF.replace(">= 20 N.m/rad", f">= {1.02 * place:.6g} N.m/rad")
+    assert _answer(short).design.status.startswith("infeasible")
+
+
+def test_the_design_that_breaks_least_breaks_what_is_told_by_as_much() -> None:
+    found = _answer(STIFF)
+    assert found.solution is not None
+    assert found.solution.quarrel is not None
+    assert not found.found
+    broken = {check.text: -check.margin for check in found.checks if not check.kept}
+    told = {side.text: side.by for side in found.solution.quarrel.broken}
+    assert set(broken) == set(told)
+    for text, by in told.items():
+        assert broken[text] == pytest.approx(by, rel=1e-4)
+
+
+@pytest.mark.slow
+def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
+    found = _answer(HURRIED)
+    assert found.solution is not None
+    quarrel = found.solution.quarrel
+    assert quarrel is not None
+    sides = {side.text.split(" ")[0]: side for side in quarrel.sides}
+    assert set(sides) == {"response_time", "peak_power"}
+    assert not quarrel.proved
+    for name, limit, factor in (("response_time", "<= 90 s", 1.01), ("peak_power", "<= 9 W", 1.01)):
+        place = sides[name].move_to
+        assert place is not None
+        unit = limit.rpartition(" ")[2]
+        assert _answer(HURRIED.replace(limit, f"<= {factor * place:.6g} {unit}")).design.status == "optimal"
+
+
+def test_a_start_begun_again_from_a_design_that_keeps_all_limits_converges() -> None:
+    study = _study(STIFF.replace(">= 20 N.m/rad", ">= 8 N.m/rad"))
+    optimizer = Optimizer(study, Catalog(), TABLE, 1)
+    run = optimizer.solve()
+    again = SecondTry(optimizer).from_peace(run)
+    assert again.start.second_try
+    assert again.start.objective == pytest.approx(run.start.objective, rel=1e-6)

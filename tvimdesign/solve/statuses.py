@@ -1,0 +1,65 @@
+"""IPOPT's ways to end, in plain words, each with what to do next: data, read wherever a person sees how a run ended."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Meaning(NamedTuple):
+    """What a status says, and the next step; the step is empty where there is nothing to do."""
+
+    words: str
+    step: str
+
+
+_BETTER_START = "set `module` to a design that nearly works, or try more `solver.starts`"
+_REPORT = "this is a fault of the program or its libraries: report it with the study file"
+
+MEANINGS = {
+    "Solve_Succeeded": Meaning("converged", ""),
+    "Solved_To_Acceptable_Level": Meaning(
+        "converged, though less exactly than asked",
+        "look at what the check outside the solver says, or ease `solver.tolerance`",
+    ),
+    "Feasible_Point_Found": Meaning("a design that keeps every limit was found, not the best one", _BETTER_START),
+    "Infeasible_Problem_Detected": Meaning(
+        "ended where no small change brings the broken limits closer to holding",
+        "ease one of the limits it names, or widen a range that stands in the way",
+    ),
+    "Search_Direction_Becomes_Too_Small": Meaning(
+        "stalled: the next step is smaller than rounding", f"{_BETTER_START}; `check --deep` shows what is badly scaled"
+    ),
+    "Diverging_Iterates": Meaning(
+        "ran off without end: something that is minimised has no least value here",
+        "give the variables it names ranges, or limit what is minimised under `require`",
+    ),
+    "User_Requested_Stop": Meaning("was interrupted", "run it again"),
+    "Maximum_Iterations_Exceeded": Meaning(
+        "ran out of iterations", "raise `solver.max_iterations`, or try more `solver.starts`"
+    ),
+    "Maximum_CpuTime_Exceeded": Meaning("ran out of processor time", _BETTER_START),
+    "Maximum_WallTime_Exceeded": Meaning("ran out of time", _BETTER_START),
+    "Restoration_Failed": Meaning("lost its way back to the equations of the switch", _BETTER_START),
+    "Error_In_Step_Computation": Meaning(
+        "could not compute a step: the equations are close to singular there",
+        f"{_BETTER_START}; `check --deep` names what depends on what",
+    ),
+    "Invalid_Number_Detected": Meaning(
+        "met a point where an output is no number, such as a leg that cannot reach its pin",
+        "narrow the ranges under `vary` to modules that can exist",
+    ),
+    "Not_Enough_Degrees_Of_Freedom": Meaning(
+        "has fewer variables than equations left", "free another variable under `vary`"
+    ),
+    "Invalid_Problem_Definition": Meaning("was given a problem that makes no sense", _REPORT),
+    "Invalid_Option": Meaning("was given an option it does not know", _REPORT),
+    "Unrecoverable_Exception": Meaning("failed inside", _REPORT),
+    "NonIpopt_Exception_Thrown": Meaning("failed inside one of its libraries", _REPORT),
+    "Insufficient_Memory": Meaning("ran out of memory", "ask for fewer `solver.cells` or `solver.elements`"),
+    "Internal_Error": Meaning("failed inside", _REPORT),
+}
+
+
+def meaning(status: str) -> Meaning:
+    """What a status means; one of a later IPOPT is shown as it is."""
+    return MEANINGS.get(status, Meaning(f"ended with {status.replace('_', ' ').lower()}", _REPORT))
