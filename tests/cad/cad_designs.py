@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import radians
 from typing import Any, NamedTuple
 
@@ -12,6 +13,8 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.device.rows import Event
 from tvimdesign.device.rows import Path as SwitchPath
+from tvimdesign.study import given as resolve
+from tvimdesign.study import read_study_text
 from tvimdesign.study.design import Design
 
 MM = 1e-3
@@ -45,22 +48,13 @@ CASES: dict[str, tuple[str, dict[str, float]]] = {
 }  # fmt: skip
 
 
-def given(overrides: dict[str, float], mode: str) -> dict[str, Any]:
+def given(overrides: Mapping[str, float | str], mode: str) -> dict[str, Any]:
     """Every input and choice of a mode at its default, but for the overrides."""
-    catalog, table = Catalog(), table_for(mode)
-    known: dict[str, Any] = {row.name: catalog.record(row.shelf, row.default) if row.shelf else row.default
-                             for row in table.choices}  # fmt: skip
-    for row in table.inputs:
-        if row.name in overrides:
-            known[row.name] = overrides[row.name]
-        elif row.record:
-            known[row.name] = known[row.record[0]].value(row.record[1])
-        else:
-            known[row.name] = row.default
-    return known
+    study = read_study_text(f"mode: {mode}\n", "a test").model_copy(update={"module": dict(overrides)})
+    return resolve(study, Catalog(), table_for(mode))
 
 
-def design_of(name: str, overrides: dict[str, float], mode: str = "shear") -> Design:
+def design_of(name: str, overrides: Mapping[str, float | str], mode: str = "shear") -> Design:
     """A design with every row of the geometry."""
     known, table = given(overrides, mode), table_for(mode)
     geometry = ("Layout", "Gaps", "Size and weight", "Springs")
@@ -68,7 +62,7 @@ def design_of(name: str, overrides: dict[str, float], mode: str = "shear") -> De
     wanted = [row.name for row in simple if row.group in geometry and not isinstance(row, Event | SwitchPath)]
     values = {key: float(value) for key, value in known.items() if isinstance(value, int | float)}
     values |= {key: float(value) for key, value in table.evaluate(known, wanted).items()}
-    choices = {row.name: row.default for row in table.choices}
+    choices = {row.name: getattr(known[row.name], "name", known[row.name]) for row in table.choices}
     return Design(
         tvimdesign="0", name=name, mode=mode, status="evaluated", choices=choices, values=values, study={}
     )  # fmt: skip

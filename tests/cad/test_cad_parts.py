@@ -122,3 +122,14 @@ def test_meshes_close_where_rounding_splits_their_vertices(overrides: dict[str, 
     dims = dimensions(design_of("split", overrides))
     for name, solid in drawn_parts(dims).items():
         assert len(stl_bytes(name, solid_mesh(solid))) > 500
+
+
+@pytest.mark.parametrize(("process", "radius"), [("print_petg", 0.2), ("machine_6061", 1.5)])
+def test_pockets_and_windows_have_the_corners_the_process_leaves(process: str, radius: float) -> None:
+    design = design_of("corners", {"process": process})
+    housing = build(design)["housing"]
+    corners = [face for face in housing.Faces() if face.geomType() == "CYLINDER" and face.Area() < 12.0]
+    radii = [face._geomAdaptor().Cylinder().Radius() for face in corners]
+    # Four arcs, each with a pocket and a window of four corners.
+    assert len([found for found in radii if found == pytest.approx(radius, rel=1e-6)]) == 32
+    assert not [check for check in size_checks(design, build(design)) if not check.ok]

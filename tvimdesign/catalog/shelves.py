@@ -57,6 +57,21 @@ SHELVES: Mapping[str, Shelf] = {
             "service_temperature": "degC",
         }
     ),
+    "processes": Shelf(
+        values={
+            "minimum_wall": "mm",
+            "minimum_feature": "mm",
+            "running_clearance": "mm",
+            "minimum_running_clearance": "mm",
+            "slip_clearance": "mm",
+            "corner_radius": "mm",
+            "corner_depth_ratio": "1",
+            "pocket_depth_ratio": "1",
+            "thread_engagement": "1",
+        },
+        words={"structure_material": (), "thread": ("self_tapping", "heat_set", "tapped")},
+        rising=(("minimum_running_clearance", "running_clearance"),),
+    ),
     "polymers": Shelf(
         values={
             "density_solid": "kg/m^3",

@@ -12,12 +12,6 @@ book = Book("Size and weight")
 LINK_SCREWS = 4
 
 
-@book.output("mm^3")
-def peltier_volume(pcl_area: Scalar, peltier_thickness: Scalar) -> Scalar:
-    """Volume of all Peltier pads together; they have the outline of the PCL."""
-    return pcl_area * peltier_thickness
-
-
 @book.output("mm")
 def helix_length(coil_count: Scalar, coil_diameter: Scalar, coil_pitch: Scalar) -> Scalar:
     """Length of the wire in the coils of one spring."""
