@@ -24,9 +24,8 @@ WRIST = {
     "core_radius": 5.9 * MM, "hub_wall": 2.0 * MM, "radial_clearance": 0.6 * MM, "rotor_rim": 1.0 * MM,
     "rotor_thickness": 2.5 * MM, "pin_diameter": 2.5 * MM, "leg_overhang": 3.0 * MM,
     # Half the size takes smaller screws: M2 in the core.
-    "link_screw_pilot": 1.6 * MM, "link_screw_clearance": 2.4 * MM, "link_screw_head": 3.8 * MM,
-    "link_screw_depth": 5.0 * MM, "retainer_screw_pilot": 2.5 * MM, "retainer_screw_clearance": 3.4 * MM,
-    "retainer_screw_depth": 6.0 * MM, "notch_width": 8.0 * MM,
+    "link_screw": "iso_4762_m2", "link_screw_length": 8.0 * MM, "retainer_screw": "iso_7380_m3",
+    "retainer_screw_length": 8.0 * MM, "notch_width": 8.0 * MM,
 }  # fmt: skip
 ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_angle": 0.21}
 BLOCKS = {
@@ -41,10 +40,16 @@ WRIST_BLOCKS = {name: value for name, value in WRIST.items() if name not in {"ar
 }  # fmt: skip
 ODD_BLOCKS = WRIST_BLOCKS | {"spring_pairs": 3, "vane_count": 3, "coil_count": 6.7, "preload_angle": 0.21,
                              "slot_share": 0.6}  # fmt: skip
-CASES: dict[str, tuple[str, dict[str, float]]] = {
+# Bearings on either side of a lip, in a hub that reaches below the floor, and in one that is as high as the blocks.
+BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 * MM, "core_radius": 7.5 * MM}
+BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "corner_radius": 0.5 * MM,
+                           "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "pcl_inner_radius": 17.0 * MM,
+                           "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 3.5 * MM}  # fmt: skip
+CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
     "odd blocks": ("compression", ODD_BLOCKS),
+    "bearings": ("shear", BEARINGS), "bearings among blocks": ("compression", BEARING_BLOCKS),
 }  # fmt: skip
 
 

@@ -25,7 +25,7 @@ def test_the_cases_keep_the_rules(design: Design) -> None:
 
 def test_every_part_is_one_valid_solid(design: Design) -> None:
     parts = build(design)
-    assert {kind_of(name) for name in parts} == set(MODULES[design.mode].kinds)
+    assert {kind_of(name) for name in parts} == set(MODULES[design.mode].kinds(dimensions(design)))
     for solid in parts.values():
         assert isinstance(solid, cq.Solid)
         assert solid.isValid()
@@ -38,7 +38,7 @@ def test_every_check_holds_at_rest_and_through_the_stroke(design: Design) -> Non
     assert [check.text for check in checks if not check.ok] == []
     assert len([step for step in steps if step.startswith("interference")]) == 5
     sizes = {check.name: check.value for check in checks}
-    drawn = [f"{kind}_volume" for kind in MODULES[design.mode].drawn]
+    drawn = [f"{kind}_volume" for kind in MODULES[design.mode].drawn(dims)]
     for name in (*drawn, "rotor_inertia", "link_inertia", "parts_inertia"):
         assert sizes[name] == pytest.approx(0.0, abs=1e-9)
     assert sizes["spring_right_volume"] == pytest.approx(0.0, abs=1e-3)
@@ -57,7 +57,8 @@ def test_a_leg_in_its_pin_is_found(paper: Design) -> None:
     parts = build(paper)
     ahead = build(paper, -0.02)["rotor"]  # the rotor winds the right-hand springs, which stay behind
     found = [check for check in interference_checks(parts | {"rotor": ahead}, "here") if not check.ok]
-    assert {check.name for check in found} == {"rotor | spring_right_1 here", "rotor | spring_right_3 here"}
+    springs = {check.name for check in found if "spring" in check.name}
+    assert springs == {"rotor | spring_right_1 here", "rotor | spring_right_3 here"}
 
 
 def test_a_core_in_the_way_of_the_legs_is_found() -> None:

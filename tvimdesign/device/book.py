@@ -70,15 +70,18 @@ class Book:
         default: str | tuple[str, str],
         description: str,
         only: tuple[str, str, str] | None = None,
+        others: tuple[str, ...] = (),
     ) -> None:
         """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit.
 
-        `default` is the name of one, or (choice, word) of the chosen record that names it.
+        `default` is the name of one, or (choice, word) of the chosen record that names it. `others` are words that may
+        stand for no record at all.
         """
         word, record = (default, None) if isinstance(default, str) else ("", default)
         row = Choice(
-            name=name, description=description, group=self.group, default=word, record=record, shelf=shelf, only=only
-        )
+            name=name, description=description, group=self.group, default=word, record=record, shelf=shelf, only=only,
+            options=others,
+        )  # fmt: skip
         self.rows.append(row)
 
     def option(self, name: str, options: tuple[str, ...], description: str) -> None:

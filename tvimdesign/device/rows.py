@@ -75,6 +75,7 @@ class Choice:
     default: str = ""
     shelf: str | None = None
     options: tuple[str, ...] = ()
+    """The words there are; of a shelf, those beside its records."""
     record: tuple[str, str] | None = None
     """(choice, word): where the default comes from, of a choice that stands before this one."""
     only: tuple[str, str, str] | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.device import (
+    bearing,
     bodies,
     gaps,
     hold,
@@ -10,6 +11,7 @@ from tvimdesign.device import (
     layout,
     materials,
     process,
+    screws,
     softening,
     springs,
     stiffening,
@@ -17,4 +19,4 @@ from tvimdesign.device import (
 )
 
 ROOMS = (materials, layout, springs, impedance, hold, thermal, softening, stiffening, bodies, gaps, process)
-BOOKS = (materials.book, process.limits, *(room.book for room in ROOMS[1:]))
+BOOKS = (materials.book, process.limits, *(room.book for room in ROOMS[1:]), *screws.books, *bearing.books)

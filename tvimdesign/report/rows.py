@@ -49,7 +49,7 @@ def _internal(row: Row) -> bool:
 
 def _plain(row: Row) -> dict[str, Any]:
     if isinstance(row, Choice):
-        allowed = ", ".join(row.options or Catalog().names(str(row.shelf)))
+        allowed = ", ".join([*row.options, *(Catalog().names(row.shelf) if row.shelf else [])])
         return _entry(row, "choice", "", f"from {row.record[0]}" if row.record else row.default, allowed)
     name = f"{row.name}@point" if row.per_point else row.name
     if isinstance(row, Input):

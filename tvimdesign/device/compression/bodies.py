@@ -72,8 +72,7 @@ def housing_vanes_volume(
 
 @book.output("mm^3")
 def floor_volume(
-    core_radius: Scalar,
-    running_clearance: Scalar,
+    hub_radius: Scalar,
     housing_outer_radius: Scalar,
     floor_thickness: Scalar,
     slot_section: Scalar,
@@ -82,8 +81,8 @@ def floor_volume(
     tang_clearance: Scalar,
     mount_hole: Scalar,
 ) -> Scalar:
-    """Volume of the housing's floor, less bore, slots, tang holes and mounting holes."""
-    disc = ring(core_radius + running_clearance, housing_outer_radius).area
+    """Volume of the housing's floor around the hub, less slots, tang holes and mounting holes."""
+    disc = ring(hub_radius, housing_outer_radius).area
     holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
     return (disc - spring_count * holes - slot_section) * floor_thickness
 

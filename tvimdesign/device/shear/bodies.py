@@ -56,8 +56,7 @@ def window_area(
 
 @book.output("mm^3")
 def floor_volume(
-    core_radius: Scalar,
-    running_clearance: Scalar,
+    hub_radius: Scalar,
     housing_outer_radius: Scalar,
     floor_thickness: Scalar,
     floor_web: Scalar,
@@ -68,8 +67,8 @@ def floor_volume(
     tang_clearance: Scalar,
     mount_hole: Scalar,
 ) -> Scalar:
-    """Volume of the housing's floor, less bore, pad pockets, windows, tang holes and mounting holes."""
-    disc = ring(core_radius + running_clearance, housing_outer_radius).area
+    """Volume of the housing's floor around the hub, less pad pockets, windows, tang holes and mounting holes."""
+    disc = ring(hub_radius, housing_outer_radius).area
     holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
     return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_area * floor_web
 
