@@ -11,8 +11,13 @@ from cad_designs import BLOCKS, CASES, Made, design_of
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.study.design import Design, write_design
 
+SLOW = ("bearings among blocks",)
 
-@pytest.fixture(scope="session", params=CASES)
+
+@pytest.fixture(
+    scope="session",
+    params=[pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else []) for name in CASES],
+)
 def design(request: pytest.FixtureRequest) -> Design:
     mode, overrides = CASES[request.param]
     return design_of(request.param, overrides, mode)

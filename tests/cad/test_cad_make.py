@@ -38,7 +38,11 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     design, report, steps = made
     assert report.failed == ()
     assert report.notes == ()
-    expected = {f"parts/{kind}.{suffix}" for kind in MODULES[design.mode].kinds(dimensions(design)) for suffix in ("step", "stl")}
+    expected = {
+        f"parts/{kind}.{suffix}"
+        for kind in MODULES[design.mode].kinds(dimensions(design))
+        for suffix in ("step", "stl")
+    }
     assert set(report.files) == expected | {"assembly.step", "assembly.glb", "preview.png"}
     found = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}
     assert found == set(report.files)

@@ -26,6 +26,8 @@ def test_every_shelf_has_its_records() -> None:
         "spring_materials": 9,
         "structure_materials": 5,
         "processes": 5,
+        "screws": 8,
+        "bearings": 18,
         "polymers": 2,
         "peltiers": 4,
         "wires": 2,

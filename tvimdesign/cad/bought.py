@@ -10,6 +10,7 @@ from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.parts import LINK_SCREW_AZIMUTHS
 from tvimdesign.cad.shapes import cylinder, join, polar, ring, turned
 
+
 def link_screw(dims: Dimensions) -> cq.Shape:
     """The first of the screws that hold the link: its shank as thick as its hole in the core, its head a cylinder."""
     at = polar(dims.link_bolt_circle_radius, LINK_SCREW_AZIMUTHS[0])

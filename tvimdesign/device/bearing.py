@@ -25,7 +25,11 @@ places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group
 books = (places, weights, rules)
 
 places.record(
-    "bearing", "bearings", PLAIN, "Ball bearings between hub and core, two of a kind, or none: a plain bore", others=(PLAIN,)
+    "bearing",
+    "bearings",
+    PLAIN,
+    "Ball bearings between hub and core, two of a kind, or none: a plain bore",
+    others=(PLAIN,),
 )
 places.property("seat_clearance", "mm", ("process", "seat_clearance"), "Gap to each side of a bearing in its seat")
 
@@ -191,7 +195,8 @@ def bearings_inertia(bearing_inner_section: Section, bearing_width: Scalar, bear
 
 
 @rules.output(
-    "mm", at_least(0.0, "the hub is too low for two bearings and the lip between them: make hub_depth or the floor more")
+    "mm",
+    at_least(0.0, "the hub is too low for two bearings and the lip between them: make hub_depth or the floor more"),
 )
 def bearing_lip_reserve(
     hub_top_level: Scalar, hub_bottom_level: Scalar, bearing_width: Scalar, minimum_wall: Scalar
