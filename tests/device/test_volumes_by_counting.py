@@ -28,13 +28,14 @@ def part(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, An
     table = table_for("shear")
     given = {**inputs, **SHAPES[request.param]}
     wanted = [
-        *(f"{name}_mass" for name in ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "module", "screws")),
+        *(f"{name}_mass" for name in ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws")),
         *(f"{name}_volume" for name in ("housing", "rotor", "link", "retainer", "spring", "pcl", "peltier")),
         *(f"{name}_inertia" for name in ("rotor", "link", "parts")),
         *(f"{name}_length" for name in ("leg", "tang", "link")),
         *(f"{name}_level" for name in ("coil_end", "pin_top", "rotor_top", "link_bottom")),
         *(f"{name}_radius" for name in ("housing_outer", "housing_inner", "hub", "post", "rotor", "pin")),
-        "link_screw_depth", "retainer_screw_depth", "screws_inertia", "pcl_area", "spring_count", "link_bolt_circle_radius", "link_half_width",
+        "module_mass", "link_screw_depth", "retainer_screw_depth", "screws_inertia", "pcl_area", "spring_count",
+        "link_bolt_circle_radius", "link_half_width",
     ]  # fmt: skip
     return {**given, **table.evaluate(given, wanted)}
 

@@ -41,9 +41,10 @@ def bearing_outer(dims: Dimensions) -> cq.Shape:
 
 def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
     """How one of each kind is drawn, of what this module has."""
-    screws = {"link_screw": link_screw, "retainer_screw": retainer_screw}
-    bearings = {"bearing_inner": bearing_inner, "bearing_outer": bearing_outer}
-    return screws | (bearings if dims.bearing_width else {})
+    found: dict[str, Callable[[Dimensions], cq.Shape]] = {"link_screw": link_screw, "retainer_screw": retainer_screw}
+    if dims.bearing_width:
+        found |= {"bearing_inner": bearing_inner, "bearing_outer": bearing_outer}
+    return found
 
 
 def stand(dims: Dimensions, solids: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:

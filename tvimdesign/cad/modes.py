@@ -17,7 +17,7 @@ class Module:
     """The parts of a mode."""
 
     made: Mapping[str, Callable[[Dimensions], cq.Shape]]
-    """How one of each kind is drawn, by kind; springs, screws and bearings, which all modes have, are not among them."""
+    """How one of each kind is drawn, by kind; without springs and what is bought, which all modes have."""
     stand: Callable[[Dimensions, Mapping[str, cq.Solid], float], dict[str, cq.Shape]]
     """Places pads and PCL, the rotor at an angle [rad], by name."""
     fixed: tuple[str, ...]

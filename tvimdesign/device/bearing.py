@@ -126,7 +126,7 @@ def hub_bottom_level(floor_thickness: Scalar, hub_depth: Scalar) -> Scalar:
 
 @places.output("mm")
 def core_bottom_level(bearing: Record | str, hub_bottom_level: Scalar, running_clearance: Scalar) -> Scalar:
-    """Lower end of the core: beyond the plain bore, or short of the lower bearing so that the retainer presses on it."""
+    """Lower end of the core: beyond the plain bore, or short of the lower bearing, which the retainer presses on."""
     play = -running_clearance if isinstance(bearing, str) else running_clearance
     return hub_bottom_level + play
 
@@ -196,7 +196,7 @@ def bearings_inertia(bearing_inner_section: Section, bearing_width: Scalar, bear
 
 @rules.output(
     "mm",
-    at_least(0.0, "the hub is too low for two bearings and the lip between them: make hub_depth or the floor more"),
+    at_least(0.0, "the hub is too low for two bearings and a lip between them: more hub_depth, or a thicker floor"),
 )
 def bearing_lip_reserve(
     hub_top_level: Scalar, hub_bottom_level: Scalar, bearing_width: Scalar, minimum_wall: Scalar

@@ -35,12 +35,8 @@ for screw, default, words in (
         ("density", "kg/m^3", "density", "Density"),
     ):
         lengths.property(f"{screw}_{name}", unit, (screw, field), f"{description} of the {words}")
-lengths.record(
-    "mount_screw", "screws", "iso_4762_m3", "Screw of the catalogue that fixes the housing; not the module's"
-)
-lengths.property(
-    "mount_hole", "mm", ("mount_screw", "clearance_hole"), "Holes that fix the housing between the springs"
-)
+lengths.record("mount_screw", "screws", "iso_4762_m3", "Screw that fixes the housing; not one of the module's")
+lengths.property("mount_hole", "mm", ("mount_screw", "clearance_hole"), "Holes that fix the housing")
 
 
 @lengths.output("mm")
