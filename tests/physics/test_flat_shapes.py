@@ -91,3 +91,9 @@ def test_fillets_take_from_a_sector_what_is_beyond_their_arcs(radius: float, off
     assert shapes.inner_corner(radius, inner, offset) == pytest.approx(fillet - circle, rel=1e-6)
     four = 2.0 * (taken + fillet - circle)
     assert shapes.corners(radius, inner, outer, offset) == pytest.approx(four, rel=1e-6)
+
+
+def test_a_slot_across_a_disc_is_its_strips() -> None:
+    half, radius = 0.6e-3, 2.7e-3
+    expected = integrate(lambda y: 2.0 * np.sqrt(radius**2 - y**2), -half, half)
+    assert shapes.bar_across(half, radius) == pytest.approx(expected, rel=1e-9)

@@ -42,6 +42,8 @@ KINDS = {
     "retainer_screw": _kind(_STEEL, "retainer_screw", "retainer_screw_density", "retainer_screw_volume"),
     "bearing_inner": _kind((0.80, 0.80, 0.84), "bearing", "bearing_density", "bearing_inner_volume"),
     "bearing_outer": _kind((0.52, 0.54, 0.60), "bearing", "bearing_density", "bearing_outer_volume"),
+    "adjuster": _kind((0.78, 0.45, 0.58), *_STRUCTURE, "adjuster_volume"),
+    "adjuster_screw": _kind(_STEEL, "adjuster_screw", "adjuster_screw_density", "adjuster_screw_volume"),
     "spring_right": _kind((0.15, 0.48, 0.38), *_SPRING),
     "spring_left": _kind((0.45, 0.70, 0.30), *_SPRING),
 }

@@ -40,17 +40,24 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
     ground, rim = floor_bottom - dims.foot_height, dims.pin_top_level
     wall = ring(dims.housing_inner_radius, dims.housing_outer_radius, ground, rim)
     hub = cylinder(dims.hub_radius, dims.hub_bottom_level, dims.hub_top_level)
-    post_top = dims.coil_end_level + 0.5 * dims.wire_diameter
-    posts = [
-        cylinder(dims.post_radius, 0, post_top, polar(dims.placement_radius, azimuth))
-        for azimuth in dims.azimuths("spring_count")
-    ]
-    hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
-    tang_holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
+    posts, holes = spring_places(dims)
     feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
     mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
     body = join(floor, [wall, hub, *posts, *feet, *added])
-    return body.cut(*bores(dims), *openings, *tang_holes, *mount_holes, *notches(dims))
+    return body.cut(*bores(dims), *openings, *holes, *mount_holes, *notches(dims))
+
+
+def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
+    """What stands on the floor for the springs, and what is cut from it: posts and tang holes, or pockets."""
+    floor_bottom = -dims.floor_thickness
+    axes = [polar(dims.placement_radius, azimuth) for azimuth in dims.azimuths("spring_count")]
+    if not dims.adjuster_radius:
+        hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
+        holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
+        return [cylinder(dims.post_radius, 0, dims.post_height, at) for at in axes], holes
+    radius = dims.adjuster_radius + dims.slip_clearance
+    pockets = [cylinder(radius, -dims.adjuster_thickness, 0, at) for at in axes]
+    return [], [*pockets, *(cylinder(0.5 * dims.adjuster_screw_clearance, floor_bottom, 0, at) for at in axes)]
 
 
 def bores(dims: Dimensions) -> list[cq.Shape]:

@@ -11,7 +11,7 @@ from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.parts import bare_housing, bare_rotor, link, retainer
 from tvimdesign.cad.shapes import rounded, sector, turned
 
-FIXED = ("housing", "peltier_pad", "pcl_arc", "bearing_outer")
+FIXED = ("housing", "peltier_pad", "pcl_arc", "bearing_outer", "adjuster", "adjuster_screw")
 
 
 def housing(dims: Dimensions) -> cq.Shape:

@@ -75,15 +75,11 @@ def bare_housing_volume(
     housing_outer_radius: Scalar,
     hub_volume: Scalar,
     pin_top_level: Scalar,
-    spring_count: Scalar,
-    post_radius: Scalar,
-    coil_end_level: Scalar,
-    wire_diameter: Scalar,
+    fixed_posts_volume: Scalar,
 ) -> Scalar:
     """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub and spring posts."""
     wall = ring(housing_inner_radius, housing_outer_radius).area * pin_top_level
-    posts = spring_count * np.pi * post_radius**2 * (coil_end_level + 0.5 * wire_diameter)
-    return skirt_volume + floor_volume + wall + hub_volume + posts
+    return skirt_volume + floor_volume + wall + hub_volume + fixed_posts_volume
 
 
 @book.helper()
@@ -220,10 +216,11 @@ def module_mass(
     peltier_mass: Scalar,
     screws_mass: Scalar,
     bearings_mass: Scalar,
+    adjusters_mass: Scalar,
 ) -> Scalar:
     """Mass of the module, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + pcl_mass
-    return made + springs_mass + peltier_mass + screws_mass + bearings_mass
+    return made + springs_mass + peltier_mass + screws_mass + bearings_mass + adjusters_mass
 
 
 @book.output("kg*mm^2")

@@ -150,12 +150,6 @@ def post_radius(spring_wound_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
     return 0.45 * (spring_wound_diameter - wire_diameter)
 
 
-@book.output("mm")
-def tang_length(floor_thickness: Scalar, tang_end_gap: Scalar) -> Scalar:
-    """Straight length of the tang in the floor, short of its lower face."""
-    return floor_thickness - tang_end_gap
-
-
 # --- envelope --------------------------------------------------------------------------------------------------------
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.device import (
+    adjuster,
     bearing,
     bodies,
     gaps,
@@ -19,4 +20,11 @@ from tvimdesign.device import (
 )
 
 ROOMS = (materials, layout, springs, impedance, hold, thermal, softening, stiffening, bodies, gaps, process)
-BOOKS = (materials.book, process.limits, *(room.book for room in ROOMS[1:]), *screws.books, *bearing.books)
+BOOKS = (
+    materials.book,
+    process.limits,
+    *(room.book for room in ROOMS[1:]),
+    *screws.books,
+    *bearing.books,
+    *adjuster.books,
+)

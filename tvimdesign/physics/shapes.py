@@ -105,3 +105,8 @@ def inner_corner(fillet_radius: Any, circle_radius: Any, offset: Any) -> Any:
 def corners(fillet_radius: Any, inner_radius: Any, outer_radius: Any, offset: Any = 0.0) -> Any:
     """Area [m^2] that fillets take from the four corners of an annular sector with sides at `offset` from radial."""
     return 2.0 * (outer_corner(fillet_radius, outer_radius, offset) + inner_corner(fillet_radius, inner_radius, offset))
+
+
+def bar_across(half_width: Any, radius: Any) -> Any:
+    """Area [m^2] that a straight slot through the middle of a disc has in it."""
+    return 2.0 * (half_width * np.sqrt(radius**2 - half_width**2) + radius**2 * np.arcsin(half_width / radius))

@@ -63,13 +63,12 @@ def floor_volume(
     peltier_volume: Scalar,
     window_area: Scalar,
     spring_count: Scalar,
-    wire_diameter: Scalar,
-    tang_clearance: Scalar,
+    spring_hole_area: Scalar,
     mount_hole: Scalar,
 ) -> Scalar:
     """Volume of the housing's floor around the hub, less pad pockets, windows, tang holes and mounting holes."""
     disc = ring(hub_radius, housing_outer_radius).area
-    holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
+    holes = spring_hole_area + np.pi * (0.5 * mount_hole) ** 2
     return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_area * floor_web
 
 
