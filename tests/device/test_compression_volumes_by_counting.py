@@ -24,7 +24,8 @@ WANTED = [
     "pcl_volume", "pcl_area", "pcl_mass", "peltier_volume", "peltier_mass", "module_mass", "housing_mass", "rotor_mass",
     "link_mass", "retainer_mass", "springs_mass", "rotor_bottom_level", "rotor_top_level", "pin_top_level",
     "link_bottom_level", "coil_end_level", "rotor_radius", "pin_radius", "hub_radius", "post_radius", "spring_count",
-    "housing_inner_radius", "housing_outer_radius", "link_bolt_circle_radius",
+    "housing_inner_radius", "housing_outer_radius", "link_bolt_circle_radius", "link_screw_depth",
+    "retainer_screw_depth", "screws_mass",
 ]  # fmt: skip
 
 
@@ -101,16 +102,16 @@ def test_housing_s_vanes_have_the_volume_of_their_levels(part: dict[str, Any]) -
     assert p["housing_vanes_volume"] == pytest.approx(volume, rel=3e-3)
 
 
-def test_floor_has_the_volume_that_bore_slots_and_holes_leave(part: dict[str, Any]) -> None:
+def test_floor_has_the_volume_that_hub_slots_and_holes_leave(part: dict[str, Any]) -> None:
     p = part
-    bore, outer = p["core_radius"] + p["running_clearance"], p["housing_outer_radius"]
+    hub, outer = p["hub_radius"], p["housing_outer_radius"]
     springs, tang = int(p["spring_count"]), 0.5 * p["wire_diameter"] + p["tang_clearance"]
 
     def floor(x: Array, y: Array) -> NDArray[np.bool_]:
         r = np.hypot(x, y)
         holes = near(x, y, tang, p["placement_radius"], springs, 0.2)
         holes |= near(x, y, 0.5 * p["mount_hole"], p["placement_radius"], springs, np.pi / springs)
-        return (r > bore) & (r < outer) & ~holes & ~Plan(p, x, y).slot()
+        return (r > hub) & (r < outer) & ~holes & ~Plan(p, x, y).slot()
 
     volume, _ = stack_up([(p["floor_thickness"], floor)], outer, rims(p))
     assert p["floor_volume"] == pytest.approx(volume, rel=3e-3)
@@ -120,7 +121,8 @@ def test_housing_is_skirt_floor_wall_hub_posts_and_vanes(part: dict[str, Any]) -
     p = part
     wall = np.pi * (p["housing_outer_radius"] ** 2 - p["housing_inner_radius"] ** 2) * p["pin_top_level"]
     bore = p["core_radius"] + p["running_clearance"]
-    hub = np.pi * (p["hub_radius"] ** 2 - bore**2) * (p["block_height"] + 2.0 * p["running_clearance"])
+    height = p["floor_thickness"] + p["block_height"] + 2.0 * p["running_clearance"]
+    hub = np.pi * (p["hub_radius"] ** 2 - bore**2) * height
     posts = p["spring_count"] * np.pi * p["post_radius"] ** 2 * (p["coil_end_level"] + 0.5 * p["wire_diameter"])
     whole = p["skirt_volume"] + p["floor_volume"] + p["housing_vanes_volume"] + wall + hub + posts
     assert p["housing_volume"] == pytest.approx(whole, rel=1e-12)
@@ -153,5 +155,5 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
 
 
 def test_masses_add_up(part: dict[str, Any]) -> None:
-    names = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier")
+    names = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws")
     assert part["module_mass"] == pytest.approx(sum(part[f"{name}_mass"] for name in names), rel=1e-12)

@@ -13,7 +13,8 @@ from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.solve.transcription import guess, stage_block
 
 Array = NDArray[np.float64]
-VARIABLES = [row.name for row in table_for("shear").inputs if row.variable]
+# Not the depth of a hub that has none: it has no share of itself by which it could be changed.
+VARIABLES = [row.name for row in table_for("shear").inputs if row.variable and row.default != 0.0]
 EVENTS = ("near_face_time", "mean_time", "far_face_time", "softening_time", "response_time")
 ELEMENTS = 64
 

@@ -11,12 +11,12 @@ from tvimdesign.device import MODES, Input, Supplied, Table, table_for
 # Power of the length with which a number in this unit scales; materials, angles, temperatures and frequencies stay.
 POWERS = {
     "mm": 1, "mm^2": 2, "mm^3": 3, "cm^3": 3, "m^4": 4, "g": 3, "kg*mm^2": 5, "N*m": 3, "N*m/rad": 3, "N*m*s/rad": 3,
-    "Hz": -1,
+    "Hz": -1, "N": 2,
 }  # fmt: skip
 # The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
 SWINGS = {"damping_ratio": -1, "critical_damping": 4}
-# Rows whose formulas hold a diameter in millimetres: strength and tolerance by size.
-FIXED = {"spring_tensile_strength", "wire_range_reserve", "coil_diameter_tolerance"}
+# Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, or lengths that are sold.
+FIXED = {"spring_tensile_strength", "wire_range_reserve", "coil_diameter_tolerance", "screw_length_misfit"}
 TABLES = {mode: table_for(mode) for mode in MODES}
 
 

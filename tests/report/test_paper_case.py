@@ -114,7 +114,7 @@ def test_the_ledger_says_that_it_validates_nothing() -> None:
     assert row["verdict"].startswith("consistent with, not validated by")
     assert "neither confirms nor refutes" in row["verdict"]
     said = paper_case.sentence()
-    for number in ("70.0 s in shear", "140.1 s in compression", "2.00 against 2"):
+    for number in ("70.0 s in shear", "140.0 s in compression", "2.00 against 2"):
         assert number in said
     most = paper_case.influences()[0]
     assert f"`{most.span.name}` carries the ratio most" in said

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import ceil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -51,7 +52,7 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
         renderer = _view(shown, dims)
         renderer.SetViewport(left, _LEGEND_HEIGHT, right, 1.0)
         window.AddRenderer(renderer)
-    window.AddRenderer(_legend(MODULES[dims.mode].kinds))
+    window.AddRenderer(_legend(MODULES[dims.mode].kinds(dims)))
     window.Render()
     image = vtkWindowToImageFilter()
     image.SetInput(window)
@@ -150,13 +151,15 @@ def _poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
 
 
 def _legend(kinds: Sequence[str]) -> vtkRenderer:
-    """A strip with the names of the parts in their colours."""
+    """A strip with the names of the parts in their colours, in two lines."""
     renderer = vtkRenderer()
     renderer.SetViewport(0.0, 0.0, 1.0, _LEGEND_HEIGHT)
     renderer.SetBackground(1.0, 1.0, 1.0)
-    width = _SIZE[0] / len(kinds)
+    columns = ceil(len(kinds) / 2)
+    width = _SIZE[0] / columns
     for index, kind in enumerate(kinds):
-        x, y = round((index + 0.12) * width), 30
+        row, column = divmod(index, columns)
+        x, y = round((column + 0.12) * width), 52 - 40 * row
         renderer.AddViewProp(_text("     ", x, y, KINDS[kind].colour))
         renderer.AddViewProp(_text(kind.replace("_", " "), x + 42, y, None))
     return renderer

@@ -261,9 +261,12 @@ _SPREAD = "springs as bought spread more than the preload that is left: make it 
 
 
 @book.output("1", advice=(Rule(sense="<=", value=1.0, reason=_SPREAD),))
-def free_angle_over_preload(free_angle_tolerance: Scalar, preload_reserve: Scalar) -> Scalar:
-    """Free-angle tolerance of a spring over the preload that is left at full stroke."""
-    return free_angle_tolerance / np.fmax(preload_reserve, 1e-3)
+def free_angle_over_preload(
+    free_angle_tolerance: Scalar, preload_adjustment: Scalar, preload_reserve: Scalar
+) -> Scalar:
+    """Free-angle tolerance of a spring that no adjustment takes out, over the preload that is left at full stroke."""
+    left = np.fmax(free_angle_tolerance - 0.5 * preload_adjustment, 0.0)
+    return left / np.fmax(preload_reserve, 1e-3)
 
 
 @book.output("1")

@@ -96,6 +96,16 @@ def refuse_impossible(study: Study, catalog: Catalog, table: Table) -> None:
 
 _ONLY_WITH = {
     "cold_side": ("sink", ("sink_contact", "sink_capacity", "sink_area", "sink_coefficient")),
+    "preload_adjuster": (
+        "rotary",
+        (
+            "adjuster_screw_length",
+            "adjuster_clamp_force",
+            "adjuster_friction",
+            "driver_slot_width",
+            "driver_slot_depth",
+        ),
+    ),
     "impedance_targets": ("stated", ("soft_impedance", "stiff_impedance")),
 }
 """Inputs that count only where an option is chosen: option, its word, the inputs."""

@@ -1,0 +1,254 @@
+"""How the preload of each spring is set: not at all, or by a post that turns.
+
+Springs as bought differ in their free angle by more than the stroke. A rotary adjuster is the spring's post with a
+flange, let into a round pocket of the floor; the tang stands in the flange. A screw from below clamps it. To set a
+spring: loosen that screw by half a turn, turn the post by the slot in its top until the leg lies on its pin as wanted,
+and tighten again. Fixed, post and tang's hole are part of the floor.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.bodies import book as bodies
+from tvimdesign.device.book import Book
+from tvimdesign.device.gaps import book as gaps
+from tvimdesign.device.layout import book as layout
+from tvimdesign.device.rows import Scalar, at_least
+from tvimdesign.physics.friction import disc_torque
+from tvimdesign.physics.shapes import bar_across
+
+FIXED = "fixed"
+
+places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
+books = (places, weights, rules)
+
+places.option(
+    "preload_adjuster", (FIXED, "rotary"), "Whether a spring's tang is held by the floor, or by a post that turns"
+)
+places.record("adjuster_screw", "screws", "iso_7380_m3", "Screw that clamps a rotary adjuster")
+for name, unit, field, description in (
+    ("diameter", "mm", "nominal_diameter", "Nominal diameter"),
+    ("pilot", "mm", "tap_drill", "Hole for the thread"),
+    ("clearance", "mm", "clearance_hole", "Clearance hole"),
+    ("head", "mm", "head_diameter", "Head diameter"),
+    ("head_height", "mm", "head_height", "Head height"),
+    ("density", "kg/m^3", "density", "Density"),
+):
+    places.property(
+        f"adjuster_screw_{name}", unit, ("adjuster_screw", field), f"{description} of the adjusters' screws"
+    )
+
+
+@places.output("deg")
+def preload_adjustment(preload_adjuster: str) -> Scalar:
+    """Range over which the preload of a spring can be set: none, or all around."""
+    return 0.0 if preload_adjuster == FIXED else 2.0 * np.pi
+
+
+@places.output("mm")
+def adjuster_radius(
+    preload_adjuster: str, spring_reach: Scalar, tang_clearance: Scalar, minimum_wall: Scalar
+) -> Scalar:
+    """Radius of an adjuster's flange, which has a wall around the tang; zero where the tangs are fixed."""
+    return 0.0 if preload_adjuster == FIXED else spring_reach + tang_clearance + minimum_wall
+
+
+@places.output("mm")
+def adjuster_thickness(preload_adjuster: str, floor_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Thickness of an adjuster's flange: it leaves the floor the process's least wall; zero where tangs are fixed."""
+    return 0.0 if preload_adjuster == FIXED else floor_thickness - minimum_wall
+
+
+@places.output("mm")
+def post_height(coil_end_level: Scalar, wire_diameter: Scalar) -> Scalar:
+    """Height of the spring posts above the floor: up to the top of the coils."""
+    return coil_end_level + 0.5 * wire_diameter
+
+
+@places.output("mm")
+def tang_length(
+    preload_adjuster: str, floor_thickness: Scalar, adjuster_thickness: Scalar, tang_end_gap: Scalar
+) -> Scalar:
+    """Straight length of the tang in floor or flange, short of the lower face."""
+    return (floor_thickness if preload_adjuster == FIXED else adjuster_thickness) - tang_end_gap
+
+
+@places.output("mm")
+def adjuster_screw_depth(
+    adjuster_screw_length: Scalar, floor_thickness: Scalar, adjuster_thickness: Scalar, screw_tip_room: Scalar
+) -> Scalar:
+    """Depth of the screws' holes in the adjusters."""
+    return adjuster_screw_length - (floor_thickness - adjuster_thickness) + screw_tip_room
+
+
+# --- weights ---------------------------------------------------------------------------------------------------------
+
+
+@weights.helper()
+def spring_hole_area(
+    preload_adjuster: str,
+    wire_diameter: Scalar,
+    tang_clearance: Scalar,
+    adjuster_radius: Scalar,
+    slip_clearance: Scalar,
+    adjuster_thickness: Scalar,
+    adjuster_screw_clearance: Scalar,
+    floor_thickness: Scalar,
+) -> Scalar:
+    """What a spring takes of the floor [m^2], on average over its thickness: the tang's hole, or pocket and screw's."""
+    if preload_adjuster == FIXED:
+        return np.pi * (0.5 * wire_diameter + tang_clearance) ** 2
+    pocket = (adjuster_radius + slip_clearance) ** 2 * adjuster_thickness
+    hole = (0.5 * adjuster_screw_clearance) ** 2 * (floor_thickness - adjuster_thickness)
+    return np.pi * (pocket + hole) / floor_thickness
+
+
+@weights.helper()
+def fixed_posts_volume(preload_adjuster: str, spring_count: Scalar, post_radius: Scalar, post_height: Scalar) -> Scalar:
+    """Volume of the spring posts that are part of the floor [m^3]."""
+    return 0.0 if preload_adjuster != FIXED else spring_count * np.pi * post_radius**2 * post_height
+
+
+@weights.output("mm^3")
+def adjuster_volume(
+    preload_adjuster: str,
+    spring_count: Scalar,
+    adjuster_radius: Scalar,
+    adjuster_thickness: Scalar,
+    post_radius: Scalar,
+    post_height: Scalar,
+    wire_diameter: Scalar,
+    tang_clearance: Scalar,
+    adjuster_screw_pilot: Scalar,
+    adjuster_screw_depth: Scalar,
+    driver_slot_width: Scalar,
+    driver_slot_depth: Scalar,
+) -> Scalar:
+    """Volume of all adjusters together: flange and post, less the tang's hole, the screw's and the driver's slot."""
+    if preload_adjuster == FIXED:
+        return 0.0
+    flange = np.pi * (adjuster_radius**2 - (0.5 * wire_diameter + tang_clearance) ** 2) * adjuster_thickness
+    post = np.pi * post_radius**2 * post_height
+    hole = 0.25 * np.pi * adjuster_screw_pilot**2 * adjuster_screw_depth
+    slot = bar_across(0.5 * driver_slot_width, post_radius) * driver_slot_depth
+    return spring_count * (flange + post - hole - slot)
+
+
+@weights.output("mm^3")
+def adjuster_screw_volume(
+    preload_adjuster: str,
+    spring_count: Scalar,
+    adjuster_screw_pilot: Scalar,
+    adjuster_screw_length: Scalar,
+    adjuster_screw_head: Scalar,
+    adjuster_screw_head_height: Scalar,
+) -> Scalar:
+    """Volume of the adjusters' screws together."""
+    if preload_adjuster == FIXED:
+        return 0.0
+    shank, head = adjuster_screw_pilot**2 * adjuster_screw_length, adjuster_screw_head**2 * adjuster_screw_head_height
+    return spring_count * 0.25 * np.pi * (shank + head)
+
+
+@weights.output("g")
+def adjusters_mass(
+    adjuster_volume: Scalar, structure_density: Scalar, adjuster_screw_volume: Scalar, adjuster_screw_density: Scalar
+) -> Scalar:
+    """Mass of all adjusters with their screws."""
+    return adjuster_volume * structure_density + adjuster_screw_volume * adjuster_screw_density
+
+
+# --- rules -----------------------------------------------------------------------------------------------------------
+
+
+@rules.output(
+    "mm", at_least(0.0, "the adjusters do not go in past the housing's wall: give the springs more radial_clearance")
+)
+def adjuster_wall_gap(
+    housing_inner_radius: Scalar, placement_radius: Scalar, adjuster_radius: Scalar, slip_clearance: Scalar
+) -> Scalar:
+    """Room between the adjusters' pockets and the housing's wall."""
+    return housing_inner_radius - placement_radius - adjuster_radius - slip_clearance
+
+
+@rules.output("mm", at_least(0.0, "the floor between the adjusters' pockets and the PCL is thinner than can be made"))
+def adjuster_pcl_gap(
+    placement_radius: Scalar,
+    adjuster_radius: Scalar,
+    slip_clearance: Scalar,
+    pcl_outer_radius: Scalar,
+    minimum_wall: Scalar,
+) -> Scalar:
+    """Floor between the adjusters' pockets and the PCL beyond the process's least wall."""
+    return placement_radius - adjuster_radius - slip_clearance - pcl_outer_radius - minimum_wall
+
+
+@rules.output(
+    "mm", at_least(0.0, "the floor between the adjusters' pockets and the mounting holes is thinner than can be made")
+)
+def adjuster_mount_gap(
+    placement_radius: Scalar,
+    spring_count: Scalar,
+    adjuster_radius: Scalar,
+    slip_clearance: Scalar,
+    mount_hole: Scalar,
+    minimum_wall: Scalar,
+) -> Scalar:
+    """Floor between the adjusters' pockets and the mounting holes beyond the process's least wall."""
+    apart = 2.0 * placement_radius * np.sin(0.5 * np.pi / spring_count)
+    return apart - adjuster_radius - slip_clearance - 0.5 * mount_hole - minimum_wall
+
+
+@rules.output(
+    "mm", at_least(0.0, "an adjuster's post would split around its screw: a thicker post, or a smaller screw")
+)
+def adjuster_post_reserve(
+    preload_adjuster: str, post_radius: Scalar, adjuster_screw_pilot: Scalar, minimum_wall: Scalar
+) -> Scalar:
+    """Wall of an adjuster's post around its screw beyond the process's least; zero where tangs are fixed."""
+    return 0.0 if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_pilot - minimum_wall
+
+
+@rules.output("mm", at_least(0.0, "the adjusters' screws are too short to hold"))
+def adjuster_thread_reserve(
+    preload_adjuster: str,
+    adjuster_screw_depth: Scalar,
+    screw_tip_room: Scalar,
+    thread_engagement: Scalar,
+    adjuster_screw_diameter: Scalar,
+) -> Scalar:
+    """Thread in the adjusters beyond what the process wants; zero where tangs are fixed."""
+    thread = adjuster_screw_depth - screw_tip_room
+    return 0.0 if preload_adjuster == FIXED else thread - thread_engagement * adjuster_screw_diameter
+
+
+@rules.output("mm", at_least(0.0, "the screw's hole would reach the driver's slot: choose a shorter screw"))
+def adjuster_top_reserve(
+    preload_adjuster: str,
+    adjuster_thickness: Scalar,
+    post_height: Scalar,
+    adjuster_screw_depth: Scalar,
+    driver_slot_depth: Scalar,
+    minimum_wall: Scalar,
+) -> Scalar:
+    """Post between screw's hole and driver's slot beyond the process's least wall; zero where tangs are fixed."""
+    between = adjuster_thickness + post_height - adjuster_screw_depth - driver_slot_depth
+    return 0.0 if preload_adjuster == FIXED else between - minimum_wall
+
+
+@rules.output("N*m", at_least(0.0, "the clamped adjusters would slip under their springs"))
+def adjuster_grip_reserve(
+    preload_adjuster: str,
+    adjuster_friction: Scalar,
+    adjuster_clamp_force: Scalar,
+    adjuster_screw_clearance: Scalar,
+    adjuster_radius: Scalar,
+    spring_rate: Scalar,
+    spring_winding: Scalar,
+) -> Scalar:
+    """Torque at which a clamped adjuster slips less the spring's largest; zero where tangs are fixed."""
+    if preload_adjuster == FIXED:
+        return 0.0
+    grip = disc_torque(adjuster_friction, adjuster_clamp_force, 0.5 * adjuster_screw_clearance, adjuster_radius)
+    return grip - spring_rate * spring_winding
