@@ -18,6 +18,7 @@ from tvimdesign.device.rows import Scalar, at_least
 from tvimdesign.physics.friction import disc_torque
 from tvimdesign.physics.shapes import bar_across
 
+NO_LIMIT = np.inf
 FIXED = "fixed"
 
 places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
@@ -166,21 +167,30 @@ def adjusters_mass(
     "mm", at_least(0.0, "the adjusters do not go in past the housing's wall: give the springs more radial_clearance")
 )
 def adjuster_wall_gap(
-    housing_inner_radius: Scalar, placement_radius: Scalar, adjuster_radius: Scalar, slip_clearance: Scalar
+    preload_adjuster: str,
+    housing_inner_radius: Scalar,
+    placement_radius: Scalar,
+    adjuster_radius: Scalar,
+    slip_clearance: Scalar,
 ) -> Scalar:
-    """Room between the adjusters' pockets and the housing's wall."""
+    """Room between the adjusters' pockets and the housing's wall; endless where tangs are fixed."""
+    if preload_adjuster == FIXED:
+        return NO_LIMIT
     return housing_inner_radius - placement_radius - adjuster_radius - slip_clearance
 
 
 @rules.output("mm", at_least(0.0, "the floor between the adjusters' pockets and the PCL is thinner than can be made"))
 def adjuster_pcl_gap(
+    preload_adjuster: str,
     placement_radius: Scalar,
     adjuster_radius: Scalar,
     slip_clearance: Scalar,
     pcl_outer_radius: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between the adjusters' pockets and the PCL beyond the process's least wall."""
+    """Floor between the adjusters' pockets and the PCL beyond the process's least wall; endless where tangs are fixed."""
+    if preload_adjuster == FIXED:
+        return NO_LIMIT
     return placement_radius - adjuster_radius - slip_clearance - pcl_outer_radius - minimum_wall
 
 
@@ -188,6 +198,7 @@ def adjuster_pcl_gap(
     "mm", at_least(0.0, "the floor between the adjusters' pockets and the mounting holes is thinner than can be made")
 )
 def adjuster_mount_gap(
+    preload_adjuster: str,
     placement_radius: Scalar,
     spring_count: Scalar,
     adjuster_radius: Scalar,
@@ -195,7 +206,9 @@ def adjuster_mount_gap(
     mount_hole: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between the adjusters' pockets and the mounting holes beyond the process's least wall."""
+    """Floor between the adjusters' pockets and the mounting holes beyond the process's least wall; endless where tangs are fixed."""
+    if preload_adjuster == FIXED:
+        return NO_LIMIT
     apart = 2.0 * placement_radius * np.sin(0.5 * np.pi / spring_count)
     return apart - adjuster_radius - slip_clearance - 0.5 * mount_hole - minimum_wall
 
@@ -206,8 +219,8 @@ def adjuster_mount_gap(
 def adjuster_post_reserve(
     preload_adjuster: str, post_radius: Scalar, adjuster_screw_pilot: Scalar, minimum_wall: Scalar
 ) -> Scalar:
-    """Wall of an adjuster's post around its screw beyond the process's least; zero where tangs are fixed."""
-    return 0.0 if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_pilot - minimum_wall
+    """Wall of an adjuster's post around its screw beyond the process's least; endless where tangs are fixed."""
+    return NO_LIMIT if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_pilot - minimum_wall
 
 
 @rules.output("mm", at_least(0.0, "the adjusters' screws are too short to hold"))
@@ -218,9 +231,9 @@ def adjuster_thread_reserve(
     thread_engagement: Scalar,
     adjuster_screw_diameter: Scalar,
 ) -> Scalar:
-    """Thread in the adjusters beyond what the process wants; zero where tangs are fixed."""
+    """Thread in the adjusters beyond what the process wants; endless where tangs are fixed."""
     thread = adjuster_screw_depth - screw_tip_room
-    return 0.0 if preload_adjuster == FIXED else thread - thread_engagement * adjuster_screw_diameter
+    return NO_LIMIT if preload_adjuster == FIXED else thread - thread_engagement * adjuster_screw_diameter
 
 
 @rules.output("mm", at_least(0.0, "the screw's hole would reach the driver's slot: choose a shorter screw"))
@@ -232,9 +245,9 @@ def adjuster_top_reserve(
     driver_slot_depth: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Post between screw's hole and driver's slot beyond the process's least wall; zero where tangs are fixed."""
+    """Post between screw's hole and driver's slot beyond the process's least wall; endless where tangs are fixed."""
     between = adjuster_thickness + post_height - adjuster_screw_depth - driver_slot_depth
-    return 0.0 if preload_adjuster == FIXED else between - minimum_wall
+    return NO_LIMIT if preload_adjuster == FIXED else between - minimum_wall
 
 
 @rules.output("N*m", at_least(0.0, "the clamped adjusters would slip under their springs"))
@@ -247,8 +260,8 @@ def adjuster_grip_reserve(
     spring_rate: Scalar,
     spring_winding: Scalar,
 ) -> Scalar:
-    """Torque at which a clamped adjuster slips less the spring's largest; zero where tangs are fixed."""
+    """Torque at which a clamped adjuster slips less the spring's largest; endless where tangs are fixed."""
     if preload_adjuster == FIXED:
-        return 0.0
+        return NO_LIMIT
     grip = disc_torque(adjuster_friction, adjuster_clamp_force, 0.5 * adjuster_screw_clearance, adjuster_radius)
     return grip - spring_rate * spring_winding

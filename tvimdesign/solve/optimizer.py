@@ -204,8 +204,7 @@ class Optimizer:
 
     def kept_limits(self, limits: list[Limit]) -> list[Limit]:
         """The limits without those that nothing free can change, which are checked here and now."""
-        free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
-        constant = [limit for limit in limits if is_constant(limit, self.table, free)]
+        constant = self._constant(limits)
         without_switch = dict.fromkeys(self.model.switch_names, np.inf)
         values = self.model.values(self.model.start, without_switch) if constant else {}
         for limit in constant:
@@ -213,6 +212,15 @@ class Optimizer:
             if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
                 raise InfeasibleError(unchangeable(limit, self.table))
         return [limit for limit in limits if limit not in constant]
+
+    def _constant(self, limits: list[Limit]) -> list[Limit]:
+        """The limits that nothing free can change: by the table, or with these records and options."""
+        free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
+        outputs = list(dict.fromkeys(limit.output for limit in limits if not on_switch(self.table, limit.output)))
+        rows, columns = self.model.outputs(outputs).jac_sparsity(0, 0).get_triplet()
+        places = {self.model.index[name] for name in free}
+        moved = {outputs[row] for row, column in zip(rows, columns, strict=True) if column in places}
+        return [limit for limit in limits if limit.output in outputs and limit.output not in moved]
 
     def simulate_start(self) -> None:
         """Simulate the study's start as far as the problem needs it."""
@@ -299,7 +307,7 @@ class Optimizer:
                 point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
             values = self.model.values(point, self.start_switch.values)
             numbers = [value for name, value in values.items() if not on_switch(self.table, name)]
-            if all(np.isfinite(number) for number in numbers) and not impossible(values, self.table):
+            if not np.any(np.isnan(numbers)) and not impossible(values, self.table):
                 return point
             self.passed_over["no such module"] += 1
         return self.model.start
