@@ -16,11 +16,12 @@ from tvimdesign.study import given, read_study_text
 MM = 1e-3
 TABLE = table_for("shear")
 ROWS = (
-    "preload_adjustment adjuster_radius adjuster_thickness tang_length adjuster_volume adjuster_screw_volume "
-    "adjusters_mass module_mass housing_mass springs_mass post_radius post_height spring_reach free_angle_over_preload "
-    "free_angle_tolerance adjuster_wall_gap adjuster_grip_reserve spring_rate spring_winding adjuster_post_reserve "
-    "adjuster_thread_reserve adjuster_top_reserve housing_volume"
-).split()
+    "preload_adjustment", "adjuster_radius", "adjuster_thickness", "tang_length", "adjuster_volume",
+    "adjuster_screw_volume", "adjusters_mass", "module_mass", "housing_mass", "springs_mass", "post_radius",
+    "post_height", "spring_reach", "free_angle_over_preload", "free_angle_tolerance", "adjuster_wall_gap",
+    "adjuster_grip_reserve", "spring_rate", "spring_winding", "adjuster_post_reserve", "adjuster_thread_reserve",
+    "adjuster_top_reserve", "housing_volume",
+)  # fmt: skip
 
 
 def module(adjuster: str) -> dict[str, Any]:

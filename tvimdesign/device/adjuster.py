@@ -18,8 +18,9 @@ from tvimdesign.device.rows import Scalar, at_least
 from tvimdesign.physics.friction import disc_torque
 from tvimdesign.physics.shapes import bar_across
 
-NO_LIMIT = np.inf
 FIXED = "fixed"
+NO_LIMIT = np.inf
+"""What is left of a limit on adjusters where there are none."""
 
 places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
 books = (places, weights, rules)
@@ -188,7 +189,7 @@ def adjuster_pcl_gap(
     pcl_outer_radius: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between the adjusters' pockets and the PCL beyond the process's least wall; endless where tangs are fixed."""
+    """Floor between the adjusters' pockets and the PCL beyond the least wall; endless where tangs are fixed."""
     if preload_adjuster == FIXED:
         return NO_LIMIT
     return placement_radius - adjuster_radius - slip_clearance - pcl_outer_radius - minimum_wall
@@ -206,7 +207,7 @@ def adjuster_mount_gap(
     mount_hole: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between the adjusters' pockets and the mounting holes beyond the process's least wall; endless where tangs are fixed."""
+    """Floor between adjusters' pockets and mounting holes beyond the least wall; endless where tangs are fixed."""
     if preload_adjuster == FIXED:
         return NO_LIMIT
     apart = 2.0 * placement_radius * np.sin(0.5 * np.pi / spring_count)

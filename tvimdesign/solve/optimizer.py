@@ -19,7 +19,7 @@ from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.drive import Drive, ramp_time
 from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.limits import Limit, impossible, is_constant, limits_of, on_switch, unchangeable
+from tvimdesign.solve.limits import Limit, impossible, limits_of, on_switch, unchangeable
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
