@@ -88,7 +88,7 @@ def _from_surface(face: cq.Face, points: Array) -> Array:
     if kind == "PLANE":
         plane = surface.Plane()
         above: Array = (points - _xyz(plane.Location())) @ _xyz(plane.Axis().Direction())
-        return np.abs(above)
+        return np.asarray(np.abs(above))
     if kind == "CYLINDER":
         cylinder = surface.Cylinder()
         beside = np.cross(points - _xyz(cylinder.Location()), _xyz(cylinder.Axis().Direction()))

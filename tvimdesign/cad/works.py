@@ -13,6 +13,7 @@ from OCP.TopoDS import TopoDS_Shape
 from tvimdesign.cad import names
 from tvimdesign.cad.assembly import drawn_part, free_spring, place
 from tvimdesign.cad.checks import POSITIONS, clearance_checks, rest_checks
+from tvimdesign.cad.drawings import part_sheet
 from tvimdesign.cad.export import glb_bytes, instances, product
 from tvimdesign.cad.kinds import SPRINGS, kind_of
 from tvimdesign.cad.making import MAKING
@@ -57,6 +58,10 @@ def _part(kind: str, job: Job) -> list[Check]:
     _keep(job.folder / "kept" / _SOLID, solid)
     what = product(job.design, kind)
     checks = _step(job.folder, solid, what)
+    if MAKING[kind].drawn:
+        sheet = part_sheet(kind, solid, what, job.design.name)
+        _write(job.folder, names.drawing_dxf(kind), sheet.dxf())
+        _write(job.folder, names.drawing_pdf(kind), sheet.pdf())
     if MAKING[kind].down == "bought":
         return [*checks, _bought_mesh(job.folder, solid, kind)]
     return [*checks, _print(job, kind, solid, what)]
