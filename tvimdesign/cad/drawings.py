@@ -14,7 +14,7 @@ from tvimdesign.cad import names
 from tvimdesign.cad.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.making import MAKING
 from tvimdesign.cad.projection import View, from_above, section
-from tvimdesign.cad.sheet import SIZE, Field, Sheet
+from tvimdesign.cad.sheet import SIZE, Field, Sheet, ratio
 from tvimdesign.cad.step import Product
 
 _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)
@@ -161,12 +161,14 @@ def _dimension_diameters(front: Placed, diameters: Sequence[float]) -> None:
 def _dimension_extent(front: Placed, diameters: Sequence[float]) -> None:
     """Overall length, where no diameter says it, and overall height."""
     left, right, bottom, top = front.view.bounds
-    space, style = front.sheet.space, {"dimstyle": "SHEET", "dxfattribs": {"layer": "DIMENSION"}}
+    space = front.sheet.space
     if all(abs(right - left - diameter) > 1e-3 for diameter in diameters):
         base = front.at(0.0, top + front.paper(_FIRST + len(diameters) * _NEXT))
-        space.add_linear_dim(base, front.at(left, top), front.at(right, top), **style).render()
+        ends = front.at(left, top), front.at(right, top)
+        space.add_linear_dim(base, *ends, dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}).render()
     base = front.at(left - front.paper(10.0), 0.0)
-    space.add_linear_dim(base, front.at(left, bottom), front.at(left, top), angle=90, **style).render()
+    ends = front.at(left, bottom), front.at(left, top)
+    space.add_linear_dim(base, *ends, angle=90, dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}).render()
 
 
 def _dimension_levels(front: Placed, heights: Sequence[float]) -> None:
@@ -272,7 +274,6 @@ def _words(sheet: Sheet, kind: str, solid: cq.Solid, what: Product, module: str)
         + "; print/ has it so, with wider holes.",
     ]  # fmt: skip
     sheet.column(notes, (256.0, SIZE[1] - 14.0))
-    ratio = f"{sheet.scale:g}:1" if sheet.scale >= 1.0 else f"1:{1.0 / sheet.scale:g}"
     sheet.title_block(
         kind.replace("_", " "),
         [
@@ -281,7 +282,7 @@ def _words(sheet: Sheet, kind: str, solid: cq.Solid, what: Product, module: str)
             [Field("General tolerances", _TOLERANCES, 1.0)],
             [Field("Mass", f"{volume * what.density * 1e-6:.2f} g", 0.25),
              Field("Volume", f"{volume * 1e-3:.3f} cm³", 0.25),
-             Field("Density", f"{what.density:g} kg/m³", 0.3), Field("Scale", ratio, 0.2)],
+             Field("Density", f"{what.density:g} kg/m³", 0.3), Field("Scale", ratio(sheet.scale), 0.2)],
             [Field("Material", what.material, 0.5), Field("Module", module, 0.5)],
         ],
     )  # fmt: skip

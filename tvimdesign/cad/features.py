@@ -70,7 +70,8 @@ def _cylinder(face: cq.Face) -> Cylinder | None:
     # The normal points away from the axis of a right-handed cylinder, into the material where the face is reversed.
     is_reversed = face.wrapped.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
     return Cylinder(
-        radius=_round(surface.Radius()), x=_round(place.X()), y=_round(place.Y()), bottom=_round(bottom), top=_round(top),
+        radius=_round(surface.Radius()), x=_round(place.X()), y=_round(place.Y()),
+        bottom=_round(bottom), top=_round(top),
         concave=is_reversed == surface.Position().Direct(), span=to_u - from_u,
         middle=atan2(middle.Y() - place.Y(), middle.X() - place.X()),
     )  # fmt: skip

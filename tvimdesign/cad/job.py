@@ -6,6 +6,7 @@ work (`work.py`), because an operation of the kernel can hang.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import sys
@@ -15,9 +16,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-from tvimdesign.errors import GeometryError, TvimError
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.files import write_whole
-from tvimdesign.study.design import read_design
+from tvimdesign.study.design import Design, read_design
 
 if TYPE_CHECKING:
     from tvimdesign.cad.work import Done
@@ -40,7 +43,8 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
 
     with tempfile.TemporaryDirectory(prefix="tvimdesign.") as own:
         store = Store(user_folder() or Path(own))
-        done = Workshop(Subject(design), store, lambda step: say(progress=step), timeout_s).do(works(design.mode))
+        workshop = Workshop(Subject(design, _titles(design)), store, lambda step: say(progress=step), timeout_s)
+        done = workshop.do(works(design.mode))
         files = _hand_out(done, out)
     pictures = done.failed.pop(PICTURES, "")
     if done.failed:
@@ -49,6 +53,18 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     checks = [asdict(check) for result in done.results.values() for check in result.checks]
     notes = [f"no pictures: {pictures}"] if pictures else []
     say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
+
+
+def _titles(design: Design) -> dict[str, str]:
+    """What the catalogue calls the records a design was made of; a record that is not here has its name only."""
+    told = design.study.get("catalog_folder")
+    titles = {}
+    for row in table_for(design.mode).choices:
+        with contextlib.suppress(CatalogError):
+            if row.shelf and row.name in design.choices:
+                catalog = Catalog(Path(told) if told else None)
+                titles[row.name] = catalog.record(row.shelf, design.choices[row.name]).title
+    return titles
 
 
 def _hand_out(done: Done, out: Path) -> list[str]:

@@ -92,7 +92,7 @@ def _from_surface(face: cq.Face, points: Array) -> Array:
     if kind == "CYLINDER":
         cylinder = surface.Cylinder()
         beside = np.cross(points - _xyz(cylinder.Location()), _xyz(cylinder.Axis().Direction()))
-        return np.abs(np.linalg.norm(beside, axis=1) - cylinder.Radius())
+        return np.asarray(np.abs(np.linalg.norm(beside, axis=1) - cylinder.Radius()))
     whole = surface.Surface().Surface().Transformed(surface.Trsf())
     return np.array([GeomAPI_ProjectPointOnSurf(gp_Pnt(*point), whole).LowerDistance() for point in points.tolist()])
 

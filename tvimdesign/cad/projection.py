@@ -1,4 +1,4 @@
-"""Views of a solid as plane curves: from above with its visible edges, and from the front with the near half cut away."""
+"""Views of a solid as plane curves: from above, and from the front with the near half cut away."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def section(solid: cq.Solid) -> View:
 
 def _lies_in_section(face: cq.Face) -> bool:
     box = face.BoundingBox()
-    return face.geomType() == "PLANE" and max(abs(box.ymin), abs(box.ymax)) < 1e-6
+    return bool(face.geomType() == "PLANE" and max(abs(box.ymin), abs(box.ymax)) < 1e-6)
 
 
 def _edges(solid: cq.Solid, towards_viewer: tuple[float, float, float]) -> tuple[list[cq.Edge], list[cq.Edge]]:
@@ -145,10 +145,9 @@ def _sampled(edge: cq.Edge) -> tuple[Point, ...]:
     """Points of an edge, so many that lines between them keep to it."""
     count = 2
     while count < 257:
-        points = np.array([edge.positionAt(share).toTuple()[:2] for share in np.linspace(0.0, 1.0, count)])
-        between = np.array(
-            [edge.positionAt(share).toTuple()[:2] for share in (np.arange(count - 1) + 0.5) / (count - 1)]
-        )
+        shares = np.linspace(0.0, 1.0, 2 * count - 1).tolist()
+        finer = np.array([edge.positionAt(share).toTuple()[:2] for share in shares])
+        points, between = finer[::2], finer[1::2]
         if np.max(_beside(between, points[:-1], points[1:])) < _CHORD:
             break
         count = 2 * count - 1

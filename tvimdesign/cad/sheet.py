@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Sequence
+import random
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -46,13 +48,14 @@ class Field:
 
 
 class Sheet:
-    """A sheet at a scale. Places are in mm on paper; geometry keeps its size, and the frame is drawn larger or smaller."""
+    """A sheet at a scale. Places are in mm on paper; geometry keeps its size, and the frame is scaled."""
 
     def __init__(self, scale: float) -> None:
         """`scale` is paper over part: 2 for 2:1."""
         self.scale = scale
         _use_own_font()
-        self.document = ezdxf.new("R2010", setup=["linetypes"])
+        with _no_time():
+            self.document = ezdxf.new("R2010", setup=["linetypes"])
         self.document.header["$INSUNITS"] = 4
         self.document.header["$MEASUREMENT"] = 1
         self.document.header["$LTSCALE"] = 0.35 / scale
@@ -70,7 +73,7 @@ class Sheet:
         sizes = {"dimtxt": _TEXT, "dimasz": 2.5, "dimexe": 1.0, "dimexo": 0.8, "dimgap": 0.8, "dimcen": 0.0}
         for name, value in sizes.items():
             setattr(style, name, value * unit)
-        # Lengths as measured, a point for the decimals, no zeros at their end; text beside its line, level where outside.
+        # Lengths as measured, a point before the decimals, no zeros at their end; text above its line.
         settings = {"dimlfac": 1.0, "dimdec": 2, "dimdsep": 46, "dimzin": 8, "dimtad": 1, "dimtih": 0, "dimtoh": 0,
                     "dimtxsty": "SHEET", "dimblk": "", "dimlunit": 2, "dimadec": 1, "dimtmove": 1}  # fmt: skip
         for name, setting in settings.items():
@@ -125,12 +128,8 @@ class Sheet:
     def dxf(self) -> bytes:
         """The drawing as DXF, the same bytes for the same drawing."""
         stream = io.StringIO()
-        before = ezdxf.options.write_fixed_meta_data_for_testing
-        ezdxf.options.write_fixed_meta_data_for_testing = True  # no time of writing, no random number
-        try:
+        with _no_time():
             self.document.write(stream)
-        finally:
-            ezdxf.options.write_fixed_meta_data_for_testing = before
         return stream.getvalue().encode(self.document.output_encoding)
 
     def pdf(self) -> bytes:
@@ -144,7 +143,8 @@ class Sheet:
             lineweight_policy=LineweightPolicy.ABSOLUTE, lineweight_scaling=1.0,
         )  # fmt: skip
         backend = _Backend(axes, adjust_figure=False)
-        Frontend(RenderContext(self.document), backend, config=look).draw_layout(self.space, finalize=True)
+        with _fixed_chance():
+            Frontend(RenderContext(self.document), backend, config=look).draw_layout(self.space, finalize=True)
         axes.set_aspect("auto")
         axes.set_xlim(0.0, SIZE[0] / self.scale)
         axes.set_ylim(0.0, SIZE[1] / self.scale)
@@ -154,6 +154,11 @@ class Sheet:
         return stream.getvalue()
 
 
+def ratio(scale: float) -> str:
+    """A scale as it is written on a drawing."""
+    return f"{scale:g}:1" if scale >= 1.0 else f"1:{1.0 / scale:g}"
+
+
 class _Backend(MatplotlibBackend):
     """Fills letters by the sense in which their outlines run, as fonts mean it; ⌀ has two holes side by side."""
 
@@ -161,6 +166,28 @@ class _Backend(MatplotlibBackend):
         """Fill one letter."""
         filled = to_matplotlib_path(paths, detect_holes=False)
         self.ax.add_patch(PathPatch(filled, color=properties.color, linewidth=0, zorder=self._get_z()))
+
+
+@contextmanager
+def _no_time() -> Iterator[None]:
+    """Leave the time of writing and random numbers out of a DXF file."""
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+@contextmanager
+def _fixed_chance() -> Iterator[None]:
+    """Hatching is moved by a random hair, to miss corners; let it be the same hair every time."""
+    before = random.getstate()
+    random.seed(0)
+    try:
+        yield
+    finally:
+        random.setstate(before)
 
 
 def _use_own_font() -> None:

@@ -42,8 +42,8 @@ class Watched(Mapping[str, Any]):
 class Subject:
     """A design and its dimensions, from which pieces of work read."""
 
-    def __init__(self, design: Design) -> None:
-        """Work out the dimensions of a design once."""
+    def __init__(self, design: Design, titles: Mapping[str, str]) -> None:
+        """Work out the dimensions of a design once; `titles` says what the catalogue calls each chosen record."""
         self._mode = design.mode
         self._lengths = dimensions(design).by_name
         self._design = design
@@ -51,21 +51,22 @@ class Subject:
             "dimensions": self._lengths,
             "values": design.values,
             "choices": design.choices,
+            "titles": titles,
             "said": {"name": design.name, "mode": design.mode},
         }
 
-    def watched(self, named: bool) -> tuple[Design, Dimensions, Reads]:
-        """Return the design and its dimensions to work with, and where it is written down what was read of them.
+    def watched(self, named: bool) -> tuple[Design, Dimensions, Mapping[str, str], Reads]:
+        """Return the design, its dimensions and titles to work with, and where is written what was read of them.
 
         The design has its name only for work that is `named`; all else is the same for designs of any name.
         """
         reads: Reads = {part: {} for part in self._parts}
         reads["said"] = {"mode": self._mode} | ({"name": self._design.name} if named else {})
-        seen = {part: Watched(self._parts[part], reads[part]) for part in ("dimensions", "values", "choices")}
+        seen = {part: Watched(self._parts[part], reads[part]) for part in self._parts if part != "said"}
         name = self._design.name if named else ""
         seen_by_work = {"name": name, "values": seen["values"], "choices": seen["choices"]}
         design = self._design.model_copy(update=seen_by_work)
-        return design, Dimensions(self._mode, seen["dimensions"]), reads
+        return design, Dimensions(self._mode, seen["dimensions"]), seen["titles"], reads
 
     def agrees_with(self, reads: Reads) -> bool:
         """Whether all that was read then is the same in this design."""

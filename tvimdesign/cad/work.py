@@ -34,6 +34,8 @@ class Job:
 
     design: Design
     dims: Dimensions
+    titles: Mapping[str, str]
+    """What the catalogue calls the chosen records, by row."""
     needs: Mapping[str, Path]
     """Folder `kept/` of each piece of work that this one needs."""
     folder: Path
@@ -182,8 +184,8 @@ class Workshop:
 def _child(work: Work, subject: Subject, needs: Mapping[str, Path], folder: Path, mouth: Connection) -> None:
     """Do one piece of work and say what came of it."""
     try:
-        design, dims, reads = subject.watched(work.named)
-        checks = work.do(Job(design, dims, needs, folder, lambda step: mouth.send({"step": step})))
+        design, dims, titles, reads = subject.watched(work.named)
+        checks = work.do(Job(design, dims, titles, needs, folder, lambda step: mouth.send({"step": step})))
         mouth.send({"checks": [asdict(check) for check in checks], "reads": reads})
     except TvimError as error:
         mouth.send({"error": str(error) if str(error).startswith(work.name) else f"{work.name}: {error}"})

@@ -12,6 +12,8 @@ from OCP.TopoDS import TopoDS_Shape
 
 from tvimdesign.cad import names
 from tvimdesign.cad.assembly import drawn_part, free_spring, place
+from tvimdesign.cad.assembly_note import assembly_note
+from tvimdesign.cad.bom import bill, bill_csv
 from tvimdesign.cad.checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.drawings import part_sheet
 from tvimdesign.cad.export import glb_bytes, instances, product
@@ -21,6 +23,7 @@ from tvimdesign.cad.mesh import CHORD, spring_mesh
 from tvimdesign.cad.modes import MODULES
 from tvimdesign.cad.outcome import Check
 from tvimdesign.cad.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
+from tvimdesign.cad.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.springs import free_coil
 from tvimdesign.cad.step import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.work import Job, Work
@@ -49,6 +52,8 @@ def works(mode: str) -> list[Work]:
         Work(name=PICTURES, do=_pictures, needs=kinds),
         *clearances,
         Work(name="assembly", do=_assembly, needs=kinds, named=True),
+        Work(name="spring_sheet", do=_spring_sheet, named=True),
+        Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True),
     ]
 
 
@@ -128,13 +133,32 @@ def _assembly(job: Job) -> list[Check]:
     return []
 
 
+def _spring_sheet(job: Job) -> list[Check]:
+    """What the spring maker needs."""
+    lines = spring_lines(job.design, job.dims, job.titles)
+    _write(job.folder, names.SPRING_TABLE, spring_csv(lines))
+    _write(job.folder, names.SPRING_SHEET, spring_sheet(job.design, job.dims, lines).pdf())
+    return []
+
+
+def _bill_and_note(job: Job) -> list[Check]:
+    """What there is of each part, and how they go together."""
+    items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)))
+    _write(job.folder, names.BILL_OF_MATERIALS, bill_csv(items))
+    _write(job.folder, names.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items))
+    return []
+
+
 def _pictures(job: Job) -> list[Check]:
     """The module whole and opened, taken apart, and cut through."""
+    from tvimdesign.cad.pictures import write_exploded, write_section
     from tvimdesign.cad.preview import write_preview
 
     drawn = _solids(job.needs)
     placed = instances(job.dims, drawn, place(job.dims, drawn))
-    write_preview(job.folder / "out" / names.PREVIEW, job.dims, drawn, placed)
+    write_preview(_place(job.folder, names.PREVIEW), job.dims, drawn, placed)
+    write_exploded(_place(job.folder, names.EXPLODED), placed)
+    write_section(_place(job.folder, names.SECTION), placed)
     return []
 
 
