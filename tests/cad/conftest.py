@@ -37,7 +37,7 @@ def blocks() -> Design:
     return design_of("blocks", BLOCKS, "compression")
 
 
-@pytest.fixture(scope="session", params=["paper", "blocks"])
+@pytest.fixture(scope="session", params=["paper", pytest.param("blocks", marks=pytest.mark.slow)])
 def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
     """The parts of the paper's size in either mode."""
     folder = tmp_path_factory.mktemp("cad")

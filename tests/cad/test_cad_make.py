@@ -144,6 +144,7 @@ def test_a_name_in_any_script_survives_step(tmp_path: Path) -> None:
     assert cq.Assembly.importStep(str(tmp_path / "a.step")).name == "Gelenk ü'; #5 = 日本"
 
 
+@pytest.mark.slow
 def test_a_coil_that_cannot_be_built_names_the_spring(job: Callable[..., CadReport]) -> None:
     with pytest.raises(GeometryError, match="spring"):
         job(coil_diameter=2.1e-3)

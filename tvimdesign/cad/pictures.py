@@ -18,7 +18,7 @@ from tvimdesign.cad.render import LEGEND_HEIGHT, actors, legend, lit, poly_data,
 _ORDER = ("retainer", "housing", "peltier_pad", "pcl_arc", "pcl_block", "rotor", "spring_right", "spring_left", "link")
 """Along the axis from below; kinds that are not named come last."""
 _TOGETHER = ({"spring_right", "spring_left"},)
-_EXPLODED, _SECTION = (1100, 1500), (1800, 900)
+_EXPLODED, _SECTION = (1000, 1300), (1500, 750)
 _ROOM = 1.03
 """Picture over what is on it."""
 _FROM = (1.0, -1.35, 0.75)

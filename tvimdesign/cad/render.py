@@ -52,6 +52,7 @@ def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer
         writer = vtkPNGWriter()
         writer.SetFileName(str(beside))
         writer.SetInputConnection(image.GetOutputPort())
+        writer.SetCompressionLevel(4)
         writer.Write()
         write_whole(path, beside.read_bytes())
 

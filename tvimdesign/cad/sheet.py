@@ -165,7 +165,8 @@ class _Backend(MatplotlibBackend):
     def draw_filled_paths(self, paths: Iterable[NumpyPath2d], properties: BackendProperties) -> None:
         """Fill one letter."""
         filled = to_matplotlib_path(paths, detect_holes=False)
-        self.ax.add_patch(PathPatch(filled, color=properties.color, linewidth=0, zorder=self._get_z()))
+        # An artist and no patch: the axes would search each letter for its extremes, and the sheet's size is known.
+        self.ax.add_artist(PathPatch(filled, color=properties.color, linewidth=0, zorder=self._get_z()))
 
 
 @contextmanager
