@@ -207,14 +207,14 @@ def test_the_note_takes_every_part_in_order(module: tuple[Design, Solids]) -> No
     items = bill(design, TITLES, place(dims, solids))
     note = assembly_note(design, dims, items).decode()
     assert note.startswith(f"# Putting together: {design.name}")
-    for words in ("views/exploded.png", "views/section.png", "bom.csv", "Wind up each spring by 8.59 degrees"):
+    for words in ("views/exploded.png", "views/section.png", "bom.csv", "wound up by 8.59 degrees"):
         assert words in note
     pads = next(one.quantity for one in items if one.kind == "peltier_pad")
     assert f"the {pads} Peltier pads" in note
     assert ("pockets of the floor" in note) == (design.mode == "shear")
     steps = note[note.index("## Steps") :]
     first = [
-        steps.index(words) for words in ("Deburr", "Peltier pads", "retainer", "springs on their posts", "link to")
+        steps.index(words) for words in ("Deburr", "Peltier pads", "retainer", "ight-hand springs", "link to")
     ]
     assert first == sorted(first)
 

@@ -20,7 +20,8 @@ from tvimdesign.files import write_whole
 
 MANIFEST = "manifest.json"
 RUNNING = "running"
-_LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh")
+_LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh",
+              "ezdxf")  # fmt: skip
 
 
 class ResultsFolder:
