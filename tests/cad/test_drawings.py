@@ -213,9 +213,7 @@ def test_the_note_takes_every_part_in_order(module: tuple[Design, Solids]) -> No
     assert f"the {pads} Peltier pads" in note
     assert ("pockets of the floor" in note) == (design.mode == "shear")
     steps = note[note.index("## Steps") :]
-    first = [
-        steps.index(words) for words in ("Deburr", "Peltier pads", "retainer", "ight-hand springs", "link to")
-    ]
+    first = [steps.index(words) for words in ("Deburr", "Peltier pads", "retainer", "ight-hand springs", "link to")]
     assert first == sorted(first)
 
 
