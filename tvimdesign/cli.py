@@ -103,7 +103,7 @@ def cad(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Make the parts of a design: STEP, print files, drawings, assembly, checks; in a folder beside the run's, ending in -cad."""
+    """Make the parts of a design: STEP, print files, drawings, checks; in a folder beside the run's, ending in -cad."""
     from tvimdesign.report.run import make_parts
 
     make_parts(design, out or _default_folder(design), overwrite=overwrite, as_json=json)
