@@ -14,7 +14,7 @@ from cad_designs import design_of
 
 from tvimdesign.cad import make_cad
 from tvimdesign.cad.outcome import Check
-from tvimdesign.cad.store import Store
+from tvimdesign.cad.store import Store, user_folder
 from tvimdesign.cad.trace import Subject
 from tvimdesign.cad.work import Done, Job, Work, Workshop
 from tvimdesign.cad.works import works
@@ -119,7 +119,7 @@ def test_stuck_work_is_named_with_its_step_and_costs_only_what_needs_it(run: Run
     done = run(stuck, needing, PLATE, timeout_s=1.0)
     assert time.monotonic() - started < 10.0
     assert done.failed["bore"] == "bore: no answer in 1 s (at: cutting the bore)"
-    assert done.failed["assembly"] == "assembly: not made, for it needs bore"
+    assert done.lost == ["assembly"]
     assert list(done.results) == ["plate"]
 
 
@@ -150,6 +150,21 @@ def test_a_thicker_layer_leaves_the_pads_as_they_were(run: Run) -> None:
     assert again.failed == {}
 
 
+def test_results_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "here"))
+    assert user_folder() == tmp_path / "here"
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "file/below"))
+    assert user_folder() is None
+    monkeypatch.setenv("TVIMDESIGN_CACHE", "")
+    assert user_folder() is None
+    monkeypatch.delenv("TVIMDESIGN_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert user_folder() == tmp_path / "tvimdesign/cad"
+
+
 STUCK = """
 import sys
 import time
@@ -171,8 +186,8 @@ def test_a_part_that_never_comes_is_an_error_with_its_name_and_the_others_are_th
     (tmp_path / "stuck_job.py").write_text(STUCK.format(kind="retainer"))
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     write_design(design_of("paper", {}), tmp_path / "design.json")
-    with pytest.raises(GeometryError, match=r"^retainer: no answer in 5 s.*; the other \d+ files are in"):
-        make_cad(tmp_path / "design.json", tmp_path / "cad", part_timeout_s=5.0, job="stuck_job")
+    with pytest.raises(GeometryError, match=r"^retainer: no answer in 25 s.*; the other \d+ files are in"):
+        make_cad(tmp_path / "design.json", tmp_path / "cad", part_timeout_s=25.0, job="stuck_job")
     assert (tmp_path / "cad/step/housing.step").exists()
     assert (tmp_path / "cad/drawings/rotor.pdf").exists()
     assert not (tmp_path / "cad/step/retainer.step").exists()

@@ -48,8 +48,9 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
         files = _hand_out(done, out)
     pictures = done.failed.pop(PICTURES, "")
     if done.failed:
+        without = [f"without it there is no {', '.join(done.lost)}"] if done.lost else []
         kept = f"the other {len(files)} files are in {out}" if files else "no parts were made"
-        raise GeometryError("; ".join(done.failed.values()) + f"; {kept}")
+        raise GeometryError("; ".join([*done.failed.values(), *without, kept]))
     checks = [asdict(check) for result in done.results.values() for check in result.checks]
     notes = [f"no pictures: {pictures}"] if pictures else []
     say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)

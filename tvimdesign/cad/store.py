@@ -123,12 +123,17 @@ class Store:
 
 
 def user_folder() -> Path | None:
-    """The user's folder of kept results; None where none are to be kept."""
+    """The user's folder of kept results; None where none are to be kept, or it cannot be written."""
     named = os.environ.get(FOLDER_VARIABLE)
-    if named is not None:
-        return Path(named) if named else None
     home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
-    return Path(home) / "tvimdesign" / "cad"
+    if named == "":
+        return None
+    folder = Path(named) if named else Path(home) / "tvimdesign" / "cad"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return folder if os.access(folder, os.W_OK) else None
 
 
 def code_digest() -> str:

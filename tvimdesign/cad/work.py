@@ -62,6 +62,8 @@ class Done:
     results: dict[str, Result] = field(default_factory=dict)
     failed: dict[str, str] = field(default_factory=dict)
     """Why, for each piece of work that came to nothing; it names the work."""
+    lost: list[str] = field(default_factory=list)
+    """Work that was not begun because what it needs failed."""
     reused: list[str] = field(default_factory=list)
 
 
@@ -102,15 +104,14 @@ class Workshop:
                 _end(one.process)
                 self._store.discard(one.folder)
         in_order = [work.name for work in works if work.name in done.results]
-        return Done({name: done.results[name] for name in in_order}, done.failed, done.reused)
+        return Done({name: done.results[name] for name in in_order}, done.failed, done.lost, done.reused)
 
     def _start(self, waiting: list[Work], running: list[_Running], done: Done) -> list[Work]:
         """Start what can be started, settle what needs no doing; returns what is still waiting."""
         left = []
         for work in waiting:
-            lost = [need for need in work.needs if need in done.failed]
-            if lost:
-                done.failed[work.name] = f"{work.name}: not made, for it needs {', '.join(lost)}"
+            if any(need in done.failed or need in done.lost for need in work.needs):
+                done.lost.append(work.name)
             elif not all(need in done.results for need in work.needs):
                 left.append(work)
             elif kept := self._store.find(work.name, self._subject, self._needs(work, done)):
