@@ -86,7 +86,7 @@ def files_only(design: Path, out: Path) -> None:
     from tvimdesign.cad.job import run
 
     every = works.works
-    works.works = lambda mode: [one for one in every(mode) if not one.name.startswith(CHECKS)]
+    works.works = lambda dims: [one for one in every(dims) if not one.name.startswith(CHECKS)]
     with Path(os.devnull).open("w") as nowhere:
         run(design, out, 90.0, nowhere)
 

@@ -13,6 +13,7 @@ import pytest
 from cad_designs import design_of
 
 from tvimdesign.cad import make_cad
+from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.outcome import Check
 from tvimdesign.cad.store import Store, user_folder
 from tvimdesign.cad.trace import Subject
@@ -143,7 +144,7 @@ def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, mon
 
 
 def test_a_thicker_layer_leaves_the_pads_as_they_were(run: Run) -> None:
-    wanted = [work for work in works("shear") if work.name in {"pcl_arc", "peltier_pad"}]
+    wanted = [work for work in works(dimensions(design_of("toy", {}))) if work.name in {"pcl_arc", "peltier_pad"}]
     run(*wanted)
     again = run(*wanted, pcl_thickness=1.1e-3)
     assert again.reused == ["peltier_pad"]
@@ -204,6 +205,6 @@ def test_a_second_making_takes_over_everything_and_gives_the_same_files(
     made = {name: (tmp_path / "cad" / name).read_bytes() for name in first.files}
     shutil.rmtree(tmp_path / "cad")
     second = make_cad(tmp_path / "design.json", tmp_path / "cad")
-    assert len(second.reused) == len(works("shear"))
+    assert len(second.reused) == len(works(dimensions(design_of("paper", {}))))
     assert second.checks == first.checks
     assert {name: (tmp_path / "cad" / name).read_bytes() for name in second.files} == made

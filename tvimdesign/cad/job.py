@@ -36,6 +36,7 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     started = time.perf_counter()
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
+    from tvimdesign.cad.dimensions import dimensions
     from tvimdesign.cad.store import Store, user_folder
     from tvimdesign.cad.trace import Subject
     from tvimdesign.cad.work import Workshop
@@ -44,7 +45,7 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     with tempfile.TemporaryDirectory(prefix="tvimdesign.") as own:
         store = Store(user_folder() or Path(own))
         workshop = Workshop(Subject(design, _titles(design)), store, lambda step: say(progress=step), timeout_s)
-        done = workshop.do(works(design.mode))
+        done = workshop.do(works(dimensions(design)))
         files = _hand_out(done, out)
     pictures = done.failed.pop(PICTURES, "")
     if done.failed:

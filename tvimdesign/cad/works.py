@@ -15,6 +15,7 @@ from tvimdesign.cad.assembly import drawn_part, free_spring, place
 from tvimdesign.cad.assembly_note import assembly_note
 from tvimdesign.cad.bom import bill, bill_csv
 from tvimdesign.cad.checks import POSITIONS, clearance_checks, rest_checks
+from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.drawings import part_sheet
 from tvimdesign.cad.export import glb_bytes, instances, product
 from tvimdesign.cad.kinds import SPRINGS, kind_of
@@ -36,9 +37,9 @@ _READ_BACK = 1e-6
 """How far a part may be from what its STEP file says, relative; centroids in mm."""
 
 
-def works(mode: str) -> list[Work]:
-    """All pieces of work for a module of a mode."""
-    kinds = tuple(MODULES[mode].drawn)
+def works(dims: Dimensions) -> list[Work]:
+    """All pieces of work for a module."""
+    kinds = tuple(MODULES[dims.mode].drawn)
     parts = [Work(name=kind, do=partial(_part, kind), named=MAKING[kind].drawn) for kind in kinds]
     springs = [Work(name=kind, do=partial(_spring, kind)) for kind in SPRINGS]
     clearances = [
