@@ -4,8 +4,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
+CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
+
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad check-cad lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -33,7 +35,7 @@ $(VENV)/.bench: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,bench]'
 	@touch $@
 
-bench: $(VENV)/.bench bench-switch bench-choices  ## everything against what people would use instead, side by side (minutes)
+bench: $(VENV)/.bench bench-switch bench-choices bench-cad  ## everything against what people would use instead, side by side (minutes)
 	$(BENCH) benchmarks/optimum.py
 
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
@@ -60,15 +62,21 @@ schema: $(STAMP)  ## write the study's JSON Schema from the table, and the usual
 	$(BIN)/python -m tvimdesign.study.schema
 	$(BIN)/python -m tvimdesign.units
 
-# Of the compression module what is not in cad/ is made from its design.json: meshes and assembly would be 5 MB.
+# What is large is left out: STL beside 3MF, and of the compression module print files, drawings and the assembly.
 cad: $(STAMP)  ## write the reference parts in cad/ from the studies of the paper's modules
-	$(BIN)/tvimdesign run studies/paper_shear.yaml --out results/reference --overwrite --no-plots --no-cad
-	$(BIN)/tvimdesign cad results/reference/design.json --out cad/paper_shear --overwrite
+	$(BIN)/tvimdesign run studies/paper_shear.yaml --out results/reference --overwrite --no-plots
 	$(BIN)/tvimdesign run studies/paper_compression.yaml --out results/reference_compression --overwrite --no-plots
-	mkdir -p cad/paper_compression/parts
-	cp results/reference_compression/design.json results/reference_compression/cad/checks.json \
-	  results/reference_compression/cad/preview.png cad/paper_compression/
-	cp results/reference_compression/cad/parts/*.step cad/paper_compression/parts/
+	rm -rf cad/paper_shear cad/paper_compression
+	mkdir -p cad/paper_shear cad/paper_compression
+	cp -r $(addprefix results/reference/,design.json $(addprefix cad/,$(CAD_KEPT) print drawings assembly.step assembly.glb)) cad/paper_shear/
+	rm -f cad/paper_shear/print/*.stl
+	cp -r $(addprefix results/reference_compression/,design.json $(addprefix cad/,$(CAD_KEPT))) cad/paper_compression/
+
+check-cad: $(STAMP)  ## slice the printed parts and read the STEP files with other programs from Debian (prusa-slicer, gmsh)
+	$(BIN)/python benchmarks/check_cad.py
+
+bench-cad: $(STAMP)  ## the complete set of files, against plain calls of the CAD kernel for the same
+	$(BENCH) benchmarks/cad_files.py
 
 clean:  ## remove the environment and all results
 	rm -rf $(VENV) results build *.egg-info

@@ -23,7 +23,8 @@ def tvimdesign() -> Command:
             cwd=cwd,
             timeout=timeout,
             check=False,
-            env={**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "120"},
+            # Parts are made anew: what an earlier run has kept must not hide what this one would make.
+            env={**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "120", "TVIMDESIGN_CACHE": ""},
         )
 
     return call

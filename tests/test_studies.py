@@ -170,11 +170,12 @@ def test_the_released_parts_can_be_made_again(tvimdesign: Command, tmp_path: Pat
     released = ROOT / "cad" / name
     done = tvimdesign("cad", released / "design.json", "--out", tmp_path / "parts")
     assert done.returncode == 0, done.stderr
-    made = {path.name: path.read_bytes() for path in (tmp_path / "parts/parts").iterdir()}
-    kept = {path.name: path.read_bytes() for path in (released / "parts").iterdir()}
-    assert kept.keys() >= {part for part in made if part.endswith(".step")}, "run `make cad`"
-    for part, data in kept.items():
-        assert data == made[part], f"{part} differs: run `make cad`"
+    made = {path.name for path in (tmp_path / "parts/step").iterdir()}
+    assert {path.name for path in (released / "step").iterdir()} == made, "run `make cad`"
+    for kept in released.rglob("*"):
+        again = tmp_path / "parts" / kept.relative_to(released)
+        if kept.suffix in {".step", ".stl", ".3mf", ".dxf", ".csv", ".md"}:
+            assert kept.read_bytes() == again.read_bytes(), f"{kept.name} differs: run `make cad`"
 
 
 MADE = {"paper_as_published", "paper_shear", "paper_compression", "wrist_joint", "wrist_compression"}
@@ -190,13 +191,18 @@ def test_a_study_becomes_parts_that_pass_every_check(tvimdesign: Command, tmp_pa
     assert all(check["ok"] for check in json.loads((cad / "checks.json").read_text())["checks"])
     mode = json.loads((tmp_path / "out/design.json").read_text())["mode"]
     pcl = {"shear": "pcl_arc", "compression": "pcl_block"}[mode]
-    for part in ("housing", "rotor", "link", "retainer", pcl, "peltier_pad", "spring_left", "spring_right"):
-        for ending in ("step", "stl"):
-            assert (cad / "parts" / f"{part}.{ending}").stat().st_size > 500
-    assert (cad / "assembly.step").stat().st_size > 10_000
-    assert (cad / "assembly.glb").stat().st_size > 10_000
-    assert (cad / "preview.png").stat().st_size > 10_000
+    parts = ("housing", "rotor", "link", "retainer", pcl, "peltier_pad", "spring_left", "spring_right")
+    for part in parts:
+        assert (cad / f"step/{part}.step").stat().st_size > 500
+    for part in parts[:5]:
+        assert (cad / f"print/{part}.3mf").stat().st_size > 500
+    for part in parts[:4]:
+        assert (cad / f"drawings/{part}.pdf").stat().st_size > 10_000
+    for name in ("assembly.step", "assembly.glb", "preview.png", "views/exploded.png", "views/section.png"):
+        assert (cad / name).stat().st_size > 10_000
+    for name in ("bom.csv", "assembly.md", "springs/spring.csv", "springs/spring.pdf"):
+        assert (cad / name).stat().st_size > 500
     from_design = tvimdesign("cad", tmp_path / "out/design.json", "--out", tmp_path / "again")
     assert from_design.returncode == 0, from_design.stderr
-    same = (tmp_path / "again/parts/rotor.step").read_bytes() == (cad / "parts/rotor.step").read_bytes()
+    same = (tmp_path / "again/step/rotor.step").read_bytes() == (cad / "step/rotor.step").read_bytes()
     assert same, "the same design gave other bytes"

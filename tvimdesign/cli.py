@@ -55,7 +55,7 @@ def run(
     study: StudyFile,
     out: Out = None,
     overwrite: Overwrite = False,
-    cad: Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, STL, GLB, preview.")] = True,
+    cad: Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, 3MF, drawings, assembly.")] = True,
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
     sensitivities: Annotated[
         bool, typer.Option("--sensitivities", help="Write what every variable does to every output at the design.")
@@ -120,7 +120,7 @@ def cad(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Make the parts of a design: STEP, STL, GLB, preview, checks; in a folder beside the run's, ending in -cad."""
+    """Make the parts of a design: STEP, print files, drawings, checks; in a folder beside the run's, ending in -cad."""
     from tvimdesign.report.run import make_parts
 
     make_parts(design, out or _default_folder(design), overwrite=overwrite, as_json=json)

@@ -22,7 +22,8 @@ MANIFEST = "manifest.json"
 RUNNING = "running"
 PROGRESS = "front/progress"
 """Folder of what a run can go on from where it was killed."""
-_LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh")
+_LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh",
+              "ezdxf")  # fmt: skip
 
 
 class ResultsFolder:

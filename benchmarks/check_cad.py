@@ -1,0 +1,97 @@
+"""Opens the files of a module with programs that did not write them: a slicer, and another build of a CAD kernel.
+
+Every 3MF and STL must be manifold as it is and slice; every STEP part must have the volume its own validation property
+states. Both programs are Debian's packages `prusa-slicer` and `gmsh`; where one is not installed, that is said and the
+exit code is 3. The kernel in gmsh is OpenCASCADE too, of another version and build: another kernel is in no package.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import trimesh
+
+from tvimdesign.cad import make_cad
+
+ROOT = Path(__file__).resolve().parents[1]
+DESIGNS = [ROOT / f"cad/{name}/design.json" for name in ("paper_shear", "paper_compression")]
+WANTED = ("prusa-slicer", "gmsh")
+VOLUME = re.compile(r"VOLUME_MEASURE\(\s*([0-9.E+-]+)\)")
+SAME, MESH = 1e-6, 1e-4
+"""How far volumes may be from each other, relative: of solids; of meshes, held in single precision."""
+
+
+def main() -> int:
+    """Make the files of each design and check them; returns the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("designs", nargs="*", type=Path, default=DESIGNS)
+    missing = [name for name in WANTED if not shutil.which(name)]
+    if missing:
+        print(f"not installed: {', '.join(missing)}; on Debian: apt-get install {' '.join(missing)}")
+        return 3
+    bad = 0
+    for design in parser.parse_args().designs:
+        with tempfile.TemporaryDirectory() as folder:
+            report = make_cad(design, Path(folder))
+            print(f"{design.relative_to(ROOT) if design.is_relative_to(ROOT) else design}: {len(report.files)} files")
+            for name in report.files:
+                if name.startswith(("print/", "mesh/", "step/")):
+                    problem = _kernel(Path(folder) / name) if name.endswith(".step") else _slicer(Path(folder) / name)
+                    bad += bool(problem)
+                    print(f"  {name:28} {problem or 'as written'}")
+    print("all as written" if not bad else f"{bad} files are not read as they were written")
+    return 1 if bad else 0
+
+
+def _slicer(path: Path) -> str:
+    """Why a mesh does not slice as it is; nothing where it does."""
+    told = _run(["prusa-slicer", "--info", str(path)])
+    facts = dict(line.split(" = ") for line in told.splitlines() if " = " in line)
+    if facts.get("manifold", "").strip() != "yes":
+        return f"not manifold: {told.strip().splitlines()[-1:]}"
+    if any("repair" in name or "fixed" in name or "reversed" in name for name in facts):
+        return "was repaired when read"
+    volume, ours = float(facts["volume"]), trimesh.load_mesh(path.with_suffix(".stl")).volume
+    if abs(volume / ours - 1.0) > MESH:
+        return f"{volume} mm3, written as {ours}"
+    if path.parent.name != "print":
+        return ""
+    with tempfile.TemporaryDirectory() as folder:
+        code = Path(folder) / "part.gcode"
+        how = ["--export-gcode", "--layer-height", "0.2", "--support-material", "--output", str(code)]
+        _run(["prusa-slicer", *how, str(path)])
+        return "" if code.exists() and code.stat().st_size > 1000 else "does not slice"
+
+
+def _kernel(path: Path) -> str:
+    """Why another kernel reads another part; nothing where it reads the same volume."""
+    script = (
+        f'SetFactory("OpenCASCADE");\nv() = ShapeFromFile("{path.resolve()}");\n'
+        'Printf("solids %g", #v());\nPrintf("volume %.12g", Mass Volume{v(0)});\n'
+    )
+    with tempfile.NamedTemporaryFile("w", suffix=".geo") as file:
+        file.write(script)
+        file.flush()
+        told = _run(["gmsh", "-", file.name])
+    solids, volume = (re.search(rf"^{word} ([0-9.e+-]+)\s*$", told, re.MULTILINE) for word in ("solids", "volume"))
+    stated = VOLUME.search(re.sub(r"\n\s*", "", path.read_text()))
+    if not solids or not volume or not stated:
+        return "cannot be read"
+    if float(solids[1]) != 1 or abs(float(volume[1]) / float(stated[1]) - 1.0) > SAME:
+        return f"{solids[1]} solids, {volume[1]} mm3; the file says {stated[1]}"
+    return ""
+
+
+def _run(command: list[str]) -> str:
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300.0, check=False)
+    return done.stdout + done.stderr
+
+
+if __name__ == "__main__":
+    sys.exit(main())
