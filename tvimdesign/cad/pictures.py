@@ -13,7 +13,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from tvimdesign.cad.kinds import KINDS, kind_of
 from tvimdesign.cad.mesh import Array, Instance
-from tvimdesign.cad.render import LEGEND_HEIGHT, actors, legend, lit, poly_data, surface_actors, write_png
+from tvimdesign.cad.render import actors, legend, legend_height, lit, poly_data, surface_actors, write_png
 
 _ORDER = (
     "retainer_screw", "retainer", "adjuster_screw", "housing", "bearing_outer", "bearing_inner", "adjuster",
@@ -24,7 +24,8 @@ _TOGETHER = ({"spring_right", "spring_left"},)
 _EXPLODED, _SECTION = (1000, 1300), (1500, 750)
 _ROOM = 1.03
 """Picture over what is on it."""
-_FROM = (1.0, -1.35, 0.75)
+Triple = tuple[float, float, float]
+_FROM: Triple = (1.0, -1.35, 0.75)
 _DOWN = _FROM[2] / float(np.hypot(_FROM[0], _FROM[1]))
 _APART = 0.12
 """Gap between kinds over the module's width."""
@@ -38,8 +39,7 @@ def write_exploded(path: Path, placed: Mapping[str, Instance]) -> None:
         moved[2, 3] += lift
         for actor in actors(placed[name].mesh, moved, KINDS[kind_of(name)].colour):
             renderer.AddActor(actor)
-    _look(renderer, _FROM, _EXPLODED)
-    write_png(path, _EXPLODED, [renderer, _legend(placed, _EXPLODED[0])])
+    _write(path, renderer, placed, _FROM, _EXPLODED)
 
 
 def lifts(placed: Mapping[str, Instance]) -> dict[str, float]:
@@ -75,8 +75,7 @@ def write_section(path: Path, placed: Mapping[str, Instance]) -> None:
         if half.GetNumberOfPolys():
             for actor in surface_actors(half, KINDS[kind_of(name)].colour):
                 renderer.AddActor(actor)
-    _look(renderer, (0.0, -1.0, 0.25), _SECTION)
-    write_png(path, _SECTION, [renderer, _legend(placed, _SECTION[0])])
+    _write(path, renderer, placed, (0.0, -1.0, 0.25), _SECTION)
 
 
 def _behind(instance: Instance) -> vtkPolyData:
@@ -105,17 +104,22 @@ def _points(instance: Instance) -> Array:
 def _renderer() -> vtkRenderer:
     renderer = vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
-    renderer.SetViewport(0.0, LEGEND_HEIGHT, 1.0, 1.0)
     return renderer
 
 
-def _legend(placed: Mapping[str, Instance], width: int) -> vtkRenderer:
+def _write(
+    path: Path, renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, size: tuple[int, int]
+) -> None:
+    """Look at all there is from a direction, and write the picture with its legend."""
     kinds: Sequence[str] = list(dict.fromkeys(kind_of(name) for name in placed))
-    return legend(kinds, width)
+    below = legend_height(kinds, size)
+    renderer.SetViewport(0.0, below, 1.0, 1.0)
+    _look(renderer, from_here, size[1] * (1.0 - below) / size[0])
+    write_png(path, size, [renderer, legend(kinds, size)])
 
 
-def _look(renderer: vtkRenderer, from_here: tuple[float, float, float], size: tuple[int, int]) -> None:
-    """Look at all there is from a direction, on a picture of a size in pixels."""
+def _look(renderer: vtkRenderer, from_here: Triple, aspect: float) -> None:
+    """Look at all there is from a direction; `aspect` is height over width of what it is drawn on."""
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(0.0, 0.0, 0.0)
@@ -128,5 +132,5 @@ def _look(renderer: vtkRenderer, from_here: tuple[float, float, float], size: tu
     right = np.cross((0.0, 0.0, 1.0), towards)
     right /= np.linalg.norm(right)
     wide, high = (float(np.ptp(corners @ way)) for way in (right, np.cross(towards, right)))
-    camera.SetParallelScale(0.5 * _ROOM * max(high, wide * size[1] * (1.0 - LEGEND_HEIGHT) / size[0]))
+    camera.SetParallelScale(0.5 * _ROOM * max(high, wide * aspect))
     lit(renderer)

@@ -13,7 +13,7 @@ from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import KINDS, kind_of
 from tvimdesign.cad.mesh import Instance, solid_mesh
 from tvimdesign.cad.modes import MODULES
-from tvimdesign.cad.render import LEGEND_HEIGHT, actors, legend, lit, write_png
+from tvimdesign.cad.render import actors, legend, legend_height, lit, write_png
 
 _SIZE = (1800, 800)
 _CUT = ("housing", "rotor")
@@ -25,12 +25,13 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
     opened = {name: instance for name, instance in placed.items() if name not in _HIDDEN}
     for name in _CUT:
         opened[name] = Instance(solid_mesh(_without_quarter(drawn[name], dims)), np.eye(4))
+    kinds = MODULES[dims.mode].kinds(dims)
     views = []
     for left, right, shown in ((0.0, 0.5, placed), (0.5, 1.0, opened)):
         renderer = _view(shown, dims)
-        renderer.SetViewport(left, LEGEND_HEIGHT, right, 1.0)
+        renderer.SetViewport(left, legend_height(kinds, _SIZE), right, 1.0)
         views.append(renderer)
-    write_png(path, _SIZE, [*views, legend(MODULES[dims.mode].kinds(dims), _SIZE[0])])
+    write_png(path, _SIZE, [*views, legend(kinds, _SIZE)])
 
 
 def _without_quarter(solid: cq.Solid, dims: Dimensions) -> cq.Solid:

@@ -29,10 +29,9 @@ from tvimdesign.cad.kinds import KINDS, Rgb
 from tvimdesign.cad.mesh import Array, Mesh
 from tvimdesign.files import write_whole
 
-LEGEND_HEIGHT = 0.1
 _EDGE_ANGLE = 30.0
-_COLUMN = 210
-"""Least width of a name in the legend [pixels]."""
+_COLUMN, _LINE = 210, 45
+"""Least width and height of a name in the legend [pixels]."""
 
 
 def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer]) -> None:
@@ -139,15 +138,24 @@ def _text(text: str, x: int, y: int, background: Rgb | None) -> vtkTextActor:
     return actor
 
 
-def legend(kinds: Sequence[str], width: int) -> vtkRenderer:
-    """A strip with the names of the parts in their colours."""
+def legend_height(kinds: Sequence[str], size: tuple[int, int]) -> float:
+    """Share of a picture's height that the names of some kinds take."""
+    return (_LINE * _lines(kinds, size[0]) + 15) / size[1]
+
+
+def _lines(kinds: Sequence[str], width: int) -> int:
+    return ceil(len(kinds) / min(len(kinds), max(1, width // _COLUMN)))
+
+
+def legend(kinds: Sequence[str], size: tuple[int, int]) -> vtkRenderer:
+    """A strip below a picture of a size in pixels, with the names of the parts in their colours."""
     renderer = vtkRenderer()
-    renderer.SetViewport(0.0, 0.0, 1.0, LEGEND_HEIGHT)
+    renderer.SetViewport(0.0, 0.0, 1.0, legend_height(kinds, size))
     renderer.SetBackground(1.0, 1.0, 1.0)
-    columns = min(len(kinds), max(1, width // _COLUMN))
-    rows = ceil(len(kinds) / columns)
+    rows = _lines(kinds, size[0])
+    columns = ceil(len(kinds) / rows)
     for index, kind in enumerate(kinds):
-        x, y = round((index % columns + 0.12) * width / columns), 30 + 45 * (rows - 1 - index // columns)
+        x, y = round((index % columns + 0.12) * size[0] / columns), 15 + _LINE * (rows - 1 - index // columns)
         renderer.AddViewProp(_text("     ", x, y, KINDS[kind].colour))
         renderer.AddViewProp(_text(kind.replace("_", " "), x + 42, y, None))
     return renderer
