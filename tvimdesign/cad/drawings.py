@@ -27,6 +27,8 @@ _CALL_OUTS = 228.0
 """Where the texts beside the plan begin [mm]."""
 _OVER_TITLE = 80.0
 """Height on the sheet above which there is room beside the plan [mm]."""
+_CORNER = 2.0
+"""Radius up to which an arc is the corner of a pocket [mm]."""
 _TOLERANCES = "ISO 2768-m if machined; ±0.3 mm if printed (assumed: print one and measure)"
 
 
@@ -200,7 +202,8 @@ def _call_out(plan: Placed, found: Sequence[Cylinder], solid: cq.Solid) -> None:
     for one in found:
         if not (one.is_central and one.is_round):
             pitch = round(hypot(one.x, one.y), 4)
-            key = (one.radius, pitch, one.bottom, one.top, one.concave, one.is_round)
+            place = () if _is_corner(one) else (pitch, one.bottom, one.top)
+            key = (round(one.radius, 6), *place, one.concave, one.is_round)
             alike.setdefault(key, []).append(one)
     groups = sorted(alike.values(), key=lambda group: _pointed_at(group)[1])
     box = solid.BoundingBox()
@@ -230,6 +233,8 @@ def _pointed_at(group: Sequence[Cylinder]) -> tuple[float, float]:
 def _said_of(group: Sequence[Cylinder], bottom: float, top: float) -> str:
     """What a call-out says: how many, how large, where, and between which heights."""
     one = group[0]
+    if _is_corner(one):
+        return f"{len(group)}× R{_figure(one.radius)} inner corners"
     size = (
         f"⌀{_figure(2.0 * one.radius)}"
         if one.is_round
@@ -240,6 +245,11 @@ def _said_of(group: Sequence[Cylinder], bottom: float, top: float) -> str:
     deep = "through" if through else f"h {_figure(one.bottom - bottom)} to {_figure(one.top - bottom)}"
     many = f"{len(group)}× " if len(group) > 1 else ""
     return ", ".join(filter(None, (f"{many}{size} {what}", _where(group), deep)))
+
+
+def _is_corner(one: Cylinder) -> bool:
+    """Whether it is the rounded corner of a pocket, whose place its walls say."""
+    return one.concave and not one.is_round and one.radius <= _CORNER
 
 
 def _where(group: Sequence[Cylinder]) -> str:
