@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from tvimdesign.solve.backend import ca
@@ -41,8 +42,10 @@ def newton_step(unknowns: Any, equations: Any) -> Any:
     return ca.vertcat(*(unknowns[i] - steps[i] for i in range(count)))
 
 
-def _cost(rows: list[dict[int, Any]], pivot: int, open_rows: set[int]) -> int:
-    """Entries that eliminating a row may fill."""
+def _cost(rows: list[dict[int, Any]], pivot: int, open_rows: set[int]) -> float:
+    """Entries that eliminating a row may fill; a row without a diagonal waits until others have filled it."""
+    if pivot not in rows[pivot]:
+        return math.inf
     across = sum(j in open_rows for j in rows[pivot]) - 1
     down = sum(pivot in rows[i] for i in open_rows) - 1
     return across * down

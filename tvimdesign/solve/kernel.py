@@ -50,7 +50,9 @@ class Kernel:
         return found
 
     def run(self, given: Array, found: Array, start: int = 0, end: int | None = None) -> None:
-        """Fill `found` from column `start` to `end`; both arrays contiguous, with as many columns."""
+        """Fill `found` from column `start` to `end`; both arrays contiguous row by row, with as many columns."""
+        if not (given.flags.c_contiguous and found.flags.c_contiguous and given.shape[1] == found.shape[1]):
+            raise ValueError("a kernel reads and writes arrays that are contiguous row by row, with as many columns")
         count = given.shape[1]
         last = count if end is None else end
         whole = start + (last - start) // LANES * LANES
@@ -61,6 +63,13 @@ class Kernel:
             after = np.empty((self.rows_out, LANES))
             self._code(rest.ctypes.data, after.ctypes.data, LANES, LANES, 0, LANES)
             found[:, whole:last] = after[:, : last - whole]
+
+
+def stacked(*parts: Array) -> Array:
+    """Rows one below the other, contiguous as a kernel wants them; numpy's own follows the order of the parts."""
+    found = np.empty((sum(len(part) for part in parts), parts[0].shape[1]))
+    np.concatenate(parts, out=found)
+    return found
 
 
 def of_columns(function: Any, base: Sequence[Array], moving: Sequence[tuple[int, int]]) -> Any:

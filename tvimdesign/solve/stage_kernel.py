@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.elimination import newton_step
-from tvimdesign.solve.kernel import Kernel
+from tvimdesign.solve.kernel import Kernel, stacked
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.stage_model import StageModel
 
@@ -36,6 +36,8 @@ class Steps:
     """Steps after which events are looked for."""
     close: int
     """Steps into which the one with an event is divided again."""
+    first: float = 1.0
+    """Length of the first window's steps over the others'; each window after it doubles them."""
     newton: int = 1
     """Newton steps for each stage of the method."""
 
@@ -113,7 +115,7 @@ class StageKernel:
         """Go through the stage; `before` are the states it starts from, where that is not everything at ambient."""
         count = columns.shape[1]
         constants = self._constants(columns)
-        state = self._begin(columns if before is None else np.vstack([columns, before]))
+        state = self._begin(columns if before is None else stacked(columns, before))
         march = _March(self, state, constants)
         times = np.full((len(self.events), count), np.inf)
         passage = Passage({}, np.full((self.size, count), np.nan))
@@ -123,7 +125,8 @@ class StageKernel:
         times[begun] = 0.0
         if self.ends is not None:
             passage.end[:, begun[self.ends]] = state[:, begun[self.ends]]
-        step = pace / self.steps.of_pace
+        usual = pace / self.steps.of_pace
+        step = self.steps.first * usual
         while march.time < self.horizon and not np.all(np.isfinite(times) | lost):
             window = march.window(min(step, (self.horizon - march.time) / self.steps.in_window))
             for event in range(len(self.events)):
@@ -134,8 +137,8 @@ class StageKernel:
                 times[event, here] = found.times
                 if event == self.ends:
                     passage.end[:, here], sums[:, here] = found.states, found.sums
-            if march.time > _LATE * pace:
-                step *= _GROWTH
+            lost |= np.isnan(march.state[0])
+            step = step * _GROWTH if march.time > _LATE * pace else min(2.0 * step, usual)
         # A maximum is one even of a stage that never ends, as in the simulator.
         highest = np.maximum(march.sums, -np.inf)
         sums = np.where(np.isinf(sums) & ~self.integrals[:, None], highest, sums) if self.paths else sums
@@ -151,10 +154,10 @@ class StageKernel:
             return dict.fromkeys(self.steadies, np.full(count, np.inf))
         now = np.repeat(balance[:, None], count, axis=1)
         for _ in range(_NEWTON_OF_BALANCE):
-            last, now = now, self._rest(np.vstack([now, columns]))
+            last, now = now, self._rest(stacked(now, columns))
         with np.errstate(invalid="ignore"):
             exists = (np.max(np.abs(now - last), axis=0) < _AT_REST) & ~np.isnan(end[0])
-        found = self._steady(np.vstack([now, columns]))
+        found = self._steady(stacked(now, columns))
         return {name: np.where(exists, found[i], np.inf) for i, name in enumerate(self.steadies)}
 
 
@@ -189,7 +192,7 @@ class _March:
 
     def watched(self, state: Array, constants: Array | None = None) -> Array:
         """What the kernels of gaps and samples take."""
-        return np.vstack([state, self.constants if constants is None else constants])
+        return stacked(state, self.constants if constants is None else constants)
 
     def _sampled(self, state: Array, constants: Array) -> Array:
         kernel = self.stage._samples
@@ -216,8 +219,8 @@ class _March:
     def _step(self, state: Array, constants: Array, step: Array) -> Array:
         """One step of SDIRK2: two implicit stages, the second is the result."""
         size, newton = self.stage.size, self.stage._newton
-        given = np.vstack([state, state, GAMMA * step[None, :], constants])
-        after = np.empty_like(state)
+        given = stacked(state, state, GAMMA * step[None, :], constants)
+        after = np.empty(state.shape)
         for _ in range(self.stage.steps.newton):
             newton.run(given, after)
             given[:size] = after
