@@ -82,4 +82,3 @@ def of_columns(function: Any, base: Sequence[Array], moving: Sequence[tuple[int,
     for i, (argument, entry) in enumerate(moving):
         arguments[argument][entry] = free[i]
     return ca.Function("moving", [free], function.call(arguments, True, False))
-

@@ -40,7 +40,14 @@ class Pace:
 class SwitchKernel:
     """The supplied rows of many designs of one model, as functions of some of its inputs."""
 
-    def __init__(self, model: Model, moving: Sequence[str], wanted: Collection[str], steps: Steps = STEPS, freezing: Steps = FREEZING) -> None:
+    def __init__(
+        self,
+        model: Model,
+        moving: Sequence[str],
+        wanted: Collection[str],
+        steps: Steps = STEPS,
+        freezing: Steps = FREEZING,
+    ) -> None:
         """Compile what the wanted supplied rows need; all inputs but the `moving` are constants."""
         self.model = model
         rows = {row.name: row for row in model.table.supplied if row.name in wanted}
