@@ -48,7 +48,7 @@ class Requirement(_Part):
 
 
 class Tolerance(_Part):
-    """How far one input lies from what is drawn, to either side: one of `plus_minus`, `share` of its value, or `row`."""
+    """How far one input lies from what is drawn, to either side: `plus_minus`, a `share` of its value, or a `row`."""
 
     plus_minus: float | None = None
     share: float | None = None

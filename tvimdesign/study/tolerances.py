@@ -1,4 +1,4 @@
-"""Reads the sections `tolerances` and `robust`: how far inputs lie from what is drawn, and what must hold all the same."""
+"""Reads the sections `tolerances` and `robust`: how far inputs lie from what is drawn, and what must hold anyway."""
 
 from __future__ import annotations
 
@@ -109,7 +109,8 @@ def _input(reading: Reading, key: Text, path: str, name: str, points: Collection
 
 def _forms(row: Input) -> str:
     unit = difference_unit(row.unit)
-    return f"a plus-minus value such as '0.1{'' if unit == '1' else ' ' + unit}' or '5 %', or {{plus_minus: ...}}"
+    share = "" if row.unit == "degC" else " or '5 %'"
+    return f"a plus-minus value such as '0.1{'' if unit == '1' else ' ' + unit}'{share}, or {{plus_minus: ...}}"
 
 
 def _tolerance(reading: Reading, node: Node, path: str, row: Input, standard: Tolerance | None) -> Tolerance | None:
@@ -170,6 +171,9 @@ def _read_size(reading: Reading, node: Node, path: str, row: Input) -> dict[str,
     if value < 0.0 or (share and value >= 100.0):
         limit = "0 to 100 %" if share else "0 or more: it counts to either side"
         reading.problems.add(node, path, f"{quoted(word)} cannot be a tolerance", limit)
+        return None
+    if share and row.unit == "degC":
+        reading.problems.add(node, path, f"{quoted(word)}: a temperature has no share", _forms(row))
         return None
     if not share and row.upper - row.lower < value:
         span = f"{format_quantity(row.lower, row.unit)} to {format_quantity(row.upper, row.unit)}"
