@@ -118,6 +118,8 @@ class Optimizer:
         rows = {current.row for current in self.currents}
         numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
         self.free = tuple(self._free(name) for name in numbers)
+        self.margins: dict[str, float] = {}
+        """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
         self.problem = self._problem(limits_of(study, table))
         self.start_switch = self.simulator.run(self.model.start, stages=self.problem.stages)
         self.start_values = self.model.values(self.model.start, self.start_switch.values)
@@ -166,7 +168,13 @@ class Optimizer:
                 )
         kept = [limit for limit in limits if limit not in constant]
         elements = self.study.solver.elements
-        return Problem(self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents)
+        minimize = tuple(self.study.minimize)
+        reserves = None
+        if self.study.robust:
+            from tvimdesign.solve.reserves import reserves_of
+
+            reserves = reserves_of(self.model, self.study, kept)
+        return Problem(self.model, self.free, kept, minimize, elements, self.currents, reserves)
 
     def _variables_behind(self, name: str) -> list[str]:
         above = self.table.ancestors(name)
@@ -302,10 +310,11 @@ class Optimizer:
         goal = goal or Goal(self.study.minimize)
         equations = self.problem.equation_count
         rest = self.problem.slope_count + self.problem.peak_count
+        within = np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
         answer = solver(
             **arguments, p=self._parameters(goal.weights), lbx=lower, ubx=upper,
             lbg=np.concatenate([np.zeros(equations), np.full(len(self.problem.limits) + rest, -np.inf)]),
-            ubg=np.concatenate([np.zeros(equations), goal.room(self.problem.limits), np.zeros(rest)]),
+            ubg=np.concatenate([np.zeros(equations), goal.room(self.problem.limits) - within, np.zeros(rest)]),
         )  # fmt: skip
         stats = solver.stats()
         if stats["return_status"] == "User_Requested_Stop":  # an interrupt that reached IPOPT first

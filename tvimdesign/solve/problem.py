@@ -7,7 +7,7 @@ was built. Unknowns that are positive throughout are logarithms of their ratio t
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -94,14 +94,19 @@ class Problem:
         minimize: Sequence[str],
         elements: int,
         currents: Sequence[FreeCurrent] = (),
+        reserves: Callable[[Any], dict[str, Any]] | None = None,
     ) -> None:
-        """Write objective and constraints. `minimize` names the outputs whose weighted sum is least."""
+        """Write objective and constraints. `minimize` names the outputs whose weighted sum is least.
+
+        `reserves` gives, for the device's inputs, what is added to the residuals of some limits, by name.
+        """
         self.model = model
         self.free = tuple(free)
         self.limits = tuple(limits)
         self.minimize = tuple(minimize)
         self._elements = elements
         self.free_currents = tuple(currents)
+        self._reserves = reserves
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self._check()
         self._build()
@@ -119,7 +124,10 @@ class Problem:
         wanted = self.wanted
         values = self.model.outputs(wanted)(device_inputs, switch) if wanted else ca.MX(0, 1)
         objective = sum(weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
-        rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
+        reserves = self._reserves(device_inputs) if self._reserves else {}
+        rows = [
+            limit.residual(values[wanted.index(limit.output)]) + reserves.get(limit.name, 0.0) for limit in self.limits
+        ]
         equations = ca.vertcat(*(block.equations for block in self.blocks), *(b.equations for b in self.balances))
         slopes = self._slopes(device_inputs)
         everything = ca.vertcat(
