@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.device import Swing
 from tvimdesign.errors import InputError
 from tvimdesign.solve import spread
 from tvimdesign.solve.contributors import FREE_ANGLE, contributors_of
@@ -42,6 +41,8 @@ class Spread:
 
     contributors: tuple[spread.Contributor, ...]
     outputs: tuple[str, ...]
+    asked: tuple[str, ...]
+    """Those the study minimises or requires, or that a summary shows."""
     nominal: Array
     derivatives: Array
     """Exact, SI over SI."""
@@ -71,6 +72,7 @@ class Preload:
     """What is left where it can be adjusted [rad]."""
     over_stroke: float
     yield_as_bought: spread.Yield
+    """Modules that keep all limits that change with the free angle."""
     yield_adjusted: spread.Yield
     by_row: str
     """The output that gives the tolerance; empty where the study states it."""
@@ -86,19 +88,37 @@ class Tolerancing:
         # A free angle that is adjusted out altogether still has a column: it is compared with one that is not.
         names = [name for name in rig.study.tolerances if self._ever(name)]
         if not names:
-            raise InputError(f"{rig.study.name}: nothing spreads; give `tolerances: standard`, or tolerances of your own")
+            raise InputError(
+                f"{rig.study.name}: nothing spreads; give `tolerances: standard`, or tolerances of your own"
+            )
         self.limits = [limit for limit in limits_of(rig.study, rig.table) if self._moves(limit.output, names)]
-        wanted = dict.fromkeys([*rig.study.minimize, *(limit.output for limit in self.limits)])
-        wanted = {name: None for name in wanted if not isinstance(rig.table.row(name), Swing)}
+        wanted = dict.fromkeys([*self._asked(), *(limit.output for limit in self.limits)])
         options = rig.study.solver
         progress("differentiating the outputs by what spreads")
         exact = elasticities(rig, _FINER * options.elements, options.cells, list(wanted), names)
         progress("compiling the module for many designs")
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
+        self.asked = tuple(name for name in dict.fromkeys(self._asked()) if name in self.outputs)
         self.limits = [limit for limit in self.limits if limit.output in self.outputs]
         self.many = ManyModules(rig, names, self.outputs)
         self.horizon = float(rig.values["horizon"])
+
+    def _asked(self) -> list[str]:
+        """What the study minimises and requires; of one that asks for nothing, what a summary shows up to the switch.
+
+        What comes after the switch costs ten times as much, and is looked at where it is asked for.
+        """
+        study, table = self.rig.study, self.rig.table
+        asked = [*study.minimize, *(limit.output for limit in self.limits if limit.origin == "require")]
+        if study.minimize or study.require:
+            return asked
+        names = (name for name in table.names(self.rig.points) if table.output(name).headline)
+        later = {row.name for row in table.supplied if table.stage(row.stage).after}
+        return [
+            name for name in names
+            if self._moves(name, list(study.tolerances)) and not later & {name, *table.ancestors(name)}
+        ]  # fmt: skip
 
     def _ever(self, name: str) -> bool:
         return any(contributor.name == name for contributor in contributors_of(self.rig, adjusted=False))
@@ -108,15 +128,20 @@ class Tolerancing:
         above = {output.partition("@")[0], *self.rig.table.ancestors(output)}
         return any(name.partition("@")[0] in above for name in names)
 
-    def _function(self, contributors: Sequence[spread.Contributor]) -> spread.Columns:
+    def _on_preload(self, limit: Limit) -> bool:
+        """Whether a limit is on an output that changes with the free angle."""
+        return bool(self.exact[self.outputs.index(limit.output), self.names.index(FREE_ANGLE)] != 0.0)
+
+    def _function(self, contributors: Sequence[spread.Contributor], many: ManyModules | None = None) -> spread.Columns:
         """Outputs as a function of these contributors, all others as drawn."""
+        compiled = many or self.many
         place = [self.names.index(contributor.name) for contributor in contributors]
         drawn = np.array([float(self.rig.values[name]) for name in self.names])
 
         def outputs(columns: Array) -> Array:
             every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
             every[place] = columns
-            return self.many(every, self.workers)
+            return compiled(every, self.workers)
 
         return outputs
 
@@ -135,11 +160,12 @@ class Tolerancing:
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
         kept, together = self._kept(drawn)
         return Spread(
-            tuple(contributors), self.outputs, self.nominal, derivatives, deviation, shares, worst, drawn, first,
+            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, drawn, first,
             total, kept, together, self.left_out,
         )  # fmt: skip
 
     def _kept(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:
+        """Each limit, and all together."""
         found = []
         every = np.ones(drawn.values.shape[1], dtype=bool)
         for limit in self.limits:
@@ -152,16 +178,22 @@ class Tolerancing:
         return tuple(found), spread.share_kept(every)
 
     def preload(self, samples: int, seed: int) -> Preload | None:
-        """The free angle as bought and adjusted; None where the study gives it no tolerance, or no adjustment."""
+        """The free angle as bought and adjusted; None where the study gives it no tolerance, or nothing hangs on it."""
         tolerance = self.rig.study.tolerances.get(FREE_ANGLE)
         if tolerance is None or FREE_ANGLE not in self.names:
             return None
         self.progress("adjusting the preload")
+        limits = [limit for limit in self.limits if self._on_preload(limit)]
+        if not limits:
+            return None
+        outputs = list(dict.fromkeys(limit.output for limit in limits))
+        many = ManyModules(self.rig, self.names, outputs)
         sizes, yields = [], []
         for adjusted in (False, True):
             contributors = contributors_of(self.rig, adjusted)
-            drawn = spread.monte_carlo(self._function(contributors), contributors, samples, seed)
-            yields.append(self._kept(drawn)[1])
+            drawn = spread.monte_carlo(self._function(contributors, many), contributors, samples, seed)
+            kept = [limit.residual(drawn.values[outputs.index(limit.output)]) <= 0.0 for limit in limits]
+            yields.append(spread.share_kept(np.all(kept, axis=0)))
             sizes.append(next((one.plus_minus for one in contributors if one.name == FREE_ANGLE), 0.0))
         stroke = abs(float(self.rig.values["stroke"]))
         return Preload(sizes[0], sizes[1], sizes[0] / stroke, yields[0], yields[1], tolerance.row or "")
