@@ -23,11 +23,8 @@ def contributors_of(rig: Rig, adjusted: bool | None = None) -> list[spread.Contr
         if tolerance.adjustable if adjusted is None else adjusted and can_be:
             size = min(size, tolerance.adjusted_to or 0.0)
         if size > 0.0:
-            found.append(
-                spread.Contributor(
-                    name, value, size, tolerance.distribution, tolerance.sigma, row.lower, row.upper
-                )  # fmt: skip
-            )
+            kind, sigma = tolerance.distribution, tolerance.sigma
+            found.append(spread.Contributor(name, value, size, kind, sigma, row.lower, row.upper))
     return found
 
 

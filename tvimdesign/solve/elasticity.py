@@ -65,7 +65,7 @@ class Elasticities:
 def elasticities(
     rig: Rig, elements: int, cells: int, wanted: Sequence[str], by: Sequence[str] | None = None
 ) -> Elasticities:
-    """Differentiate the wanted outputs by every variable of the module, or `by` these inputs. Raises SimulationError."""
+    """Differentiate the wanted outputs by every variable of the module, or `by` some inputs. Raises SimulationError."""
     model = Model(rig.table, rig.values, rig.points, cells)
     simulator = Simulator(model)
     switch = simulator.run(model.start, rig.drives)

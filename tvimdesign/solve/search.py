@@ -71,8 +71,9 @@ def _robust(optimizer: Optimizer, run: Run, starts: list[Start]) -> tuple[Optimi
 
     sizes = {name: float(value) for name, value in run.start.choices.items() if name in optimizer.model.index}
     found = settle(optimizer, run, sizes)
-    same = {"number": run.start.number, "choices": run.start.choices, "begin": run.start.begin}
-    found.start = starts[run.start.number] = replace(found.start, **same)
+    begun = run.start
+    found.start = replace(found.start, number=begun.number, choices=begun.choices, begin=begun.begin)
+    starts[begun.number] = found.start
     return optimizer, found
 
 

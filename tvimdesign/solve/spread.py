@@ -57,7 +57,8 @@ class Contributor:
             drawn = self.nominal + self.deviation * ndtri(share)
         else:
             drawn = self.nominal + self.plus_minus * (2.0 * np.asarray(share) - 1.0)
-        return np.clip(drawn, self.lower, self.upper)
+        inside: Array = np.clip(drawn, self.lower, self.upper)
+        return inside
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -179,9 +180,10 @@ def sobol_indices(
         values = function(np.ascontiguousarray(columns))
         return np.where(np.isfinite(values), values, instead)
 
+    dists: list[Any] = list(contributors)
     with np.errstate(invalid="ignore", divide="ignore"):
         found = stats.sobol_indices(
-            func=finite, n=samples, dists=list(contributors), rng=np.random.default_rng(seed)
+            func=finite, n=samples, dists=dists, rng=np.random.default_rng(seed)
         )  # fmt: skip
     return np.nan_to_num(np.atleast_2d(found.first_order)), np.nan_to_num(np.atleast_2d(found.total_order))
 

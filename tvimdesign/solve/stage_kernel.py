@@ -232,7 +232,7 @@ class _March:
             given[:size] = after
         return after
 
-    def close(self, window: _Window, event: int, here: Array, paths: bool) -> _Close:
+    def close(self, window: _Window, event: int, here: NDArray[np.intp], paths: bool) -> _Close:
         """Find the moment in a window at which some designs pass an event: halve, then go in smaller steps."""
         constants = self.constants[:, here]
         states = np.array([state[:, here] for state in window.states])

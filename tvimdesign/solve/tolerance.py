@@ -145,7 +145,7 @@ class Tolerancing:
 
         return outputs
 
-    def spread(self, samples: int, seed: int) -> Spread:
+    def analyse(self, samples: int, seed: int) -> Spread:
         """Worst case, root-sum-square and Monte Carlo, side by side."""
         contributors = self.contributors
         function = self._function(contributors)
@@ -160,8 +160,8 @@ class Tolerancing:
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
         kept, together = self._kept(drawn)
         return Spread(
-            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, drawn, first,
-            total, kept, together, self.left_out,
+            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, drawn,
+            first, total, kept, together, self.left_out,
         )  # fmt: skip
 
     def _kept(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:

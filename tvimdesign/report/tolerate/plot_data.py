@@ -15,12 +15,14 @@ _PARTS = 6
 """Contributors with a colour of their own; the rest is one."""
 _PANELS = 6
 _BINS = 60
+_REACH = 5.0
+"""Half of a histogram's axis over the span of the middle half of all modules."""
 
 
 def figure_data(found: Spread, table: Table) -> dict[str, Any]:
     """Shares of the contributors for what is asked and minimised, and histograms of what is kept least."""
     shown = [i for i, name in enumerate(found.outputs) if name in found.asked and spreads(found, i)]
-    order = np.argsort(-np.sum(found.shares[shown], axis=0), kind="stable") if shown else []
+    order = np.argsort(-np.sum(found.shares[shown], axis=0), kind="stable")
     parts = [
         {"name": found.contributors[j].name, "shares": [100.0 * float(found.shares[i, j]) for i in shown]}
         for j in order[:_PARTS]
@@ -41,7 +43,9 @@ def _panel(found: Spread, table: Table, i: int) -> dict[str, Any]:
     values = found.drawn.values[i]
     kept = values[np.isfinite(values)]
     # What one in a thousand modules has would press all others into one bar.
-    ends = np.quantile(kept, [0.0005, 0.9995])
+    low, quarter, middle, most, high = np.quantile(kept, [0.0005, 0.25, 0.5, 0.75, 0.9995])
+    reach = _REACH * (most - quarter)
+    ends = (max(low, middle - reach), min(high, middle + reach)) if reach > 0.0 else (low, high)
     counts, edges = np.histogram(kept, bins=_BINS, range=(float(ends[0]), float(ends[1])))
     limits = [k.limit.limit for k in found.kept if k.limit.output == name]
     span = (2.0 * edges[0] - edges[-1], 2.0 * edges[-1] - edges[0])

@@ -122,7 +122,7 @@ def _optimum(study: Study, progress: Progress) -> Design:
 def _analysed(rig: Rig, samples: int, workers: int, progress: Progress) -> tuple[Spread, Preload | None]:
     analysis = Tolerancing(rig, progress, workers)
     seed = rig.study.solver.seed
-    return analysis.spread(samples, seed), analysis.preload(samples, seed)
+    return analysis.analyse(samples, seed), analysis.preload(samples, seed)
 
 
 def _price(before: Spread, after: Spread, table: Table, study: Study) -> list[dict[str, Any]]:

@@ -116,7 +116,8 @@ def _caveats(found: Spread) -> Iterator[str]:
         yield f"Not linear within the tolerances, so trust Monte Carlo rather than root-sum-square: {', '.join(bent)}."
     turned = [name for i, name in enumerate(found.outputs) if spread[i] and not found.worst.by_sign[i]]
     if turned:
-        yield f"Not monotonic within the tolerances: the worst corner is not where derivatives point: {', '.join(turned)}."
+        names = ", ".join(turned)
+        yield f"Not monotonic within the tolerances, so the worst corner is not where derivatives point: {names}."
     never = [
         f"{name} {100 * found.drawn.never[i]:.2g} %" for i, name in enumerate(found.outputs) if found.drawn.never[i]
     ]
