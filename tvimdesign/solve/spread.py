@@ -180,6 +180,10 @@ def sobol_indices(
         values = function(np.ascontiguousarray(columns))
         return np.where(np.isfinite(values), values, instead)
 
+    if len(contributors) == 1:  # all there is; scipy asks for two
+        values = finite(np.array([contributors[0].ends]))
+        alone = (values[:, :1] != values[:, 1:]).astype(float)
+        return alone, alone
     dists: list[Any] = list(contributors)
     with np.errstate(invalid="ignore", divide="ignore"):
         found = stats.sobol_indices(
