@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench-switch lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench-switch bench-sweep lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -29,6 +29,9 @@ test-slow: $(STAMP)  ## the long tests alone
 
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/switch.py
+
+bench-sweep: $(STAMP)  ## designs a second through compiled equations, and through what else there is
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/sweep.py
 
 lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
 	$(BIN)/ruff check .
