@@ -7,9 +7,11 @@ from statistics import NormalDist
 import pytest
 
 from tvimdesign.device import MODES, Input, table_for
-from tvimdesign.study import Study, StudyError, read_study_text, standard_tolerances
+from tvimdesign.study import Robust, Study, StudyError, read_study_text, standard_tolerances
 from tvimdesign.study.tolerances import standard_entries
 from tvimdesign.units import parse_quantity
+
+SEARCH = "vary: {current: [0.5 A, 2 A]}\nminimize: module_mass\n"
 
 
 def _read(text: str) -> Study:
@@ -58,16 +60,17 @@ def _size(written: str, unit: str) -> float:
 
 
 def test_robust_is_a_count_of_deviations_or_a_yield() -> None:
-    assert _read("tolerances: standard\nrobust: {sigma: 2.5}").robust.sigma == 2.5  # type: ignore[union-attr]
-    robust = _read("tolerances: standard\nrobust: {yield: 97.72498680518208 %}").robust
+    asked = f"{SEARCH}tolerances: standard\nrobust: "
+    assert _read(asked + "{sigma: 2.5}").robust == Robust(sigma=2.5)
+    robust = _read(asked + "{yield: 97.72498680518208 %}").robust
     assert robust is not None
     assert robust.sigma == pytest.approx(2.0)
     assert NormalDist().cdf(robust.sigma) == pytest.approx(robust.share)
-    assert _read("tolerances: standard\nrobust:").robust is None
+    assert _read(asked).robust is None
 
 
 def test_a_study_with_tolerances_survives_json() -> None:
-    study = _read("tolerances: standard\nrobust: {sigma: 2}")
+    study = _read(f"{SEARCH}tolerances: standard\nrobust: {{sigma: 2}}")
     assert Study.model_validate_json(study.model_dump_json()) == study
 
 
@@ -99,6 +102,7 @@ def test_a_study_with_tolerances_survives_json() -> None:
         ("tolerances: {wire_diameter: {plus_minus: 1 mm, distribution: gauss}}", "no such distribution: 'gauss'"),
         ("tolerances: {wire_diameter: {plus_minus: 1 mm, adjusted_to: 5 %}}", "is a share; expected a value in mm"),
         ("tolerances: {wire_diameter: {plus_minus: 1 mm, adjust: true}}", "no such key"),
+        ("tolerances: standard\nrobust: {sigma: 3}", "3:9: robust: nothing may change: `vary` is missing"),
         ("robust: {sigma: 3}", "robust: there is nothing to be robust against: `tolerances` is missing"),
         ("tolerances: standard\nrobust: {sigma: 3, yield: 0.9}", "3:9: robust: both 'sigma' and 'yield'"),
         ("tolerances: standard\nrobust: {sigma: 9}", "robust.sigma: 9 is out of range"),

@@ -60,6 +60,7 @@ def settle(optimizer: Optimizer, run: Run, fixed: dict[str, float]) -> Run:
         margins = _margins(optimizer, run)
         before = optimizer.margins
         optimizer.margins = margins
+        _tell_what_is_not(optimizer, margins)
         if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
             return run
         optimizer.progress("staying within the limits on times by what they spread")
@@ -67,6 +68,14 @@ def settle(optimizer: Optimizer, run: Run, fixed: dict[str, float]) -> Run:
         if not run.start.converged:
             run = optimizer.solve(fixed, begin=run.inputs)
     return run
+
+
+def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
+    """Name the limits whose spread is not known: they are kept as drawn, no more."""
+    on_cycle = (limit for limit in optimizer.problem.limits if on_switch(optimizer.table, limit.output))
+    names = [limit.name for limit in on_cycle if limit.name not in margins]
+    if names:
+        optimizer.progress(f"not robust, as a current follows a profile: {', '.join(names)}")
 
 
 def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:

@@ -131,7 +131,7 @@ class _Reader:
             "minimize": minimize,
             "operating_points": points,
             "tolerances": tolerances,
-            "robust": read_robust(reading, get("robust"), tolerances),
+            "robust": read_robust(reading, get("robust"), tolerances, searched=_says_something(get("vary"))),
         }
 
     def _both_or_neither(self) -> None:

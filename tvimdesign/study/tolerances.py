@@ -218,8 +218,13 @@ def _sigmas(reading: Reading, node: Node, path: str) -> float | None:
     return value
 
 
-def read_robust(reading: Reading, node: Node | None, tolerances: dict[str, Tolerance]) -> Robust | None:
-    """Return in how many of the modules each requirement must hold; every problem is noted."""
+def read_robust(
+    reading: Reading, node: Node | None, tolerances: dict[str, Tolerance], *, searched: bool
+) -> Robust | None:
+    """Return in how many of the modules each limit must hold; every problem is noted.
+
+    `searched` says whether the study varies anything, without which there is no optimum to be robust.
+    """
     expected = "{sigma: 3} or {yield: 99 %}"
     found = entries(reading.problems, node, "robust", expected)
     parts = unknown_keys(reading.problems, found, "robust", "key", ["sigma", "yield"])
@@ -232,6 +237,9 @@ def read_robust(reading: Reading, node: Node | None, tolerances: dict[str, Toler
     if not tolerances:
         said = "there is nothing to be robust against: `tolerances` is missing"
         reading.problems.add(node, "robust", said, "`tolerances: standard`, for one")
+    if not searched:
+        said = "nothing may change: `vary` is missing"
+        reading.problems.add(node, "robust", said, "both or neither", "`tvimdesign tolerate` evaluates as well")
     if "sigma" in parts:
         sigma = _sigmas(reading, parts["sigma"], "robust.sigma")
         return None if sigma is None else Robust(sigma=sigma)
