@@ -25,8 +25,8 @@ _CONFIDENCE = 1.959964
 """Standard deviations of the interval in which a yield lies with 95 %."""
 _EDGE = 1e-15
 """How near to 0 and 1 a share is drawn: a normal part eight standard deviations off."""
-_ALIKE = 1e-6
-"""Relative difference below which two corners are the same."""
+_ALIKE = 0.01
+"""Difference, as a share of the worst case's span, below which two corners are the same."""
 RARE = 0.00135
 """Share of a normal distribution beyond three standard deviations on one side."""
 
@@ -119,7 +119,8 @@ def worst_case(function: Columns, contributors: Sequence[Contributor], derivativ
             every = function(_corners(ends, (numbers >> np.arange(len(contributors))[:, None]) & 1))
             least = np.fmin(least, np.fmin.reduce(every, axis=1))
             most = np.fmax(most, np.fmax.reduce(every, axis=1))
-    room = _ALIKE * np.where(np.isfinite(most), np.abs(most), 1.0)
+    with np.errstate(invalid="ignore"):
+        room = np.nan_to_num(_ALIKE * (most - least), posinf=0.0)
     by_sign = (low <= least + room) & ((high >= most - room) | (high == most))
     return WorstCase(least, most, by_sign, looked_at)
 

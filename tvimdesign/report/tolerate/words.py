@@ -19,6 +19,8 @@ _ON_THE_LIMIT = 0.1
 _BENT = 0.1
 """Difference of the two standard deviations from which an output is not linear within the tolerances."""
 _NAMED = 3
+_CARRIED = 0.2
+"""Share of a limit's variance from which a contributor is said to carry it."""
 
 
 def sentences(found: Spread, preload: Preload | None, table: Table) -> list[str]:
@@ -62,20 +64,23 @@ def _what_first(found: Spread, table: Table) -> Iterator[str]:
             f"The mean stands on or beyond {names}{more}: no tolerance mends that. Move the design away from the "
             "limit, as a study with `robust: {sigma: 3}` does."
         )
-    lost = dict.fromkeys((contributor.name for contributor in found.contributors), 0.0)
-    for kept in concern:
+    mendable = [kept for kept in concern if kept not in on_limit] or concern
+    lost = {contributor.name: 0.0 for contributor in found.contributors}
+    for kept in mendable:
         i = found.outputs.index(kept.limit.output)
         for j, name in enumerate(lost):
             lost[name] += (1.0 - kept.share.share) * float(found.shares[i, j])
     first = max(lost, key=lambda name: lost[name])
     j = list(lost).index(first)
-    led = _led_by(found, [kept for kept in concern if kept not in on_limit] or concern, j)
+    led = _led_by(found, mendable, j)
     yield f"Tighten {first} first: {'; '.join(_halved(found, kept, j, table) for kept in led)}."
 
 
 def _led_by(found: Spread, concern: list[Kept], j: int) -> list[Kept]:
     """The limits of concern that one contributor carries most of."""
-    return sorted(concern, key=lambda kept: -found.shares[found.outputs.index(kept.limit.output), j])[:2]
+    shares = {kept.limit.name: float(found.shares[found.outputs.index(kept.limit.output), j]) for kept in concern}
+    carried = [kept for kept in concern if shares[kept.limit.name] >= _CARRIED] or concern[:1]
+    return sorted(carried, key=lambda kept: -shares[kept.limit.name])[:2]
 
 
 def _halved(found: Spread, kept: Kept, j: int, table: Table) -> str:
