@@ -8,6 +8,7 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
+from tvimdesign.report.summary import complaint
 from tvimdesign.solve.answer import Answer, answer
 from tvimdesign.solve.rig import rig_of_design
 from tvimdesign.solve.tolerance import Spread, Tolerancing
@@ -60,6 +61,15 @@ def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price() -> None:
 def test_a_yield_asks_for_the_same_as_its_deviations() -> None:
     _, spread = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
     assert _share(spread, "spring_stiffness") == pytest.approx(0.9, abs=5e-3)
+
+
+def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
+    band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
+    study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
+    table = table_for(study.mode)
+    found = answer(study, Catalog(), table)
+    assert not found.found
+    assert "(`robust`): ask for fewer, or spread less" in complaint(found, table)
 
 
 @pytest.mark.slow

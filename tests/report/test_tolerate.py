@@ -70,7 +70,7 @@ def test_a_design_and_its_tables_are_printed(
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
-    [(["--samples", 10], "--samples 10: must be 256 to 16777216"), (["--out", "arm.yaml"], "is a file")],
+    [(["--samples", 10], "--samples 10: must be 256 to 4194304"), (["--out", "arm.yaml"], "is a file")],
 )
 def test_bad_input_is_told(
     results: tuple[Path, dict[str, object], str], tvimdesign: Command, arguments: list[object], said: str

@@ -134,3 +134,6 @@ def test_the_same_bits_for_any_number_of_workers(rig: Callable[[str], Rig]) -> N
 def test_where_nothing_spreads_that_is_said(rig: Callable[[str], Rig]) -> None:
     with pytest.raises(InputError, match="nothing spreads; give `tolerances: standard`"):
         Tolerancing(rig("tolerances: {current: 0 A}\n"), _silent)
+    text = "tolerances: {structure_service_temperature: 5 K}\nrequire: {spring_stiffness: '>= 1 N.m/rad'}\n"
+    with pytest.raises(InputError, match="depends on structure_service_temperature; give tolerances of other inputs"):
+        Tolerancing(rig(text), _silent)

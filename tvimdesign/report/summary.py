@@ -281,5 +281,7 @@ def complaint(answer: Answer, table: Table) -> str:
         lines += [f"  {text}" for text in held]
     if math.isinf(answer.design.value("response_time")):
         lines.append("The switch does not end there within `horizon`.")
+    if answer.design.study.get("robust"):
+        lines.append("Limits are to be kept by so many standard deviations (`robust`): ask for fewer, or spread less.")
     lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")
     return "\n".join(lines)

@@ -93,6 +93,11 @@ class Tolerancing:
             )
         self.limits = [limit for limit in limits_of(rig.study, rig.table) if self._moves(limit.output, names)]
         wanted = dict.fromkeys([*self._asked(), *(limit.output for limit in self.limits)])
+        if not wanted:
+            raise InputError(
+                f"{rig.study.name}: nothing that is required, minimised or limited depends on {', '.join(names)}; "
+                "give tolerances of other inputs, or require what depends on these"
+            )
         options = rig.study.solver
         progress("differentiating the outputs by what spreads")
         exact = elasticities(rig, _FINER * options.elements, options.cells, list(wanted), names)

@@ -34,7 +34,7 @@ from tvimdesign.study import Study, read_study, standard_tolerances
 from tvimdesign.study.design import Design, read_design, write_design
 from tvimdesign.units import from_si, pretty
 
-FEWEST, MOST = 1 << 8, 1 << 24
+FEWEST, MOST = 1 << 8, 1 << 22
 """Modules that may be drawn."""
 
 
