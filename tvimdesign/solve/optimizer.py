@@ -310,11 +310,10 @@ class Optimizer:
         goal = goal or Goal(self.study.minimize)
         equations = self.problem.equation_count
         rest = self.problem.slope_count + self.problem.peak_count
-        within = np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
         answer = solver(
             **arguments, p=self._parameters(goal.weights), lbx=lower, ubx=upper,
             lbg=np.concatenate([np.zeros(equations), np.full(len(self.problem.limits) + rest, -np.inf)]),
-            ubg=np.concatenate([np.zeros(equations), goal.room(self.problem.limits) - within, np.zeros(rest)]),
+            ubg=np.concatenate([np.zeros(equations), goal.room(self.problem.limits) - self._within(), np.zeros(rest)]),
         )  # fmt: skip
         stats = solver.stats()
         if stats["return_status"] == "User_Requested_Stop":  # an interrupt that reached IPOPT first
@@ -333,6 +332,10 @@ class Optimizer:
         times = self._times_of(unknowns)
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
         return Run(start, end, drives, ends, unknowns, *multipliers)
+
+    def _within(self) -> Array:
+        """How far within each limit to stay."""
+        return np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
 
     def _parameters(self, weights: Mapping[str, float]) -> Array:
         """The problem's parameters: the study's inputs, and weights over the references."""
@@ -353,7 +356,10 @@ class Optimizer:
             alone = self._parameters({name: self.reference[name]})
             value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
             values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
-        return Derivatives(np.asarray(rows).ravel(), jacobian, ca.triu2symm(hessian), values, gradients)
+        found = np.asarray(rows).ravel()
+        # A limit that is to be kept by a margin is held where that is used up.
+        found[self.problem.equation_count :][: len(self.problem.limits)] += self._within()
+        return Derivatives(found, jacobian, ca.triu2symm(hessian), values, gradients)
 
     def bounds(self, fixed: Mapping[str, Any]) -> tuple[Array, Array]:
         """Least and largest unknowns, with some free numbers fixed."""
