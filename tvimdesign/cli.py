@@ -144,6 +144,25 @@ def simulate(
 
 
 @app.command()
+def tolerate(
+    study: Annotated[
+        Path, typer.Argument(metavar="STUDY|DESIGN", help="Study file, or design.json or folder of a run.")
+    ],
+    samples: Annotated[int, typer.Option("--samples", help="Modules drawn; the next power of two.")] = 65536,
+    workers: Annotated[int, typer.Option("--workers", min=0, help="Threads; as many as processors unless given.")] = 0,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
+    """Say what tolerances do: worst case, root-sum-square and Monte Carlo, yield, into results/<study>-tolerances."""
+    from tvimdesign.report.tolerate.run import tolerate_study
+
+    name = study.resolve().name if study.is_dir() else study.resolve().parent.name
+    folder = out or Path("results") / f"{study.stem if study.suffix in ('.yaml', '.yml') else name}-tolerances"
+    tolerate_study(study, folder, samples, workers, overwrite=overwrite, as_json=json)
+
+
+@app.command()
 def compare(
     studies: Annotated[list[Path], typer.Argument(metavar="STUDY STUDY...", help="Study files, of any modes.")],
     out: Annotated[

@@ -1,45 +1,107 @@
-"""Where searches begin: the same points for the same seed, evenly spread where there are many."""
+"""Worst case, root-sum-square and Monte Carlo, on functions whose answers are known."""
 
 from __future__ import annotations
 
-import itertools
-import subprocess
-import sys
+import math
 
 import numpy as np
-from scipy.stats import qmc
-from support import ROOT
+import pytest
+from scipy import stats
 
-from tvimdesign.solve.spread import FEW, unit_points
+from tvimdesign.solve import spread
+from tvimdesign.solve.spread import Contributor
 
-
-def _points(starts: int, size: int, seed: int, count: int) -> np.ndarray:
-    return np.array(list(itertools.islice(unit_points(starts, size, seed), count)))
-
-
-def test_a_seed_gives_its_points_and_another_others() -> None:
-    for starts in (3, 64):
-        assert np.array_equal(_points(starts, 4, 1, 50), _points(starts, 4, 1, 50))
-        assert not np.allclose(_points(starts, 4, 1, 50), _points(starts, 4, 2, 50))
+PARTS = [Contributor("a", 1.0, 0.3), Contributor("b", 2.0, 0.3, "uniform"), Contributor("c", -1.0, 0.2, sigma=2.0)]
+SLOPES = np.array([[2.0, -3.0, 1.0], [0.0, 0.0, 5.0]])
 
 
-def test_few_starts_begin_where_they_always_have() -> None:
-    """numpy's generator, number for number."""
-    assert np.array_equal(_points(FEW, 3, 7, 10), np.random.default_rng(7).random((10, 3)))
+def _linear(columns: np.ndarray) -> np.ndarray:
+    return SLOPES @ columns
 
 
-def test_many_points_fill_every_slice_of_every_range() -> None:
-    """A Sobol sequence of 2^k points has one in each of 2^k slices; random points leave a third of them empty."""
-    points = _points(64, 12, 1, 64)
-    for column in points.T:
-        assert len(set((column * 64).astype(int))) == 64
-    assert qmc.discrepancy(points) < 0.5 * qmc.discrepancy(np.random.default_rng(1).random((64, 12)))
+def test_of_a_linear_function_all_three_agree_with_algebra() -> None:
+    deviations = [0.1, 0.3 / math.sqrt(3.0), 0.1]
+    expected = [math.hypot(2.0 * deviations[0], 3.0 * deviations[1], deviations[2]), 5.0 * deviations[2]]
+    deviation, shares = spread.shares(PARTS, SLOPES)
+    assert deviation == pytest.approx(expected, rel=1e-12)
+    assert np.sum(shares, axis=1) == pytest.approx(1.0)
+    drawn = spread.monte_carlo(_linear, PARTS, 1 << 16, seed=1)
+    assert drawn.mean == pytest.approx([-5.0, -5.0], abs=1e-4)
+    assert drawn.deviation == pytest.approx(expected, rel=1e-3)
+    worst = spread.worst_case(_linear, PARTS, SLOPES)
+    assert worst.low == pytest.approx([-5.0 - 0.6 - 0.9 - 0.2, -6.0])
+    assert worst.high == pytest.approx([-5.0 + 0.6 + 0.9 + 0.2, -4.0])
+    assert worst.by_sign.all()
+    assert worst.corners == 8
 
 
-def test_few_starts_leave_the_sobol_sequence_unloaded() -> None:
-    code = (
-        "import sys; from tvimdesign.solve import search; from tvimdesign.solve.spread import unit_points; "
-        "next(unit_points(16, 3, 1)); assert 'scipy' not in sys.modules"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=False)
-    assert done.returncode == 0, done.stderr
+def test_a_normal_part_has_the_quantiles_of_its_distribution() -> None:
+    drawn = spread.monte_carlo(lambda x: x, PARTS[:1], 1 << 16, seed=1)
+    assert drawn.low[0] == pytest.approx(1.0 - 3.0 * 0.1, abs=2e-3)
+    assert drawn.high[0] == pytest.approx(1.0 + 3.0 * 0.1, abs=2e-3)
+
+
+def test_the_worst_case_bounds_every_module_within_tolerance() -> None:
+    parts = [Contributor(name, 1.0, 0.4, "uniform") for name in "abc"]
+
+    def bent(x: np.ndarray) -> np.ndarray:
+        return np.array([x[0] * x[1] / x[2], np.exp(x[0]) - x[1] * x[2]])
+
+    slopes = np.array([[1.0, 1.0, -1.0], [math.e, -1.0, -1.0]])
+    worst = spread.worst_case(bent, parts, slopes)
+    drawn = spread.monte_carlo(bent, parts, 1 << 12, seed=3)
+    assert np.all(drawn.values.min(axis=1) >= worst.low)
+    assert np.all(drawn.values.max(axis=1) <= worst.high)
+
+
+def test_a_corner_that_the_derivative_does_not_point_to_is_found() -> None:
+    parts = [Contributor("a", 0.1, 1.0, "uniform")]
+    worst = spread.worst_case(lambda x: x**2, parts, np.array([[-1.0]]))  # a slope of the wrong sign
+    assert worst.high[0] == pytest.approx(1.1**2)
+    assert not worst.by_sign[0]
+
+
+def test_sobol_indices_of_ishigamis_function_are_the_published_ones() -> None:
+    # Ishigami and Homma 1990 with a = 7, b = 0.1; indices from the closed form, as in Saltelli et al. 2008, table 4.2.
+    parts = [Contributor(name, 0.0, math.pi, "uniform") for name in "abc"]
+
+    def ishigami(x: np.ndarray) -> np.ndarray:
+        return (np.sin(x[0]) + 7.0 * np.sin(x[1]) ** 2 + 0.1 * x[2] ** 4 * np.sin(x[0]))[None]
+
+    first, total = spread.sobol_indices(ishigami, parts, 1 << 12, 1, 0.0)
+    assert first[0] == pytest.approx([0.3139, 0.4424, 0.0], abs=5e-3)
+    assert total[0] == pytest.approx([0.5576, 0.4424, 0.2437], abs=5e-3)
+
+
+def test_the_yield_of_a_normal_output_is_its_distributions() -> None:
+    drawn = spread.monte_carlo(lambda x: x, PARTS[:1], 1 << 16, seed=2)
+    found = spread.share_kept(drawn.values[0] <= 1.1)  # one standard deviation above the mean
+    assert found.share == pytest.approx(0.841345, abs=1e-4)
+    assert found.low < 0.841345 < found.high
+    assert spread.capability(1.0, 0.1, 1.3, "<=") == pytest.approx(1.0)
+    assert spread.capability(1.0, 0.1, 1.3, ">=") == pytest.approx(-1.0)
+
+
+@pytest.mark.parametrize(("good", "count"), [(0, 50), (37, 50), (50, 50), (999, 1000)])
+def test_the_interval_of_a_yield_is_wilsons(good: int, count: int) -> None:
+    found = spread.share_kept(np.arange(count) < good)
+    expected = stats.binomtest(good, count).proportion_ci(method="wilson")
+    assert (found.low, found.high) == pytest.approx((expected.low, expected.high), abs=1e-6)
+
+
+def test_what_never_happens_is_counted_and_left_out_of_the_mean() -> None:
+    parts = [Contributor("a", 0.0, 1.0, "uniform")]
+    drawn = spread.monte_carlo(lambda x: np.where(x > 0.5, np.inf, x), parts, 1 << 12, seed=1)
+    assert drawn.never[0] == pytest.approx(0.25, abs=1e-3)
+    assert drawn.mean[0] == pytest.approx(-0.25, abs=1e-3)
+    assert spread.share_kept(drawn.values[0] <= 9.0).share == pytest.approx(0.75, abs=1e-3)
+
+
+def test_draws_stay_within_the_limits_of_the_row() -> None:
+    part = Contributor("a", 0.1, 0.3, lower=0.0)
+    assert part.ends == (0.0, pytest.approx(0.4))
+    assert part.ppf(np.array([1e-6, 0.5])) == pytest.approx([0.0, 0.1])
+
+
+def test_samples_are_a_power_of_two() -> None:
+    assert [spread.power_of_two(n) for n in (256, 257, 100_000)] == [256, 512, 131_072]

@@ -202,8 +202,8 @@ def _call_out(plan: Placed, found: Sequence[Cylinder], solid: cq.Solid) -> None:
     for one in found:
         if not (one.is_central and one.is_round):
             pitch = round(hypot(one.x, one.y), 4)
-            place = () if _is_corner(one) else (pitch, one.bottom, one.top)
-            key = (round(one.radius, 6), *place, one.concave, one.is_round)
+            stands = () if _is_corner(one) else (pitch, one.bottom, one.top)
+            key = (round(one.radius, 6), *stands, one.concave, one.is_round)
             alike.setdefault(key, []).append(one)
     groups = sorted(alike.values(), key=lambda group: _pointed_at(group)[1])
     box = solid.BoundingBox()

@@ -69,10 +69,16 @@ def pcl_rheology(
     pcl_grade: Record,
     pcl_flow_activation_energy: Scalar,
     pcl_melt_reference: Scalar,
+    melt_viscosity_factor: Scalar,
 ) -> polymer.Rheology:
-    """Relaxation spectrum of the PCL at any temperature and solid fraction."""
+    """Relaxation spectrum of the PCL at any temperature and solid fraction.
+
+    Chains of another length relax sooner or later; the melt's plateau modulus is the same (Ferry, ch. 13).
+    """
     solid = [(row["relaxation_time"], row["relative_modulus"]) for row in pcl_grade.table("solid_spectrum")]
-    melt = [(row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")]
+    melt = [
+        (melt_viscosity_factor * row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")
+    ]
     return polymer.Rheology(pcl_solid_modulus, solid, melt, pcl_flow_activation_energy, pcl_melt_reference)
 
 

@@ -39,6 +39,12 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     console.print(f"[bold]{escape(design.name)}[/bold]  ({design.mode} mode)")
     console.print(_verdict(answer))
     console.print(_in_short(answer, table))
+    robust = design.study.get("robust")
+    if robust and answer.found:
+        console.print(
+            f"Limits are kept by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
+            "room they show below; `tvimdesign tolerate` checks that on many modules."
+        )
     if not answer.found:
         _print_variables(answer, table, console, "Where the solver ended; this is not a design")
         return

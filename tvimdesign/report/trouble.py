@@ -32,6 +32,8 @@ def complaint(answer: Answer, table: Table) -> str:
         lines += ["These stand in the way there, at their limits:", *(f"  {text}" for text in held)] if held else []
     if math.isinf(answer.design.value("response_time")):
         lines.append("The switch does not end there within `horizon`.")
+    if answer.design.study.get("robust"):
+        lines.append("Limits are to be kept by so many standard deviations (`robust`): ask for fewer, or spread less.")
     if quarrel:
         lines.append(
             "Ease a limit, or widen a range under `vary`. The design.json written is the one that comes closest."

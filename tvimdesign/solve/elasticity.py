@@ -62,8 +62,10 @@ class Elasticities:
     """Outputs that never happen in this design, or hang on a current that follows a profile."""
 
 
-def elasticities(rig: Rig, elements: int, cells: int, wanted: Sequence[str]) -> Elasticities:
-    """Differentiate the wanted outputs by every variable of the module. Raises SimulationError."""
+def elasticities(
+    rig: Rig, elements: int, cells: int, wanted: Sequence[str], by: Sequence[str] | None = None
+) -> Elasticities:
+    """Differentiate the wanted outputs by every variable of the module, or `by` some inputs. Raises SimulationError."""
     model = Model(rig.table, rig.values, rig.points, cells)
     simulator = Simulator(model)
     switch = simulator.run(model.start, rig.drives)
@@ -72,7 +74,8 @@ def elasticities(rig: Rig, elements: int, cells: int, wanted: Sequence[str]) -> 
     supplied = {name: _supplied_behind(model, name) for name in names}
     lost = _lost(model, switch, set(rig.drives))
     kept = [name for name in names if not supplied[name] & lost]
-    variables = [row.name for row in rig.table.inputs if _is_variable(rig, model, row.name) and row.name not in driven]
+    variables = by or [row.name for row in rig.table.inputs if _is_variable(rig, model, row.name)]
+    variables = [name for name in variables if name not in driven]
     needed = sorted({one for name in kept for one in supplied[name]})
     place = [model.index[name] for name in variables]
     of_cycle = np.zeros((len(model.switch_names), len(place)))

@@ -24,8 +24,8 @@ from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
 from tvimdesign.solve.solution import Start
-from tvimdesign.solve.spread import unit_points
 from tvimdesign.solve.stage_model import StageModel
+from tvimdesign.solve.starting_points import unit_points
 from tvimdesign.solve.transcription import guess
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
@@ -146,8 +146,9 @@ class Optimizer:
         rows = {current.row for current in self.currents}
         numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
         self.free = tuple(self._free(name) for name in numbers)
-        kept, elements = self.kept_limits(limits_of(study, table)), study.solver.elements
-        self.problem = Problem(self.model, self.free, kept, tuple(study.minimize), elements, self.currents, traded)
+        self.margins: dict[str, float] = {}
+        """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
+        self.problem = self._problem(self.kept_limits(limits_of(study, table)), traded)
         self.simulate_start()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}
@@ -201,6 +202,15 @@ class Optimizer:
         other.kept_limits(limits_of(study, self.table))
         other.simulate_start()
         return other
+
+    def _problem(self, kept: list[Limit], traded: Sequence[str]) -> Problem:
+        reserves = None
+        if self.study.robust:
+            from tvimdesign.solve.reserves import reserves_of
+
+            reserves = reserves_of(self.model, self.study, kept)
+        elements, minimize = self.study.solver.elements, tuple(self.study.minimize)
+        return Problem(self.model, self.free, kept, minimize, elements, self.currents, traded, reserves)
 
     def kept_limits(self, limits: list[Limit]) -> list[Limit]:
         """The limits without those that nothing free can change, which are checked here and now."""
@@ -385,7 +395,9 @@ class Optimizer:
         answer = solver(
             **arguments, p=self.parameters(goal), lbx=lower, ubx=upper,
             lbg=np.concatenate([np.zeros(equations), np.full(limits + len(self.problem.traded) + rest, -np.inf)]),
-            ubg=np.concatenate([np.zeros(equations + limits), goal.room(self.problem.traded), np.zeros(rest)]),
+            ubg=np.concatenate([
+                np.zeros(equations), self._limits_less_margins(), goal.room(self.problem.traded), np.zeros(rest),
+            ]),
         )  # fmt: skip
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
@@ -411,6 +423,10 @@ class Optimizer:
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
         return Run(start, end, drives, ends, unknowns, multipliers, of_bounds, of_parameters)
 
+    def _limits_less_margins(self) -> Array:
+        """What the limits' residuals may come to: zero, or so far within as their margins say."""
+        return -np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
+
     def parameters(self, goal: Goal) -> Array:
         """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
         over = [goal.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
@@ -430,7 +446,10 @@ class Optimizer:
             alone = self.parameters(Goal({name: self.reference[name]}))
             value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
             values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
-        return Derivatives(np.asarray(rows).ravel(), jacobian, ca.triu2symm(hessian), values, gradients)
+        found = np.asarray(rows).ravel()
+        # A limit that is to be kept by a margin is held where that is used up.
+        found[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
+        return Derivatives(found, jacobian, ca.triu2symm(hessian), values, gradients)
 
     def bounds(self, within: Mapping[str, Ends]) -> tuple[Array, Array]:
         """Least and largest unknowns, with some free numbers kept within ends of their own."""

@@ -7,7 +7,7 @@ was built. Unknowns that are positive throughout are logarithms of their ratio t
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -95,10 +95,12 @@ class Problem:
         elements: int,
         currents: Sequence[FreeCurrent] = (),
         traded: Sequence[str] = (),
+        reserves: Callable[[Any], dict[str, Any]] | None = None,
     ) -> None:
         """Write objective and constraints. `minimize` names the outputs whose weighted sum is least.
 
         Those that are `traded` get a row each that bounds a sum of them, with factors that are parameters.
+        `reserves` gives, for the device's inputs, what is added to the residuals of some limits, by name.
         """
         self.model = model
         self.free = tuple(free)
@@ -107,6 +109,7 @@ class Problem:
         self.minimize = tuple(dict.fromkeys([*minimize, *traded]))
         self._elements = elements
         self.free_currents = tuple(currents)
+        self._reserves = reserves
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self._check()
         self._build()
@@ -125,7 +128,10 @@ class Problem:
         wanted = self.wanted
         values = self.model.outputs(wanted)(device_inputs, switch) if wanted else ca.MX(0, 1)
         objective = sum(weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
-        rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
+        reserves = self._reserves(device_inputs) if self._reserves else {}
+        rows = [
+            limit.residual(values[wanted.index(limit.output)]) + reserves.get(limit.name, 0.0) for limit in self.limits
+        ]
         traded = ca.vertcat(*(values[wanted.index(name)] for name in self.traded))
         sums = ca.mtimes(factors, traded) if self.traded else ca.MX(0, 1)
         equations = ca.vertcat(*(block.equations for block in self.blocks), *(b.equations for b in self.balances))

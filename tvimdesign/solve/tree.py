@@ -11,7 +11,7 @@ from tvimdesign.solve.optimizer import Array, Ends, Optimizer, Run
 from tvimdesign.solve.quarrel import SecondTry
 from tvimdesign.solve.screen import Screen
 from tvimdesign.solve.solution import SAME_OPTIMUM, Work
-from tvimdesign.solve.spread import FEW
+from tvimdesign.solve.starting_points import FEW
 from tvimdesign.solve.stepping_stone import SteppingStone
 
 NO_DESIGN = "Infeasible_Problem_Detected"

@@ -131,6 +131,8 @@ def _conditions(of: Entrant) -> Iterator[_Condition]:
     for name in ("cells", "elements"):
         value = getattr(study.solver, name)
         yield _Condition(name, f"solver.{name}", value, str(value))
+    sigma = study.robust.sigma if study.robust else 0.0
+    yield _Condition("robust", "robust", sigma, f"limits are kept by {sigma:.3g} standard deviations")
     if study.vary:
         shares = ", ".join(f"{name} {weight:g}" for name, weight in study.minimize.items())
         yield _Condition("objective", "minimize", dict(study.minimize), f"the objective is {shares}")

@@ -50,6 +50,30 @@ class Requirement(_Part):
     text: str
 
 
+class Tolerance(_Part):
+    """How far one input lies from what is drawn, to either side: `plus_minus`, a `share` of its value, or a `row`."""
+
+    plus_minus: float | None = None
+    share: float | None = None
+    row: str | None = None
+    """The output that gives it, so that it follows the design."""
+    distribution: Literal["normal", "uniform"] = "normal"
+    sigma: float = 3.0
+    """At how many standard deviations the tolerance lies, where it is normal."""
+    adjustable: bool = False
+    adjusted_to: float | None = None
+    """What is left of it, to either side, where the module can be adjusted; nothing unless stated."""
+    source: str = ""
+    status: str = ""
+
+
+class Robust(_Part):
+    """By how many standard deviations each requirement's mean must keep its limit; `share` is the yield asked for."""
+
+    sigma: float
+    share: float | None = None
+
+
 class SolverOptions(_Part):
     """How hard the solver tries, and how finely the heat model is divided."""
 
@@ -102,6 +126,8 @@ class Study(_Part):
     front: FrontOptions | None = None
     operating_points: dict[str, dict[str, float]]
     profile: ProfileOptions = ProfileOptions()
+    tolerances: dict[str, Tolerance] = {}
+    robust: Robust | None = None
     solver: SolverOptions = SolverOptions()
     write: WriteOptions = WriteOptions()
     catalog_folder: str | None = None

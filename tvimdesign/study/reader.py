@@ -19,6 +19,7 @@ from tvimdesign.study.model import FORMAT, ProfileOptions, Range, SolverOptions,
 from tvimdesign.study.problems import Problems, one_of, quoted, step
 from tvimdesign.study.settings import read_module, read_points
 from tvimdesign.study.source import check_characters, read_text
+from tvimdesign.study.tolerances import read_robust, read_tolerances
 from tvimdesign.study.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
 from tvimdesign.study.vary import check_against_module, read_vary, with_start
 from tvimdesign.study.yaml_text import Mapping, Node, Text, compose
@@ -36,6 +37,8 @@ SECTIONS = (
     "front",
     "operating_points",
     "profile",
+    "tolerances",
+    "robust",
     "solver",
     "write",
 )
@@ -121,6 +124,7 @@ class _Reader:
         front = read_front(reading, get("front"), points)
         self._both_or_neither()
         self._profile_has_a_range(reading.table, vary)
+        tolerances = read_tolerances(reading, get("tolerances"), points)
         return {
             "mode": reading.mode,
             "module": module,
@@ -129,6 +133,8 @@ class _Reader:
             "minimize": minimize,
             "front": front,
             "operating_points": points,
+            "tolerances": tolerances,
+            "robust": read_robust(reading, get("robust"), tolerances, searched=_says_something(get("vary"))),
         }
 
     def _both_or_neither(self) -> None:

@@ -12,6 +12,7 @@ from pydantic import BaseModel
 from tvimdesign.device import MODES, Choice, Input, Output, Swing, Table, table_for
 from tvimdesign.study.model import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
 from tvimdesign.study.sizes import SIZES_SHELF
+from tvimdesign.study.tolerances import STANDARD, tolerance_rows
 
 SCHEMA_FILE = Path(__file__).with_name("schema.json")
 _NUMBER = r"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
@@ -24,6 +25,7 @@ _SECTIONS = {
     "minimize": "what is to be small, with weights",
     "front": "two or three outputs to be traded against one another, and how many designs to find",
     "operating_points": "where stiffness and damping are wanted; `cold` and `hot` always exist",
+    "tolerances": "how far inputs lie from what is drawn; `standard` takes the usual ones",
 }
 """The sections whose names depend on the mode, and what they are for."""
 
@@ -49,6 +51,7 @@ def json_schema(tables: Mapping[str, Table]) -> _Schema:
             "catalog": _text("folder of your own records, relative to this file"),
             **{section: {"description": about} for section, about in _SECTIONS.items()},
             "profile": _options(ProfileOptions),
+            "robust": _robust(),
             "solver": _options(SolverOptions),
             "write": _options(WriteOptions),
         },
@@ -75,6 +78,7 @@ def _of_mode(table: Table) -> _Schema:
         "minimize": _minimize(table),
         "front": _front(table),
         "operating_points": _points(table),
+        "tolerances": _tolerances(table),
     }
 
 
@@ -172,6 +176,29 @@ def _points(table: Table) -> _Schema:
     rows = [row for row in table.inputs if row.per_point]
     point = _section("one operating point", {row.name: _set(row) for row in rows})
     return _section(_SECTIONS["operating_points"], {}, {f"^{_POINT}$": point})
+
+
+def _tolerances(table: Table) -> _Schema:
+    size = {"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^\s*{_NUMBER}"}]}
+    full = _shape(
+        {
+            "plus_minus": size, "row": {"enum": tolerance_rows(table)}, "distribution": {"enum": ["normal", "uniform"]},
+            "sigma": {"$ref": "#/definitions/number"}, "adjustable": {"type": "boolean"}, "adjusted_to": size,
+        },
+        [],
+    )  # fmt: skip
+    one = {"anyOf": [size, full]}
+    rows = [row for row in table.inputs if not row.integer]
+    points = {f"^{row.name}@{_POINT}$": {"description": _about(row), **one} for row in rows if row.per_point}
+    named = {row.name: {"description": _about(row), **one} for row in rows if not row.per_point}
+    section = _section(_SECTIONS["tolerances"], {STANDARD: {"type": "boolean"}, **named}, points)
+    return {"anyOf": [section, {"const": STANDARD}]}
+
+
+def _robust() -> _Schema:
+    number = {"$ref": "#/definitions/number"}
+    about = "in how many of the modules each requirement must hold, within `tolerances`"
+    return _section(about, {"sigma": number, "yield": number}) | {"maxProperties": 1}
 
 
 def _options(options: type[BaseModel]) -> _Schema:

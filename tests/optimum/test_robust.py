@@ -1,0 +1,81 @@
+"""A robust optimum keeps its limits by so many standard deviations, and Monte Carlo finds that yield."""
+
+from __future__ import annotations
+
+from statistics import NormalDist
+
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.report.summary import complaint
+from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.solve.rig import rig_of_design
+from tvimdesign.solve.tolerance import Spread, Tolerancing
+from tvimdesign.study import read_study_text
+
+ALGEBRAIC = """
+mode: shear
+module: {transmission: unity}
+vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
+require: {spring_stiffness: ">= 5 N.m/rad"}
+minimize: springs_mass
+tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
+solver: {starts: 1}
+"""
+TIMED = """
+mode: shear
+module: {transmission: unity}
+vary: {current: [0.5 A, 2.5 A], pcl_thickness: [0.8 mm, 2 mm]}
+require: {response_time: "<= 150 s", pcl_stiffness@hot: "<= 3 N.m/rad"}
+minimize: peak_power
+tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
+solver: {starts: 1, cells: 12, elements: 6}
+"""
+
+
+def _solved(text: str) -> tuple[Answer, Spread]:
+    study = read_study_text(text, "a test")
+    catalog, table = Catalog(), table_for(study.mode)
+    found = answer(study, catalog, table)
+    assert found.design.status == "optimal"
+    analysis = Tolerancing(rig_of_design(found.design, catalog, table), lambda _: None)
+    return found, analysis.analyse(1 << 14, 1)
+
+
+def _share(spread: Spread, output: str) -> float:
+    return next(kept.share.share for kept in spread.kept if kept.limit.output == output)
+
+
+def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price() -> None:
+    nominal, spread = _solved(ALGEBRAIC)
+    assert _share(spread, "spring_stiffness") == pytest.approx(0.5, abs=0.01)
+    robust, spread = _solved(f"{ALGEBRAIC}robust: {{sigma: 2}}\n")
+    assert _share(spread, "spring_stiffness") == pytest.approx(NormalDist().cdf(2.0), abs=3e-3)
+    assert robust.design.values["springs_mass"] > nominal.design.values["springs_mass"]
+    i = spread.outputs.index("spring_stiffness")
+    # The mean of many modules, two of their standard deviations within the limit.
+    assert spread.drawn.mean[i] - 2.0 * spread.drawn.deviation[i] == pytest.approx(5.0, rel=1e-3)
+
+
+def test_a_yield_asks_for_the_same_as_its_deviations() -> None:
+    _, spread = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
+    assert _share(spread, "spring_stiffness") == pytest.approx(0.9, abs=5e-3)
+
+
+def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
+    band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
+    study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
+    table = table_for(study.mode)
+    found = answer(study, Catalog(), table)
+    assert not found.found
+    assert "(`robust`): ask for fewer, or spread less" in complaint(found, table)
+
+
+@pytest.mark.slow
+def test_times_are_kept_too() -> None:
+    _, spread = _solved(TIMED)
+    assert _share(spread, "response_time") == pytest.approx(0.5, abs=0.05)
+    robust, spread = _solved(f"{TIMED}robust: {{sigma: 1.5}}\n")
+    assert robust.feasible
+    assert _share(spread, "response_time") == pytest.approx(NormalDist().cdf(1.5), abs=0.015)

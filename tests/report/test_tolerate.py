@@ -1,0 +1,80 @@
+"""`tvimdesign tolerate`: one folder of tables and a figure, the same as JSON, and sentences people can act on."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from support import Command
+
+STUDY = """
+mode: shear
+module: {transmission: unity, leg_model: ignored, spring_material: paper_wire}
+require: {spring_stiffness: [">= 5.3 N.m/rad", "<= 6 N.m/rad"]}
+tolerances: {standard: true}
+"""
+
+
+@pytest.fixture(scope="module")
+def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, object], str]:
+    folder = tmp_path_factory.mktemp("tolerate")
+    (folder / "arm.yaml").write_text(STUDY)
+    done = tvimdesign("tolerate", "arm.yaml", "--samples", 4000, "--json", cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return folder / "results/arm-tolerances", json.loads(done.stdout), done.stderr
+
+
+def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, object], str]) -> None:
+    folder, told, _ = results
+    expected = {"contributors.csv", "limits.csv", "manifest.json", "outputs.csv", "spread.png", "tolerances.json",
+                "tolerated.yaml"}  # fmt: skip
+    assert {path.name for path in folder.iterdir()} == expected
+    kept = json.loads((folder / "tolerances.json").read_text())
+    assert kept == {name: value for name, value in told.items() if name != "folder"}
+    assert kept["samples"] == 4096
+    rows = list(csv.DictReader((folder / "outputs.csv").read_text().splitlines()))
+    (stiffness,) = [row for row in rows if row["output"] == "spring_stiffness"]
+    worst, drawn = float(stiffness["worst_high"]), float(stiffness["high"])
+    assert float(stiffness["as_drawn"]) < drawn < worst
+    assert float(stiffness["deviation"]) == pytest.approx(float(stiffness["deviation_rss"]), rel=0.02)
+
+
+def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, object], str]) -> None:
+    rows = list(csv.DictReader((results[0] / "contributors.csv").read_text().splitlines()))
+    mine = [row for row in rows if row["output"] == "spring_stiffness"]
+    assert sum(float(row["share"]) for row in mine) == pytest.approx(1.0, abs=1e-4)
+    assert max(mine, key=lambda row: float(row["share"]))["contributor"] == "wire_diameter"
+    # d ln K/d ln d = 4: with 2.413 mm and 5.609 N.m/rad that is 9.3 N.m/rad for each millimetre.
+    (wire,) = [row for row in mine if row["contributor"] == "wire_diameter"]
+    assert (float(wire["derivative"]), wire["derivative_unit"]) == (pytest.approx(9.3, rel=0.01), "N·m/rad / mm")
+
+
+def test_the_sentences_say_what_to_do(results: tuple[Path, dict[str, object], str]) -> None:
+    said = " ".join(results[1]["sentences"])  # type: ignore[arg-type]
+    assert "of the modules keep every limit" in said
+    assert "Tighten preload_angle first" in said
+    assert "(±18.7° by DIN 2194, grade 2) is 3.1 times the stroke" in said
+    assert "with the preload adjusted to within ±1°, 100 % do" in said
+
+
+def test_a_design_and_its_tables_are_printed(
+    results: tuple[Path, dict[str, object], str], tvimdesign: Command, tmp_path: Path
+) -> None:
+    done = tvimdesign("tolerate", results[0].parents[1] / "arm.yaml", "--samples", 300, "--out", tmp_path / "again")
+    assert done.returncode == 0, done.stderr
+    for words in ("What spreads", "worst case", "Limits that too many modules break", "preload_reserve >= 0 rad"):
+        assert words in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [(["--samples", 10], "--samples 10: must be 256 to 4194304"), (["--out", "arm.yaml"], "is a file")],
+)
+def test_bad_input_is_told(
+    results: tuple[Path, dict[str, object], str], tvimdesign: Command, arguments: list[object], said: str
+) -> None:
+    done = tvimdesign("tolerate", "arm.yaml", *arguments, cwd=results[0].parents[1])
+    assert (done.returncode, "Traceback" in done.stderr) == (2, False)
+    assert said in done.stderr

@@ -1,0 +1,123 @@
+"""Compiled kernels: the same numbers as CasADi and the C library, for any count of columns and of workers."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support import ROOT, digits
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.elimination import newton_step
+from tvimdesign.solve.kernel import Kernel, of_columns, stacked
+from tvimdesign.solve.model import Model
+from tvimdesign.study import given, read_study
+
+ONE: dict[str, tuple[Callable[[float], float], list[float]]] = {
+    "exp": (math.exp, [-745.0, -30.0, -1.0, -1e-9, 0.0, 1e-9, 0.3, 1.0, 30.0, 709.0]),
+    "log": (math.log, [5e-324, 1e-310, 1e-300, 0.5, 0.7071, 0.7072, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.4143, 3.0, 1e300]),
+    "log1p": (math.log1p, [-0.9999, -1e-12, 0.0, 1e-18, 1e-9, 0.5, 1e6]),
+    "sqrt": (math.sqrt, [0.0, 1e-300, 2.0]),
+    "sin": (math.sin, [-3.0, 0.1, 50.0]),
+    "asin": (math.asin, [-1.0, 0.2, 1.0]),
+    "fabs": (math.fabs, [-2.0, 0.0, 3.0]),
+    "tanh": (math.tanh, [-20.0, 0.1]),
+}
+
+
+@pytest.mark.parametrize("name", ONE)
+def test_functions_of_one_number_are_those_of_the_c_library(name: str) -> None:
+    function, places = ONE[name]
+    x = ca.SX.sym("x")
+    found = Kernel(ca.Function("f", [x], [getattr(ca, name)(x)]))(np.array([places]))[0]
+    assert found == pytest.approx([function(place) for place in places], rel=1e-15, abs=5e-324)
+
+
+def test_what_is_no_number_stays_none() -> None:
+    x = ca.SX.sym("x")
+    kernel = Kernel(ca.Function("f", [x], [ca.vertcat(ca.exp(x), ca.log(x), ca.log1p(x))]))
+    found = kernel(np.array([[math.nan, -2.0, 0.0, math.inf, -math.inf]]))
+    assert np.array_equal(found[0, [0, 3, 4]], [math.nan, math.inf, 0.0], equal_nan=True)
+    assert np.array_equal(found[1], [math.nan, math.nan, -math.inf, math.inf, math.nan], equal_nan=True)
+    assert found[2, 3] == math.inf
+
+
+def test_functions_of_two_numbers_and_choices() -> None:
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    entries = [x**y, ca.atan2(x, y), ca.fmin(x, y), ca.fmax(x, y), ca.if_else(x < y, x, y), x / y, x**0.3]
+    found = Kernel(ca.Function("f", [x, y], [ca.vertcat(*entries)]))(np.array([[2.5], [1.5]]))[:, 0]
+    assert found == pytest.approx([2.5**1.5, math.atan2(2.5, 1.5), 1.5, 2.5, 1.5, 2.5 / 1.5, 2.5**0.3], rel=1e-15)
+
+
+def test_an_operation_without_a_vector_form_is_named() -> None:
+    x = ca.SX.sym("x")
+    with pytest.raises(NotImplementedError, match="the operation ACOSH"):
+        Kernel(ca.Function("f", [x], [ca.acosh(x)]))
+
+
+@pytest.mark.parametrize("study", ["paper_shear", "paper_compression", "wrist_joint"])
+def test_the_kernel_of_the_table_agrees_with_casadi(study: str) -> None:
+    read = read_study(ROOT / f"studies/{study}.yaml")
+    table = table_for(read.mode)
+    model = Model(table, given(read, Catalog(), table), tuple(read.operating_points), read.solver.cells)
+    moving = ["wire_diameter", "coil_diameter", "preload_angle", "pcl_inner_radius", "pcl_flexural_modulus", "current"]
+    places = [(0, model.index[name]) for name in moving]
+    function = of_columns(model.every_output, [model.start, np.full(len(model.switch_names), 50.0)], places)
+    random = np.random.default_rng(1)
+    columns = np.array([[model.start[i]] for _, i in places]) * random.uniform(0.99, 1.01, (len(moving), 21))
+    found, expected = Kernel(function)(columns), np.asarray(function(columns))
+    for name, ours, theirs in zip(model.output_names, found, expected, strict=True):
+        assert ours == pytest.approx(theirs, rel=digits(name, 1e-13), abs=1e-15, nan_ok=True), name
+
+
+def test_no_bit_hangs_on_workers_or_neighbours() -> None:
+    x = ca.SX.sym("x", 2)
+    kernel = Kernel(ca.Function("f", [x], [ca.vertcat(ca.exp(x[0]) * ca.log(x[1]), x[0] ** x[1])]))
+    columns = np.random.default_rng(2).uniform(0.1, 3.0, (2, 10_007))
+    alone = kernel(columns)
+    assert np.array_equal(alone, kernel(columns, workers=2))
+    assert np.array_equal(alone[:, 5_001:5_004], kernel(np.ascontiguousarray(columns[:, 5_001:5_004])))
+
+
+def test_arrays_that_are_not_row_by_row_are_refused_or_copied() -> None:
+    x = ca.SX.sym("x", 2)
+    kernel = Kernel(ca.Function("f", [x], [x[0] - 2.0 * x[1]]))
+    columns = np.arange(20.0).reshape(10, 2).T
+    assert kernel(columns)[0] == pytest.approx(columns[0] - 2.0 * columns[1])
+    assert stacked(columns, columns).flags.c_contiguous
+    with pytest.raises(ValueError, match="row by row"):
+        kernel.run(columns, np.empty((1, 10)))
+    with pytest.raises(ValueError, match="takes 2 rows, got 3"):
+        kernel(np.zeros((3, 4)))
+
+
+def test_elimination_solves_what_numpy_solves() -> None:
+    # An arrow about a chain, as the heat equation has it, with one unknown that has no diagonal of its own.
+    random = np.random.default_rng(3)
+    matrix = np.diag(random.uniform(4.0, 5.0, 8)) + np.diag(random.uniform(-1, 1, 7), 1) + np.diag(np.ones(7), -1)
+    matrix[7, :], matrix[:, 7] = random.uniform(-1, 1, 8), random.uniform(-1, 1, 8)
+    matrix[6, 6] = 0.0
+    right = random.uniform(-1, 1, 8)
+    x = ca.SX.sym("x", 8)
+    equations = ca.mtimes(ca.sparsify(ca.DM(matrix)), x) - right
+    found = Kernel(ca.Function("f", [x], [newton_step(x, equations)]))(np.zeros((8, 1)))[:, 0]
+    assert found == pytest.approx(np.linalg.solve(matrix, right), rel=1e-12)
+
+
+def test_a_run_loads_neither_the_compiler_nor_statistics(tmp_path: Path) -> None:
+    code = (
+        "import sys; from tvimdesign.report import run; from tvimdesign.solve import answer, search;"
+        "print([m for m in ('numba', 'llvmlite', 'scipy.stats') if m in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, env={"PYTHONPATH": str(ROOT)},
+        check=False,
+    )  # fmt: skip
+    assert (done.stdout, done.stderr) == ("[]\n", "")

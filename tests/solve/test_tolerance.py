@@ -1,0 +1,139 @@
+"""The module with its tolerances: moments inside the optimiser, the free angle, yields, and the compiled functions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.errors import InputError
+from tvimdesign.solve.contributors import contributors_of
+from tvimdesign.solve.many import ManyModules
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.moments import moments
+from tvimdesign.solve.rig import Rig, rig_for
+from tvimdesign.solve.tolerance import Tolerancing
+from tvimdesign.study import read_study_text
+
+SPRINGS = "  wire_diameter: 0.025 mm\n  coil_diameter: {row: coil_diameter_tolerance}\n  spring_youngs_modulus: 1 %\n"
+OUTPUTS = ["spring_stiffness", "spring_static_safety", "pcl_stiffness@hot", "module_mass"]
+
+
+@pytest.fixture(scope="module")
+def rig() -> Callable[[str], Rig]:
+    """A shear module with what is written under its mode."""
+
+    @cache
+    def make(text: str) -> Rig:
+        table = table_for("shear")
+        return rig_for(read_study_text(f"mode: shear\n{text}", "a test"), Catalog(), table)
+
+    return make
+
+
+def _silent(_: str) -> None:
+    pass
+
+
+def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(rig: Callable[[str], Rig]) -> None:
+    spread = "tolerances: {preload_angle: {row: free_angle_tolerance, adjusted_to: 1 deg}}"
+    module = rig(f"{spread}\nrequire: {{preload_reserve: '>= 0 rad'}}\n")
+    angle = next(one for one in contributors_of(module) if one.name == "preload_angle")
+    assert np.degrees(angle.plus_minus) == pytest.approx(18.7, abs=0.05)  # +-18.7 deg of grade 2 against +-5.96 deg
+    preload = Tolerancing(module, _silent).preload(1 << 12, 1)
+    assert preload is not None
+    assert preload.over_stroke == pytest.approx(3.14, abs=0.01)
+    assert preload.adjusted == pytest.approx(np.radians(1.0))
+    # The preload of 0.15 rad less the stroke of 0.104 is what a spring may be off: 0.4229 of its standard deviations.
+    assert preload.yield_as_bought.share == pytest.approx(0.6638, abs=0.02)
+    assert preload.yield_adjusted.share == 1.0
+
+
+def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(rig: Callable[[str], Rig]) -> None:
+    text = "tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: %s, adjusted_to: 2 deg}}\n"
+    for said, adjusted, expected in (
+        ("true", None, 2.0),
+        ("false", None, 5.0),
+        ("false", True, 2.0),
+        ("true", False, 5.0),
+    ):
+        (one,) = contributors_of(rig(text % said), adjusted)
+        assert np.degrees(one.plus_minus) == pytest.approx(expected)
+    assert contributors_of(rig("tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: true}}\n")) == []
+
+
+def _differences(module: Rig, output: str) -> tuple[float, float]:
+    """Shift of the mean and standard deviation, by differences of the table's own floats."""
+    shift = variance = 0.0
+    for one in contributors_of(module):
+        step = 0.2 * one.plus_minus
+
+        def at(value: float, name: str = one.name) -> float:
+            return float(module.table.evaluate({**module.values, name: value}, [output])[output])
+
+        low, here, high = (at(one.nominal + k * step) for k in (-1, 0, 1))
+        variance += ((high - low) / (2.0 * step) * one.deviation) ** 2
+        shift += 0.5 * (high - 2.0 * here + low) / step**2 * one.deviation**2
+    return shift, float(np.sqrt(variance))
+
+
+def test_the_moments_are_those_of_differences_of_the_table(rig: Callable[[str], Rig]) -> None:
+    module = rig(f"tolerances:\n{SPRINGS}  pcl_thickness: {{plus_minus: 0.2 mm, distribution: uniform}}\n")
+    model = Model(module.table, module.values, module.points, 4)
+    function = moments(model, module.study.tolerances, OUTPUTS, [1.0] * len(OUTPUTS))
+    shifts, deviations = (np.asarray(part).ravel() for part in function(model.start))
+    for output, shift, deviation in zip(OUTPUTS, shifts, deviations, strict=True):
+        expected = _differences(module, output)
+        assert (shift, deviation) == (pytest.approx(expected[0], rel=0.02), pytest.approx(expected[1], rel=0.01))
+
+
+def test_many_modules_are_what_each_is_by_itself(rig: Callable[[str], Rig]) -> None:
+    module = rig(f"tolerances:\n{SPRINGS}")
+    names = ["wire_diameter", "coil_diameter"]
+    many = ManyModules(module, names, OUTPUTS)
+    columns = np.array([[module.values[name] * factor for factor in (0.99, 1.0, 1.02)] for name in names])
+    found = many(columns)
+    for i in range(3):
+        known: dict[str, Any] = {**module.values, **dict(zip(names, columns[:, i], strict=True))}
+        expected = module.table.evaluate(known, OUTPUTS)
+        assert found[:, i] == pytest.approx([expected[name] for name in OUTPUTS], rel=1e-12)
+
+
+def test_one_input_gives_a_yield_that_can_be_worked_out(rig: Callable[[str], Rig]) -> None:
+    # Mass is linear in the density of the springs, so the yield is the normal distribution's.
+    module = rig("tolerances: {spring_density: 9 %}\nrequire: {springs_mass: '<= 1 kg'}\n")
+    mass = float(module.row("springs_mass"))
+    text = f"tolerances: {{spring_density: 9 %}}\nrequire: {{springs_mass: '<= {1.03 * mass:.17g} kg'}}\n"
+    found = Tolerancing(rig(text), _silent).analyse(1 << 14, 1)
+    (kept,) = [one for one in found.kept if one.limit.output == "springs_mass"]
+    assert kept.share.share == pytest.approx(0.841345, abs=5e-4)  # one standard deviation
+    assert kept.capability == pytest.approx(1.0 / 3.0, rel=1e-3)
+    i = found.outputs.index("springs_mass")
+    assert found.deviation[i] == pytest.approx(0.03 * mass, rel=1e-9)
+    assert found.worst.high[i] == pytest.approx(1.09 * mass, rel=1e-9)
+    assert found.total[i, 0] == pytest.approx(1.0, abs=0.02)
+
+
+def test_the_same_bits_for_any_number_of_workers(rig: Callable[[str], Rig]) -> None:
+    module = rig("tolerances: {current: 1 %, wire_diameter: 0.02 mm}\nrequire: {response_time: '<= 200 s'}\n")
+    analysis = Tolerancing(module, _silent)
+    alone = analysis.analyse(1 << 11, 7)
+    analysis.workers = 2
+    shared = analysis.analyse(1 << 11, 7)
+    for name in ("shares", "first", "total"):
+        assert np.array_equal(getattr(alone, name), getattr(shared, name))
+    assert np.array_equal(alone.drawn.values, shared.drawn.values)
+    assert alone.together == shared.together
+
+
+def test_where_nothing_spreads_that_is_said(rig: Callable[[str], Rig]) -> None:
+    with pytest.raises(InputError, match="nothing spreads; give `tolerances: standard`"):
+        Tolerancing(rig("tolerances: {current: 0 A}\n"), _silent)
+    text = "tolerances: {structure_service_temperature: 5 K}\nrequire: {spring_stiffness: '>= 1 N.m/rad'}\n"
+    with pytest.raises(InputError, match="depends on structure_service_temperature; give tolerances of other inputs"):
+        Tolerancing(rig(text), _silent)

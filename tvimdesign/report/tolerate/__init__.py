@@ -1,0 +1,1 @@
+"""What spreading parts and materials do to a module: `tvimdesign tolerate`."""

@@ -1,0 +1,45 @@
+"""Outputs of many modules at once: the table's arithmetic and its working cycle, both compiled, as one function."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.solve.kernel import Kernel, of_columns, stacked
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.rig import Rig
+from tvimdesign.solve.simulate import Simulator
+from tvimdesign.solve.switch_kernel import Pace, SwitchKernel
+
+Array = NDArray[np.float64]
+
+_SLOW = 0.1
+"""Share of the horizon that a stage is paced by which never ends as drawn."""
+
+
+class ManyModules:
+    """Some outputs of one module as a function of some of its inputs, compiled for columns of them."""
+
+    def __init__(self, rig: Rig, moving: Sequence[str], outputs: Sequence[str]) -> None:
+        """Simulate the module as drawn, which sets the pace, and compile. All inputs but the `moving` are constants."""
+        model = Model(rig.table, rig.values, rig.points, rig.study.solver.cells)
+        needed = {base for name in outputs for base in (name.partition("@")[0], *rig.table.ancestors(name))}
+        supplied = [name for name in model.switch_names if name in needed]
+        self.switch = SwitchKernel(model, moving, supplied) if supplied else None
+        names = self.switch.names if self.switch else ()
+        seen = np.ones(len(model.switch_names))
+        places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
+        self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
+        if self.switch:
+            cycle = Simulator(model).run(model.start, stages=list(self.switch.stages))
+            slow = _SLOW * float(model.start[model.index["horizon"]])
+            ends = {name: cycle.values[stage.stage.ends] for name, stage in model.stages.items()}
+            self._pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+
+    def __call__(self, columns: Array, workers: int = 1) -> Array:
+        """One row for each output; infinite or no number where something never happens."""
+        if self.switch is None:
+            return self._arithmetic(columns, workers)
+        return self._arithmetic(stacked(columns, self.switch(columns, self._pace, workers)), workers)

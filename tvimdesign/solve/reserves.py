@@ -1,0 +1,99 @@
+"""A robust optimum: how far within its limits a design must stay so that modules that spread keep them.
+
+Limits on algebraic outputs stay inside by expressions of the problem itself. Times, energies and peaks follow from the
+working cycle; their spread comes from its exact derivatives at the optimum found, which is then sought again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tvimdesign.solve import spread
+from tvimdesign.solve.contributors import contributors_of
+from tvimdesign.solve.elasticity import elasticities
+from tvimdesign.solve.limits import Limit, on_switch
+from tvimdesign.solve.model import Model
+from tvimdesign.solve.moments import moments
+from tvimdesign.solve.rig import Rig
+from tvimdesign.study import Study
+
+if TYPE_CHECKING:
+    from tvimdesign.solve.optimizer import Ends, Optimizer, Run
+
+ROUNDS = 6
+_SETTLED = 1e-3
+"""Change of a margin, as a share of its limit's scale, below which it is settled."""
+
+
+def reserves_of(model: Model, study: Study, limits: Sequence[Limit]) -> Callable[[Any], dict[str, Any]]:
+    """What is added to the residual of each limit on an algebraic output: its mean's shift and so many deviations."""
+    assert study.robust is not None
+    sigma = study.robust.sigma
+    algebraic = [limit for limit in limits if not on_switch(model.table, limit.output)]
+    if not algebraic:
+        return lambda _: {}
+    of_inputs = moments(
+        model, study.tolerances, [limit.output for limit in algebraic], [limit.scale for limit in algebraic]
+    )  # fmt: skip
+
+    def reserves(inputs: Any) -> dict[str, Any]:
+        shift, deviation = of_inputs(inputs)
+        return {
+            limit.name: ((shift[i] if limit.sense == "<=" else -shift[i]) + sigma * deviation[i]) / limit.scale
+            for i, limit in enumerate(algebraic)
+        }
+
+    return reserves
+
+
+def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends]) -> Run:
+    """Seek the optimum `within` ends again until limits on what the cycle supplies are kept as robustly as the others.
+
+    Returns the last run, converged or not; without such limits, the run as it is.
+    """
+    for _ in range(ROUNDS):
+        if not run.start.converged:
+            return run
+        margins = _margins(optimizer, run)
+        before = optimizer.margins
+        optimizer.margins = margins
+        _tell_what_is_not(optimizer, margins)
+        if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
+            return run
+        optimizer.progress("staying within the limits on times by what they spread")
+        run = optimizer.solve(within, warm=run)
+        if not run.start.converged:
+            run = optimizer.solve(within, begin=run.inputs)
+    return run
+
+
+def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
+    """Name the limits whose spread is not known: they are kept as drawn, no more."""
+    on_cycle = (limit for limit in optimizer.problem.limits if on_switch(optimizer.table, limit.output))
+    names = [limit.name for limit in on_cycle if limit.name not in margins]
+    if names:
+        optimizer.progress(f"not robust, as a current follows a profile: {', '.join(names)}")
+
+
+def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
+    """How far within the limits on times, energies and peaks to stay at a run's design."""
+    study = optimizer.study
+    assert study.robust is not None
+    limits = [limit for limit in optimizer.problem.limits if on_switch(optimizer.table, limit.output)]
+    if not limits:
+        return {}
+    model = optimizer.model
+    numbers = {name: float(run.inputs[i]) for name, i in model.index.items()}
+    rig = Rig(study, optimizer.catalog, optimizer.table, {**numbers, **model.words}, run.drives)
+    contributors = contributors_of(rig)
+    names = [contributor.name for contributor in contributors]
+    options = study.solver
+    wanted = list(dict.fromkeys(limit.output for limit in limits))
+    exact = elasticities(rig, options.elements, options.cells, wanted, names)
+    known = [contributors[names.index(name)] for name in exact.variables]
+    deviations = dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0], strict=True))
+    return {limit.name: study.robust.sigma * float(deviations.get(limit.output, np.nan)) / limit.scale
+            for limit in limits if limit.output in deviations}  # fmt: skip
