@@ -41,8 +41,8 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     robust = design.study.get("robust")
     if robust and answer.found:
         console.print(
-            f"Limits are kept by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the room "
-            "they show below; `tvimdesign tolerate` checks that on many modules."
+            f"Limits are kept by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
+            "room they show below; `tvimdesign tolerate` checks that on many modules."
         )
     if not answer.found:
         _print_variables(answer, table, console, "Where the solver ended; this is not a design")
