@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -62,6 +62,7 @@ def json_schema(tables: Mapping[str, Table]) -> _Schema:
         "definitions": {
             "quantity": {"type": "string", "pattern": rf"^\s*{_NUMBER} ?[^\s0-9.,_].*$"},
             "number": {"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^\s*{_NUMBER}( ?%)?\s*$"}]},
+            "tolerance": _tolerance(tables.values()),
             "limit": {"type": "string", "pattern": rf"^\s*(<=|>=)\s*{_NUMBER}"},
         },
     }
@@ -178,19 +179,25 @@ def _points(table: Table) -> _Schema:
     return _section(_SECTIONS["operating_points"], {}, {f"^{_POINT}$": point})
 
 
-def _tolerances(table: Table) -> _Schema:
+def _tolerance(tables: Iterable[Table]) -> _Schema:
+    """What may be said of one tolerance, whatever its input."""
     size = {"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^\s*{_NUMBER}"}]}
     full = _shape(
         {
-            "plus_minus": size, "row": {"enum": tolerance_rows(table)}, "distribution": {"enum": ["normal", "uniform"]},
+            "plus_minus": size, "row": {"enum": sorted({name for table in tables for name in tolerance_rows(table)})},
+            "distribution": {"enum": ["normal", "uniform"]},
             "sigma": {"$ref": "#/definitions/number"}, "adjustable": {"type": "boolean"}, "adjusted_to": size,
         },
         [],
     )  # fmt: skip
-    one = {"anyOf": [size, full]}
+    return {"anyOf": [size, full]}
+
+
+def _tolerances(table: Table) -> _Schema:
+    one = [{"$ref": "#/definitions/tolerance"}]
     rows = [row for row in table.inputs if not row.integer]
-    points = {f"^{row.name}@{_POINT}$": {"description": _about(row), **one} for row in rows if row.per_point}
-    named = {row.name: {"description": _about(row), **one} for row in rows if not row.per_point}
+    points = {f"^{row.name}@{_POINT}$": {"description": _about(row), "allOf": one} for row in rows if row.per_point}
+    named = {row.name: {"description": _about(row), "allOf": one} for row in rows if not row.per_point}
     section = _section(_SECTIONS["tolerances"], {STANDARD: {"type": "boolean"}, **named}, points)
     return {"anyOf": [section, {"const": STANDARD}]}
 
