@@ -39,6 +39,10 @@ WRONG = [
     "mode: shear\nsolver: {starts: 0}",
     "mode: shear\nsolver: {speed: 1}",
     "mode: shear\nwrite: {cad: 1}",
+    "mode: shear\ntolerances: usual",
+    "mode: shear\ntolerances: {wire_diamter: 1 mm}",
+    "mode: shear\ntolerances: {wire_diameter: {plus_minus: 1 mm, distribution: gauss}}",
+    "mode: shear\nrobust: {sigma: 2, yield: 0.9}",
 ]
 
 
