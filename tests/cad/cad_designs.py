@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import radians
 from typing import Any, NamedTuple
 
@@ -12,6 +13,8 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.device.rows import Event
 from tvimdesign.device.rows import Path as SwitchPath
+from tvimdesign.study import given as resolve
+from tvimdesign.study import read_study_text
 from tvimdesign.study.design import Design
 
 MM = 1e-3
@@ -21,9 +24,8 @@ WRIST = {
     "core_radius": 5.9 * MM, "hub_wall": 2.0 * MM, "radial_clearance": 0.6 * MM, "rotor_rim": 1.0 * MM,
     "rotor_thickness": 2.5 * MM, "pin_diameter": 2.5 * MM, "leg_overhang": 3.0 * MM,
     # Half the size takes smaller screws: M2 in the core.
-    "link_screw_pilot": 1.6 * MM, "link_screw_clearance": 2.4 * MM, "link_screw_head": 3.8 * MM,
-    "link_screw_depth": 5.0 * MM, "retainer_screw_pilot": 2.5 * MM, "retainer_screw_clearance": 3.4 * MM,
-    "retainer_screw_depth": 6.0 * MM, "notch_width": 8.0 * MM,
+    "link_screw": "iso_4762_m2", "link_screw_length": 8.0 * MM, "retainer_screw": "iso_7380_m3",
+    "retainer_screw_length": 8.0 * MM, "notch_width": 8.0 * MM,
 }  # fmt: skip
 ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_angle": 0.21}
 BLOCKS = {
@@ -38,29 +40,26 @@ WRIST_BLOCKS = {name: value for name, value in WRIST.items() if name not in {"ar
 }  # fmt: skip
 ODD_BLOCKS = WRIST_BLOCKS | {"spring_pairs": 3, "vane_count": 3, "coil_count": 6.7, "preload_angle": 0.21,
                              "slot_share": 0.6}  # fmt: skip
-CASES: dict[str, tuple[str, dict[str, float]]] = {
+# Bearings on either side of a lip, in a hub that reaches below the floor, and in one that is as high as the blocks.
+BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 * MM, "core_radius": 7.5 * MM}
+BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "corner_radius": 0.5 * MM,
+                           "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "pcl_inner_radius": 17.0 * MM,
+                           "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 3.5 * MM}  # fmt: skip
+CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
     "odd blocks": ("compression", ODD_BLOCKS),
+    "bearings": ("shear", BEARINGS), "bearings among blocks": ("compression", BEARING_BLOCKS),
 }  # fmt: skip
 
 
-def given(overrides: dict[str, float], mode: str) -> dict[str, Any]:
+def given(overrides: Mapping[str, float | str], mode: str) -> dict[str, Any]:
     """Every input and choice of a mode at its default, but for the overrides."""
-    catalog, table = Catalog(), table_for(mode)
-    known: dict[str, Any] = {row.name: catalog.record(row.shelf, row.default) if row.shelf else row.default
-                             for row in table.choices}  # fmt: skip
-    for row in table.inputs:
-        if row.name in overrides:
-            known[row.name] = overrides[row.name]
-        elif row.record:
-            known[row.name] = known[row.record[0]].value(row.record[1])
-        else:
-            known[row.name] = row.default
-    return known
+    study = read_study_text(f"mode: {mode}\n", "a test").model_copy(update={"module": dict(overrides)})
+    return resolve(study, Catalog(), table_for(mode))
 
 
-def design_of(name: str, overrides: dict[str, float], mode: str = "shear") -> Design:
+def design_of(name: str, overrides: Mapping[str, float | str], mode: str = "shear") -> Design:
     """A design with every row of the geometry."""
     known, table = given(overrides, mode), table_for(mode)
     geometry = ("Layout", "Gaps", "Size and weight", "Springs")
@@ -68,7 +67,7 @@ def design_of(name: str, overrides: dict[str, float], mode: str = "shear") -> De
     wanted = [row.name for row in simple if row.group in geometry and not isinstance(row, Event | SwitchPath)]
     values = {key: float(value) for key, value in known.items() if isinstance(value, int | float)}
     values |= {key: float(value) for key, value in table.evaluate(known, wanted).items()}
-    choices = {row.name: row.default for row in table.choices}
+    choices = {row.name: getattr(known[row.name], "name", known[row.name]) for row in table.choices}
     return Design(
         tvimdesign="0", name=name, mode=mode, status="evaluated", choices=choices, values=values, study={}
     )  # fmt: skip

@@ -16,6 +16,7 @@ import trimesh
 from cad_designs import Made
 
 from tvimdesign.cad import CadReport, make_cad
+from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.kinds import KINDS
 from tvimdesign.cad.make import _report
 from tvimdesign.cad.modes import MODULES
@@ -37,7 +38,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     design, report, steps = made
     assert report.failed == ()
     assert report.notes == ()
-    expected = {f"parts/{kind}.{suffix}" for kind in MODULES[design.mode].kinds for suffix in ("step", "stl")}
+    expected = {f"parts/{kind}.{suffix}" for kind in MODULES[design.mode].kinds(dimensions(design)) for suffix in ("step", "stl")}
     assert set(report.files) == expected | {"assembly.step", "assembly.glb", "preview.png"}
     found = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}
     assert found == set(report.files)
@@ -55,7 +56,7 @@ def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made
 
 
 def test_step_and_stl_read_back_as_the_parts(made: Made) -> None:
-    for kind in MODULES[made.design.mode].kinds:
+    for kind in MODULES[made.design.mode].kinds(dimensions(made.design)):
         copies = COPIES[made.design.mode] if kind in ("pcl_arc", "pcl_block", "peltier_pad") else 1
         expected = 1e9 * made.design.values[KINDS[kind].volume] / copies
         solid = cq.importers.importStep(str(made.report.folder / f"parts/{kind}.step")).val()

@@ -63,3 +63,31 @@ def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
     half_width, inner, outer = 6e-3, 71e-3, 74e-3
     expected = integrate(lambda y: np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), -half_width, half_width)
     assert shapes.ring_notch(half_width, inner, outer) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("offset", [0.0, 1.5e-3])
+@pytest.mark.parametrize("radius", [0.2e-3, 1.5e-3])
+def test_fillets_take_from_a_sector_what_is_beyond_their_arcs(radius: float, offset: float) -> None:
+    inner, outer = 12e-3, 24e-3
+
+    def touching(circle: float, middle: float) -> tuple[float, tuple[float, float]]:
+        """Where the fillet touches the line, along it, and where it touches the circle."""
+        along = np.sqrt(middle**2 - (offset + radius) ** 2)
+        return along, (along * circle / middle, (offset + radius) * circle / middle)
+
+    foot, (_, top) = touching(outer, outer - radius)
+    # Strips along the line, from the fillet out to the circle.
+    taken = integrate(
+        lambda y: np.sqrt(outer**2 - y**2) - foot - np.sqrt(max(radius**2 - (y - offset - radius) ** 2, 0.0)),
+        offset,
+        top,
+    )
+    assert shapes.outer_corner(radius, outer, offset) == pytest.approx(taken, rel=1e-6)
+
+    foot, (left, _) = touching(inner, inner + radius)
+    # Strips across the line: below the fillet, less what lies below the circle.
+    fillet = integrate(lambda x: radius - np.sqrt(max(radius**2 - (x - foot) ** 2, 0.0)), left, foot)
+    circle = integrate(lambda x: np.sqrt(inner**2 - x**2) - offset, left, np.sqrt(inner**2 - offset**2))
+    assert shapes.inner_corner(radius, inner, offset) == pytest.approx(fillet - circle, rel=1e-6)
+    four = 2.0 * (taken + fillet - circle)
+    assert shapes.corners(radius, inner, outer, offset) == pytest.approx(four, rel=1e-6)

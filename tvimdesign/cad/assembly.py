@@ -8,9 +8,9 @@ from math import pi
 
 import cadquery as cq
 
-from tvimdesign.cad import parts
+from tvimdesign.cad import bought, parts
 from tvimdesign.cad.dimensions import Dimensions, dimensions
-from tvimdesign.cad.kinds import TURNING
+from tvimdesign.cad.kinds import MADE_TURNING
 from tvimdesign.cad.modes import MODULES
 from tvimdesign.cad.shapes import polar, turned
 from tvimdesign.cad.springs import Coil, free_coil, installed_coil, spring_solid
@@ -34,7 +34,7 @@ def drawn_parts(dims: Dimensions, progress: Progress | None = None) -> dict[str,
     """Build one of every part but the springs, in the module's coordinates, by kind."""
     if dims.count("spring_count") % 2:
         raise GeometryError(f"spring_count is {dims.spring_count:g}; half of them are left-hand, so it must be even")
-    return {name: _built(name, partial(draw, dims), progress) for name, draw in MODULES[dims.mode].drawn.items()}
+    return {name: _built(name, partial(draw, dims), progress) for name, draw in MODULES[dims.mode].drawn(dims).items()}
 
 
 def free_springs(dims: Dimensions, progress: Progress | None = None) -> dict[str, cq.Solid]:
@@ -76,7 +76,8 @@ def place(
 ) -> dict[str, cq.Solid]:
     """Place the drawn parts, and the springs built for the rotor's angle, by name."""
     placed = {"housing": turned(drawn["housing"], 0.0)}
-    placed |= {name: turned(drawn[name], rotor_angle) for name in TURNING}
+    placed |= {name: turned(drawn[name], rotor_angle) for name in MADE_TURNING}
+    placed |= bought.stand(dims, drawn, rotor_angle)
     placed |= MODULES[dims.mode].stand(dims, drawn, rotor_angle)
     return placed | installed_springs(dims, rotor_angle, progress)
 

@@ -50,9 +50,9 @@ def all_checks(
 
 def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:
     """Volume, mass and inertia of the solids against the rows of the design."""
-    by_kind: dict[str, list[cq.Solid]] = {kind: [] for kind in MODULES[design.mode].kinds}
+    by_kind: dict[str, list[cq.Solid]] = {}
     for name, solid in placed.items():
-        by_kind[kind_of(name)].append(solid)
+        by_kind.setdefault(kind_of(name), []).append(solid)
     mass = inertia = 0.0
     for kind, solids in by_kind.items():
         one = kind in SPRINGS  # the row is the volume of one spring, of the others that of all of a kind

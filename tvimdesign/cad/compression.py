@@ -12,10 +12,10 @@ import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.parts import bare_housing, bare_rotor, link, retainer
-from tvimdesign.cad.shapes import block, sector, turned
+from tvimdesign.cad.shapes import block, rounded, sector, turned
 from tvimdesign.errors import GeometryError
 
-FIXED = ("housing", "peltier_pad")
+FIXED = ("housing", "peltier_pad", "bearing_outer")
 """Not the blocks: they change their shape as the rotor turns, and each is held against all that stands and turns."""
 _SIDES = (1.0, -1.0)
 
@@ -28,7 +28,7 @@ def housing(dims: Dimensions) -> cq.Shape:
     pocketed = vane.cut(*_beside_faces(dims, end, (dims.running_clearance, dims.vane_height + end)))
     floor_bottom, roof = -dims.floor_thickness, dims.vane_height - dims.window_ledge
     whole = sector(dims.slot_inner_radius, dims.slot_outer_radius, dims.housing_vane_angle, floor_bottom, roof)
-    slot = whole.cut(*_beside_faces(dims, end, (floor_bottom - end, roof + end)))
+    slot = rounded(whole.cut(*_beside_faces(dims, end, (floor_bottom - end, roof + end))), dims.corner_radius)
     azimuths = _housing_vanes(dims)
     return bare_housing(dims, [turned(pocketed, at) for at in azimuths], [turned(slot, at) for at in azimuths])
 

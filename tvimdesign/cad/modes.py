@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import cadquery as cq
 
-from tvimdesign.cad import compression, shear
+from tvimdesign.cad import bought, compression, shear
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import SPRINGS
 
@@ -16,21 +16,24 @@ from tvimdesign.cad.kinds import SPRINGS
 class Module:
     """The parts of a mode."""
 
-    drawn: Mapping[str, Callable[[Dimensions], cq.Shape]]
-    """How one of each kind is drawn, by kind; the springs, which all modes have, are not among them."""
+    made: Mapping[str, Callable[[Dimensions], cq.Shape]]
+    """How one of each kind is drawn, by kind; springs, screws and bearings, which all modes have, are not among them."""
     stand: Callable[[Dimensions, Mapping[str, cq.Solid], float], dict[str, cq.Shape]]
     """Places pads and PCL, the rotor at an angle [rad], by name."""
     fixed: tuple[str, ...]
     """Kinds that neither turn nor change their shape."""
 
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """All kinds of part, springs and all."""
-        return (*self.drawn, *SPRINGS)
+    def drawn(self, dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
+        """How one of each kind is drawn but the springs, of what a design has."""
+        return {**self.made, **bought.drawn(dims)}
+
+    def kinds(self, dims: Dimensions) -> tuple[str, ...]:
+        """All kinds of part a design has, springs and all."""
+        return (*self.drawn(dims), *SPRINGS)
 
 
 MODULES = {
-    "shear": Module(drawn=shear.DRAWN, stand=shear.stand, fixed=shear.FIXED),
-    "compression": Module(drawn=compression.DRAWN, stand=compression.stand, fixed=compression.FIXED),
+    "shear": Module(made=shear.DRAWN, stand=shear.stand, fixed=shear.FIXED),
+    "compression": Module(made=compression.DRAWN, stand=compression.stand, fixed=compression.FIXED),
 }
 """By mode."""

@@ -39,19 +39,28 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
     floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
     ground, rim = floor_bottom - dims.foot_height, dims.pin_top_level
     wall = ring(dims.housing_inner_radius, dims.housing_outer_radius, ground, rim)
-    hub = cylinder(dims.hub_radius, 0, dims.rotor_bottom_level)
+    hub = cylinder(dims.hub_radius, dims.hub_bottom_level, dims.hub_top_level)
     post_top = dims.coil_end_level + 0.5 * dims.wire_diameter
     posts = [
         cylinder(dims.post_radius, 0, post_top, polar(dims.placement_radius, azimuth))
         for azimuth in dims.azimuths("spring_count")
     ]
-    bore = cylinder(dims.core_radius + dims.running_clearance, floor_bottom, dims.rotor_bottom_level)
     hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
     tang_holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
     feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
     mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
     body = join(floor, [wall, hub, *posts, *feet, *added])
-    return body.cut(bore, *openings, *tang_holes, *mount_holes, *notches(dims))
+    return body.cut(*bores(dims), *openings, *tang_holes, *mount_holes, *notches(dims))
+
+
+def bores(dims: Dimensions) -> list[cq.Shape]:
+    """What is cut from the hub: a plain bore, or a lip's bore with a seat for a bearing at either end."""
+    bottom, top = dims.hub_bottom_level, dims.hub_top_level
+    between = cylinder(dims.lip_radius, bottom, top)
+    if not dims.bearing_width:
+        return [between]
+    lower = cylinder(dims.seat_radius, bottom, bottom + dims.bearing_width)
+    return [between, lower, cylinder(dims.seat_radius, top - dims.bearing_width, top)]
 
 
 def mounts(dims: Dimensions) -> list[tuple[float, float]]:
@@ -70,9 +79,14 @@ def notches(dims: Dimensions) -> list[cq.Shape]:
 
 def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = ()) -> cq.Shape:
     """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds."""
-    core_bottom = -dims.floor_thickness - dims.running_clearance
+    core_bottom = dims.core_bottom_level
     plate = cylinder(dims.rotor_radius, dims.rotor_bottom_level, dims.rotor_top_level)
-    core = cylinder(dims.core_radius, core_bottom, dims.link_bottom_level)
+    core = [
+        cylinder(dims.journal_radius, core_bottom, dims.rotor_top_level),
+        cylinder(dims.core_radius, dims.rotor_bottom_level, dims.link_bottom_level),
+    ]
+    if dims.rotor_bottom_level > dims.hub_top_level:
+        core.append(cylinder(dims.collar_radius, dims.hub_top_level, dims.rotor_top_level))
     pins = [
         cylinder(0.5 * dims.pin_diameter, dims.rotor_top_level, dims.pin_top_level, polar(dims.pin_radius, azimuth))
         for azimuth in dims.azimuths("spring_count")
@@ -81,7 +95,7 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = ()) -> cq.Shape:
     pilot_bottom = core_top - dims.link_screw_depth
     pilots = [cylinder(0.5 * dims.link_screw_pilot, pilot_bottom, core_top, at) for at in link_screws(dims)]
     retainer_pilot = cylinder(0.5 * dims.retainer_screw_pilot, core_bottom, core_bottom + dims.retainer_screw_depth)
-    return join(plate, [core, *pins, *added]).cut(retainer_pilot, *pilots)
+    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots)
 
 
 def link(dims: Dimensions) -> cq.Shape:
@@ -94,9 +108,8 @@ def link(dims: Dimensions) -> cq.Shape:
 
 def retainer(dims: Dimensions) -> cq.Shape:
     """Disc below the floor, screwed to the core, that keeps the rotor in the housing."""
-    top = -dims.floor_thickness - dims.running_clearance
-    radius = dims.core_radius + dims.retainer_lip
-    return ring(0.5 * dims.retainer_screw_clearance, radius, top - dims.retainer_thickness, top)
+    top = dims.retainer_top_level
+    return ring(0.5 * dims.retainer_screw_clearance, dims.retainer_radius, top - dims.retainer_thickness, top)
 
 
 def link_screws(dims: Dimensions) -> list[tuple[float, float]]:

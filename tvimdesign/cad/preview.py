@@ -51,7 +51,7 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
         renderer = _view(shown, dims)
         renderer.SetViewport(left, _LEGEND_HEIGHT, right, 1.0)
         window.AddRenderer(renderer)
-    window.AddRenderer(_legend(MODULES[dims.mode].kinds))
+    window.AddRenderer(_legend(MODULES[dims.mode].kinds(dims)))
     window.Render()
     image = vtkWindowToImageFilter()
     image.SetInput(window)

@@ -6,11 +6,14 @@ from collections.abc import Iterable
 from math import cos, pi, sin
 
 import cadquery as cq
+from OCP.StdFail import StdFail_NotDone
 
 from tvimdesign.errors import GeometryError
 
 Point = tuple[float, float]
 _UP = cq.Vector(0, 0, 1)
+_UPRIGHT = 0.999
+"""Least upward part of the direction of an edge that counts as upright."""
 
 
 def polar(radius: float, azimuth: float) -> Point:
@@ -60,6 +63,17 @@ def sector(inner: float, outer: float, span: float, bottom: float, top: float) -
         cq.Edge.makeLine(at(inner, first), at(outer, first)),
     ])  # fmt: skip
     return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+
+
+def rounded(body: cq.Shape, radius: float) -> cq.Solid:
+    """The one solid of a body with every upright edge rounded."""
+    _require(corner_radius=radius)
+    solid = body.Solids()[0]
+    upright = [edge for edge in solid.Edges() if edge.geomType() == "LINE" and abs(edge.tangentAt(0.5).z) > _UPRIGHT]
+    try:
+        return cq.Solid(solid.fillet(radius, upright).Solids()[0].wrapped)
+    except StdFail_NotDone as error:
+        raise GeometryError(f"corners of {radius:.4g} mm do not fit; choose a smaller corner_radius") from error
 
 
 def slot(half_width: float, length: float, bottom: float, top: float) -> cq.Solid:

@@ -9,21 +9,21 @@ import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.parts import bare_housing, bare_rotor, link, retainer
-from tvimdesign.cad.shapes import sector, turned
+from tvimdesign.cad.shapes import rounded, sector, turned
 
-FIXED = ("housing", "peltier_pad", "pcl_arc")
+FIXED = ("housing", "peltier_pad", "pcl_arc", "bearing_outer")
 
 
 def housing(dims: Dimensions) -> cq.Shape:
     """Housing with pockets for the pads and windows below them."""
-    pocket = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
-    window = sector(
+    sharp = sector(
         dims.pcl_inner_radius + dims.window_ledge,
         dims.pcl_outer_radius - dims.window_ledge,
         dims.arc_span - 2.0 * dims.window_ledge / dims.pcl_inner_radius,
         -dims.floor_thickness,
         -dims.peltier_thickness,
     )
+    pocket, window = peltier_pad(dims), rounded(sharp, dims.corner_radius)
     openings = [turned(shape, azimuth) for azimuth in _azimuths(dims) for shape in (pocket, window)]
     return bare_housing(dims, (), openings)
 
@@ -35,7 +35,8 @@ def pcl_arc(dims: Dimensions) -> cq.Shape:
 
 def peltier_pad(dims: Dimensions) -> cq.Shape:
     """One Peltier pad in its pocket under an arc, centred on the x axis."""
-    return sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
+    sharp = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
+    return rounded(sharp, dims.corner_radius)
 
 
 DRAWN = {

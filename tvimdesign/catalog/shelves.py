@@ -57,6 +57,46 @@ SHELVES: Mapping[str, Shelf] = {
             "service_temperature": "degC",
         }
     ),
+    "processes": Shelf(
+        values={
+            "minimum_wall": "mm",
+            "minimum_feature": "mm",
+            "running_clearance": "mm",
+            "minimum_running_clearance": "mm",
+            "slip_clearance": "mm",
+            "seat_clearance": "mm",
+            "corner_radius": "mm",
+            "corner_depth_ratio": "1",
+            "pocket_depth_ratio": "1",
+            "thread_engagement": "1",
+        },
+        words={"structure_material": (), "thread": ("self_tapping", "tapped")},
+        rising=(("minimum_running_clearance", "running_clearance"),),
+    ),
+    "screws": Shelf(
+        values={
+            "nominal_diameter": "mm",
+            "head_diameter": "mm",
+            "head_height": "mm",
+            "clearance_hole": "mm",
+            "tap_drill": "mm",
+            "density": "kg/m^3",
+        },
+        tables={"lengths": Columns({"length": "mm"})},
+        rising=(("tap_drill", "nominal_diameter", "clearance_hole", "head_diameter"),),
+    ),
+    "bearings": Shelf(
+        values={
+            "bore": "mm",
+            "outer_diameter": "mm",
+            "width": "mm",
+            "inner_shoulder": "mm",
+            "outer_shoulder": "mm",
+            "mass": "g",
+            "static_load_rating": "kN",
+        },
+        rising=(("bore", "inner_shoulder", "outer_shoulder", "outer_diameter"),),
+    ),
     "polymers": Shelf(
         values={
             "density_solid": "kg/m^3",

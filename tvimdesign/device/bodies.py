@@ -12,12 +12,6 @@ book = Book("Size and weight")
 LINK_SCREWS = 4
 
 
-@book.output("mm^3")
-def peltier_volume(pcl_area: Scalar, peltier_thickness: Scalar) -> Scalar:
-    """Volume of all Peltier pads together; they have the outline of the PCL."""
-    return pcl_area * peltier_thickness
-
-
 @book.output("mm")
 def helix_length(coil_count: Scalar, coil_diameter: Scalar, coil_pitch: Scalar) -> Scalar:
     """Length of the wire in the coils of one spring."""
@@ -58,17 +52,29 @@ def skirt_volume(
     return (skirt - notches + feet) * foot_height
 
 
+@book.output("mm^3")
+def hub_volume(
+    hub_radius: Scalar,
+    hub_top_level: Scalar,
+    hub_bottom_level: Scalar,
+    seat_radius: Scalar,
+    lip_radius: Scalar,
+    bearing_width: Scalar,
+) -> Scalar:
+    """Volume of the hub from its lower to its upper end, the floor around it not counted."""
+    seats = 2.0 * bearing_width
+    between = hub_top_level - hub_bottom_level - seats
+    return ring(seat_radius, hub_radius).area * seats + ring(lip_radius, hub_radius).area * between
+
+
 @book.helper()
 def bare_housing_volume(
     skirt_volume: Scalar,
     floor_volume: Scalar,
     housing_inner_radius: Scalar,
     housing_outer_radius: Scalar,
-    core_radius: Scalar,
-    running_clearance: Scalar,
-    hub_radius: Scalar,
+    hub_volume: Scalar,
     pin_top_level: Scalar,
-    rotor_bottom_level: Scalar,
     spring_count: Scalar,
     post_radius: Scalar,
     coil_end_level: Scalar,
@@ -76,9 +82,8 @@ def bare_housing_volume(
 ) -> Scalar:
     """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub and spring posts."""
     wall = ring(housing_inner_radius, housing_outer_radius).area * pin_top_level
-    hub = ring(core_radius + running_clearance, hub_radius).area * rotor_bottom_level
     posts = spring_count * np.pi * post_radius**2 * (coil_end_level + 0.5 * wire_diameter)
-    return skirt_volume + floor_volume + wall + hub + posts
+    return skirt_volume + floor_volume + wall + hub_volume + posts
 
 
 @book.helper()
@@ -87,8 +92,11 @@ def bare_rotor_moments(
     rotor_thickness: Scalar,
     core_radius: Scalar,
     link_bottom_level: Scalar,
-    floor_thickness: Scalar,
-    running_clearance: Scalar,
+    rotor_bottom_level: Scalar,
+    collar_radius: Scalar,
+    hub_top_level: Scalar,
+    journal_radius: Scalar,
+    core_bottom_level: Scalar,
     spring_count: Scalar,
     pin_diameter: Scalar,
     pin_radius: Scalar,
@@ -103,7 +111,9 @@ def bare_rotor_moments(
     """Volume and its polar moment about the axis, of plate, core and pins less the screw holes."""
     prisms = (
         (ring(core_radius, rotor_radius), rotor_thickness),
-        (ring(0.0, core_radius), link_bottom_level + floor_thickness + running_clearance),
+        (ring(0.0, core_radius), link_bottom_level - rotor_bottom_level),
+        (ring(0.0, collar_radius), rotor_bottom_level - hub_top_level),
+        (ring(0.0, journal_radius), hub_top_level - core_bottom_level),
         (disc_at(0.5 * pin_diameter, pin_radius).times(spring_count), pin_top_level - rotor_top_level),
         (disc_at(0.5 * link_screw_pilot, link_bolt_circle_radius).times(LINK_SCREWS), -link_screw_depth),
         (ring(0.0, 0.5 * retainer_screw_pilot), -retainer_screw_depth),
@@ -128,9 +138,9 @@ def link_section(
 
 
 @book.helper()
-def retainer_section(core_radius: Scalar, retainer_lip: Scalar, retainer_screw_clearance: Scalar) -> Section:
+def retainer_section(retainer_radius: Scalar, retainer_screw_clearance: Scalar) -> Section:
     """Plan view of the retainer."""
-    return ring(0.5 * retainer_screw_clearance, core_radius + retainer_lip)
+    return ring(0.5 * retainer_screw_clearance, retainer_radius)
 
 
 @book.output("mm^3")
@@ -208,9 +218,12 @@ def module_mass(
     springs_mass: Scalar,
     pcl_mass: Scalar,
     peltier_mass: Scalar,
+    screws_mass: Scalar,
+    bearings_mass: Scalar,
 ) -> Scalar:
-    """Mass of the module, without screws and wires."""
-    return housing_mass + rotor_mass + link_mass + retainer_mass + springs_mass + pcl_mass + peltier_mass
+    """Mass of the module, without wires and the screws that fix it."""
+    made = housing_mass + rotor_mass + link_mass + retainer_mass + pcl_mass
+    return made + springs_mass + peltier_mass + screws_mass + bearings_mass
 
 
 @book.output("kg*mm^2")
@@ -232,6 +245,9 @@ def parts_inertia(
     retainer_section: Section,
     retainer_thickness: Scalar,
     structure_density: Scalar,
+    screws_inertia: Scalar,
+    bearings_inertia: Scalar,
 ) -> Scalar:
-    """Moment of inertia of everything in the module that turns: rotor, link and retainer."""
-    return rotor_inertia + link_inertia + retainer_section.polar * retainer_thickness * structure_density
+    """Moment of inertia of everything in the module that turns: rotor, link, retainer, screws and inner rings."""
+    retainer = retainer_section.polar * retainer_thickness * structure_density
+    return rotor_inertia + link_inertia + retainer + screws_inertia + bearings_inertia

@@ -34,19 +34,21 @@ class Book:
         """Add the inputs that `inputs.yaml` lists under this group."""
         for name, entry in _all_inputs()[self.group].items():
             unit = str(entry["unit"])
+            record = (str(entry["record"][0]), str(entry["record"][1])) if "record" in entry else None
             self.rows.append(
                 Input(
                     name=name,
                     unit=unit,
                     description=entry["about"],
                     group=self.group,
-                    default=to_si(float(entry["value"]), unit),
+                    default=None if record else to_si(float(entry["value"]), unit),
                     lower=to_si(float(entry["from"]), unit),
                     upper=to_si(float(entry["to"]), unit),
                     variable=entry.get("vary", False),
                     integer=entry.get("integer", False),
                     per_point=entry.get("per_point", False),
-                    source=f"{entry['status']}: {entry['source']}",
+                    source=_of_record(record) if record else f"{entry['status']}: {entry['source']}",
+                    record=record,
                     mode=entry.get("mode"),
                 )
             )
@@ -57,15 +59,29 @@ class Book:
         """Add a number that comes from a chosen record, (choice, field), unless the study sets it."""
         row = Input(
             name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record,
-            source=f"record: {record[1]} of the chosen {record[0]}", mode=mode,
+            source=_of_record(record), mode=mode,
         )  # fmt: skip
         self.rows.append(row)
 
     def record(
-        self, name: str, shelf: str, default: str, description: str, only: tuple[str, str, str] | None = None
+        self,
+        name: str,
+        shelf: str,
+        default: str | tuple[str, str],
+        description: str,
+        only: tuple[str, str, str] | None = None,
+        others: tuple[str, ...] = (),
     ) -> None:
-        """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit."""
-        row = Choice(name=name, description=description, group=self.group, default=default, shelf=shelf, only=only)
+        """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit.
+
+        `default` is the name of one, or (choice, word) of the chosen record that names it. `others` are words that may
+        stand for no record at all.
+        """
+        word, record = (default, None) if isinstance(default, str) else ("", default)
+        row = Choice(
+            name=name, description=description, group=self.group, default=word, record=record, shelf=shelf, only=only,
+            options=others,
+        )  # fmt: skip
         self.rows.append(row)
 
     def option(self, name: str, options: tuple[str, ...], description: str) -> None:
@@ -176,6 +192,11 @@ def gather(books: Iterable[Book], mode: str) -> tuple[Row, ...]:
                 group.insert(place, row)
                 place += 1
     return tuple(row for group in rows.values() for row in group)
+
+
+def _of_record(record: tuple[str, str]) -> str:
+    """Source of an input whose value a chosen record gives."""
+    return f"record: {record[1]} of the chosen {record[0]}"
 
 
 def _summary(function: Callable[..., Any]) -> str:

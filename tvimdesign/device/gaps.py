@@ -90,9 +90,9 @@ def leg_reach_gap(placement_radius: Scalar, pin_radius: Scalar, leg_offset: Scal
     return placement_radius - pin_radius - leg_offset
 
 
-@book.output("mm", at_least(1.0 * MM, "a thinner spring post would break", 0.0))
+@book.output("mm", at_least(0.0, "a spring needs a post inside it", 0.0))
 def post_thickness(post_radius: Scalar) -> Scalar:
-    """Radius of the spring posts, held against the least that can be made."""
+    """Radius of the spring posts."""
     return post_radius
 
 
@@ -106,16 +106,22 @@ def spring_spring_gap(
 
 @book.output("mm", at_least(0.0, "the retainer must stand above the ground"))
 def retainer_gap(
-    foot_height: Scalar, retainer_thickness: Scalar, running_clearance: Scalar, retainer_screw_head: Scalar
+    foot_height: Scalar,
+    floor_thickness: Scalar,
+    retainer_top_level: Scalar,
+    retainer_thickness: Scalar,
+    retainer_screw_head_height: Scalar,
 ) -> Scalar:
     """Room between the ground and the retainer with its screw's head."""
-    return foot_height - retainer_thickness - running_clearance - retainer_screw_head
+    return foot_height + floor_thickness + retainer_top_level - retainer_thickness - retainer_screw_head_height
 
 
-@book.output("mm", at_least(1.2 * MM, "the core's wall would split under the link screws"))
-def link_screw_wall(core_radius: Scalar, link_bolt_circle_radius: Scalar, link_screw_pilot: Scalar) -> Scalar:
-    """Wall of the core outside the link screws' pilot holes."""
-    return core_radius - link_bolt_circle_radius - 0.5 * link_screw_pilot
+@book.output("mm")
+def link_screw_wall(
+    core_radius: Scalar, journal_radius: Scalar, link_bolt_circle_radius: Scalar, link_screw_pilot: Scalar
+) -> Scalar:
+    """Wall outside the link screws' holes of the core, and of its journal, into which they may reach."""
+    return np.fmin(core_radius, journal_radius) - link_bolt_circle_radius - 0.5 * link_screw_pilot
 
 
 @book.output("mm", at_least(0.3 * MM, "the heads of the link screws must clear each other"))
@@ -126,14 +132,10 @@ def link_screw_gap(link_bolt_circle_radius: Scalar, link_screw_head: Scalar) -> 
 
 @book.output("mm", at_least(1.0 * MM, "the screw holes in the core must not meet"))
 def core_web(
-    link_bottom_level: Scalar,
-    floor_thickness: Scalar,
-    running_clearance: Scalar,
-    link_screw_depth: Scalar,
-    retainer_screw_depth: Scalar,
+    link_bottom_level: Scalar, core_bottom_level: Scalar, link_screw_depth: Scalar, retainer_screw_depth: Scalar
 ) -> Scalar:
     """Core between the holes of the link screws and that of the retainer's screw."""
-    return link_bottom_level + floor_thickness + running_clearance - link_screw_depth - retainer_screw_depth
+    return link_bottom_level - core_bottom_level - link_screw_depth - retainer_screw_depth
 
 
 @book.output("mm", at_least(0.0, "the feet must stand inside the skirt"))

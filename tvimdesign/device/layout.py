@@ -63,12 +63,6 @@ def rotor_radius(pcl_outer_radius: Scalar, rotor_rim: Scalar) -> Scalar:
 
 
 @book.output("mm")
-def hub_radius(core_radius: Scalar, running_clearance: Scalar, hub_wall: Scalar) -> Scalar:
-    """Outer radius of the hub that carries the rotor plate."""
-    return core_radius + running_clearance + hub_wall
-
-
-@book.output("mm")
 def housing_inner_radius(placement_radius: Scalar, spring_reach: Scalar, radial_clearance: Scalar) -> Scalar:
     """Inner radius of the housing wall."""
     return placement_radius + spring_reach + radial_clearance
@@ -173,10 +167,14 @@ def envelope_diameter(housing_outer_radius: Scalar) -> Scalar:
 
 @book.output("mm", headline=True)
 def envelope_height(
-    foot_height: Scalar, floor_thickness: Scalar, link_bottom_level: Scalar, link_thickness: Scalar
+    foot_height: Scalar,
+    floor_thickness: Scalar,
+    link_bottom_level: Scalar,
+    link_thickness: Scalar,
+    link_screw_head_height: Scalar,
 ) -> Scalar:
-    """Height of the module from the ground to the output link's upper face."""
-    return foot_height + floor_thickness + link_bottom_level + link_thickness
+    """Height of the module from the ground to the heads of the link screws."""
+    return foot_height + floor_thickness + link_bottom_level + link_thickness + link_screw_head_height
 
 
 @book.output("cm^3", headline=True)

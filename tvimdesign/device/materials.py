@@ -7,7 +7,13 @@ from tvimdesign.device.book import Book
 book = Book("Materials")
 
 book.record("spring_material", "spring_materials", "music_wire", "Spring steel of the torsion springs")
-book.record("structure_material", "structure_materials", "petg", "Material of housing, rotor, link and retainer")
+book.record("process", "processes", "print_petg", "How housing, rotor, link and retainer are made")
+book.record(
+    "structure_material",
+    "structure_materials",
+    ("process", "structure_material"),
+    "Material of housing, rotor, link and retainer",
+)
 book.record("pcl_grade", "polymers", "pcl_80k", "Grade of polycaprolactone in the layer")
 book.record(
     "peltier_module",

@@ -72,9 +72,12 @@ class Choice:
     name: str
     description: str
     group: str
-    default: str
+    default: str = ""
     shelf: str | None = None
     options: tuple[str, ...] = ()
+    """The words there are; of a shelf, those beside its records."""
+    record: tuple[str, str] | None = None
+    """(choice, word): where the default comes from, of a choice that stands before this one."""
     only: tuple[str, str, str] | None = None
     """(word, value, reason): a record fits only if its word has that value."""
 

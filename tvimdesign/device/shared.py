@@ -2,7 +2,21 @@
 
 from __future__ import annotations
 
-from tvimdesign.device import bodies, gaps, hold, impedance, layout, materials, softening, springs, stiffening, thermal
+from tvimdesign.device import (
+    bearing,
+    bodies,
+    gaps,
+    hold,
+    impedance,
+    layout,
+    materials,
+    process,
+    screws,
+    softening,
+    springs,
+    stiffening,
+    thermal,
+)
 
-ROOMS = (materials, layout, springs, impedance, hold, thermal, softening, stiffening, bodies, gaps)
-BOOKS = tuple(room.book for room in ROOMS)
+ROOMS = (materials, layout, springs, impedance, hold, thermal, softening, stiffening, bodies, gaps, process)
+BOOKS = (materials.book, process.limits, *(room.book for room in ROOMS[1:]), *screws.books, *bearing.books)

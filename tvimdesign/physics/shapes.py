@@ -71,3 +71,37 @@ def radial_strip(thickness: Any, inner_radius: Any, outer_radius: Any) -> Any:
         return 0.5 * (radius**2 * np.arcsin(thickness / radius) + thickness * chord)
 
     return up_to(outer_radius) - up_to(inner_radius)
+
+
+def outer_corner(fillet_radius: Any, circle_radius: Any, offset: Any) -> Any:
+    """Area [m^2] that a fillet takes from the corner inside a circle about the axis and beside a straight line.
+
+    The line passes the axis at the distance `offset`; the shape lies on its far side. With its centre C at R - r from
+    the axis and r beside the line, the fillet touches the line at T and the circle on the ray through C: the circle's
+    sector from the corner to that ray, less the triangle over the line from T to the corner, the triangle of axis, T
+    and C, and the fillet's own sector (plane geometry).
+    """
+    r, t = fillet_radius, offset
+    along = np.sqrt((circle_radius - r) ** 2 - (t + r) ** 2)
+    to_corner = np.sqrt(circle_radius**2 - t**2)
+    centre, corner = np.arcsin((t + r) / (circle_radius - r)), np.arcsin(t / circle_radius)
+    whole = 0.5 * circle_radius**2 * (centre - corner) - 0.5 * t * (to_corner - along)
+    return whole - 0.5 * along * r - 0.5 * r**2 * (0.5 * np.pi + centre)
+
+
+def inner_corner(fillet_radius: Any, circle_radius: Any, offset: Any) -> Any:
+    """Area [m^2] that a fillet takes from the corner outside a circle about the axis and beside a straight line.
+
+    As `outer_corner`, the fillet's centre at R + r from the axis.
+    """
+    r, t = fillet_radius, offset
+    along = np.sqrt((circle_radius + r) ** 2 - (t + r) ** 2)
+    to_corner = np.sqrt(circle_radius**2 - t**2)
+    centre, corner = np.arcsin((t + r) / (circle_radius + r)), np.arcsin(t / circle_radius)
+    whole = 0.5 * (along * r - t * (along - to_corner))
+    return whole - 0.5 * circle_radius**2 * (centre - corner) - 0.5 * r**2 * (0.5 * np.pi - centre)
+
+
+def corners(fillet_radius: Any, inner_radius: Any, outer_radius: Any, offset: Any = 0.0) -> Any:
+    """Area [m^2] that fillets take from the four corners of an annular sector with sides at `offset` from radial."""
+    return 2.0 * (outer_corner(fillet_radius, outer_radius, offset) + inner_corner(fillet_radius, inner_radius, offset))

@@ -49,15 +49,17 @@ def _internal(row: Row) -> bool:
 
 def _plain(row: Row) -> dict[str, Any]:
     if isinstance(row, Choice):
-        allowed = ", ".join(row.options or Catalog().names(str(row.shelf)))
-        return _entry(row, "choice", "", row.default, allowed)
+        allowed = ", ".join([*row.options, *(Catalog().names(row.shelf) if row.shelf else [])])
+        return _entry(row, "choice", "", f"from {row.record[0]}" if row.record else row.default, allowed)
     name = f"{row.name}@point" if row.per_point else row.name
     if isinstance(row, Input):
         kind = "variable" if row.variable else "input"
-        if row.record:
+        ends = (row.lower, row.upper)
+        if row.record and not math.isfinite(row.upper):
             return _entry(row, kind, row.unit, f"from {row.record[0]}", "", name)
         default = "" if row.default is None else number(from_si(row.default, row.unit))
-        ends = (row.lower, row.upper)
+        if row.record:
+            default = f"from {row.record[0]}"
         allowed = " to ".join(number(from_si(end, row.unit)) if math.isfinite(end) else "any" for end in ends)
         return _entry(row, kind, row.unit, default, allowed, name)
     rules = "; ".join(f"{r.sense} {number(from_si(r.value, row.unit))}" for r in row.rules)

@@ -185,7 +185,7 @@ def _records(design: Design, catalog: Catalog, table: Table) -> dict[str, Path]:
     return {
         f"{row.shelf}/{design.choices[row.name]}": catalog.path(row.shelf, design.choices[row.name])
         for row in table.rows
-        if isinstance(row, Choice) and row.shelf
+        if isinstance(row, Choice) and row.shelf and design.choices[row.name] not in row.options
     }
 
 

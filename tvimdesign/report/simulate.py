@@ -80,7 +80,7 @@ def _records(rig: Rig) -> dict[str, Path]:
     return {
         f"{row.shelf}/{rig.values[row.name].name}": rig.catalog.path(row.shelf, rig.values[row.name].name)
         for row in rig.table.choices
-        if row.shelf
+        if row.shelf and rig.values[row.name] not in row.options
     }
 
 

@@ -142,7 +142,7 @@ def _is_condition(row: Input | Choice) -> bool:
     if row.per_point or row.mode is not None:
         return False
     if row.record is not None:
-        return row.record[0] not in _OWN_CHOICES
+        return row.record[0] not in _OWN_CHOICES and row.group not in _OWN_GROUPS
     return row.group not in _OWN_GROUPS or row.name in _ASKED_OF_THE_LAYOUT
 
 

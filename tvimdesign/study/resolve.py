@@ -17,7 +17,9 @@ def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:
     to the nearest of the listed values, so that the result is a member of the search. Raises InputError naming what has
     no value.
     """
-    found: dict[str, Any] = {row.name: _chosen(row, study, catalog) for row in table.choices}
+    found: dict[str, Any] = {}
+    for choice in table.choices:
+        found[choice.name] = _chosen(choice, study, catalog, found)
     for row in table.inputs:
         if row.per_point:
             for point, values in study.operating_points.items():
@@ -36,11 +38,13 @@ def drawn(study: Study, catalog: Catalog, table: Table) -> Study:
     return study.model_copy(update=update)
 
 
-def _chosen(row: Choice, study: Study, catalog: Catalog) -> Any:
-    word, allowed = study.module.get(row.name, row.default), study.vary.get(row.name)
+def _chosen(row: Choice, study: Study, catalog: Catalog, chosen: dict[str, Any]) -> Any:
+    word, allowed = study.module.get(row.name), study.vary.get(row.name)
+    if word is None:
+        word = chosen[row.record[0]].word(row.record[1]) if row.record else row.default
     if isinstance(allowed, Options) and word not in allowed.values:
         word = allowed.values[0]
-    return catalog.record(row.shelf, str(word)) if row.shelf else word
+    return catalog.record(row.shelf, str(word)) if row.shelf and word not in row.options else word
 
 
 def _started(row: Input, study: Study, chosen: dict[str, Any]) -> float:

@@ -150,13 +150,13 @@ def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
     word = text(reading.problems, node, path, "the name of a record" if row.shelf else "one of the options")
     if word is None:
         return None
+    if word in row.options:
+        return word
     if row.shelf:
         found = record(reading, node, path, row.shelf, word)
         return word if found and _fits(reading, node, path, row, found) else None
-    if word not in row.options:
-        reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
-        return None
-    return word
+    reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
+    return None
 
 
 def _fits(reading: Reading, node: Node, path: str, row: Choice, found: Record) -> bool:

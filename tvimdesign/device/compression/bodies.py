@@ -7,7 +7,7 @@ import numpy as np
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics.shapes import Section, radial_strip, ring, sector
+from tvimdesign.physics.shapes import Section, corners, radial_strip, ring, sector
 
 book = Book(shared.group)
 
@@ -30,6 +30,12 @@ def pcl_volume(pcl_area: Scalar, block_depth: Scalar) -> Scalar:
     return pcl_area * block_depth
 
 
+@book.output("mm^3")
+def peltier_volume(pcl_area: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Volume of all Peltier pads together; they have the faces of the blocks."""
+    return pcl_area * peltier_thickness
+
+
 @book.helper()
 def slot_section(
     vane_count: Scalar,
@@ -37,10 +43,13 @@ def slot_section(
     slot_inner_radius: Scalar,
     slot_outer_radius: Scalar,
     peltier_thickness: Scalar,
+    corner_radius: Scalar,
 ) -> Scalar:
-    """Area of the slots in plan view [m^2]: sectors of the vanes, less the pads on either side."""
+    """Area of the slots in plan view [m^2]: sectors of the vanes, less the pads on either side, corners rounded."""
     whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
-    return vane_count * (whole - 2.0 * radial_strip(peltier_thickness, slot_inner_radius, slot_outer_radius))
+    pads = 2.0 * radial_strip(peltier_thickness, slot_inner_radius, slot_outer_radius)
+    rounded = corners(corner_radius, slot_inner_radius, slot_outer_radius, peltier_thickness)
+    return vane_count * (whole - pads - rounded)
 
 
 @book.output("mm^3")
@@ -63,8 +72,7 @@ def housing_vanes_volume(
 
 @book.output("mm^3")
 def floor_volume(
-    core_radius: Scalar,
-    running_clearance: Scalar,
+    hub_radius: Scalar,
     housing_outer_radius: Scalar,
     floor_thickness: Scalar,
     slot_section: Scalar,
@@ -73,8 +81,8 @@ def floor_volume(
     tang_clearance: Scalar,
     mount_hole: Scalar,
 ) -> Scalar:
-    """Volume of the housing's floor, less bore, slots, tang holes and mounting holes."""
-    disc = ring(core_radius + running_clearance, housing_outer_radius).area
+    """Volume of the housing's floor around the hub, less slots, tang holes and mounting holes."""
+    disc = ring(hub_radius, housing_outer_radius).area
     holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
     return (disc - spring_count * holes - slot_section) * floor_thickness
 

@@ -37,16 +37,67 @@ def slot_reach(slot_height: Scalar) -> Scalar:
     return slot_height
 
 
-@book.output("mm", at_least(1.2 * MM, "the housing's vanes must carry their pads beside the slot", 0.0))
+@book.output("mm", at_least(0.0, "the housing's vanes must carry their pads beside the slot", 0.0))
 def slot_web(block_width: Scalar, slot_width: Scalar) -> Scalar:
     """Radial width of what a housing vane has on either side of its slot."""
     return 0.5 * (block_width - slot_width)
 
 
-@book.output("mm", at_least(1.2 * MM, "a thinner rotor vane would break"))
+@book.output("mm", at_least(0.0, "what carries the pads beside the slots is thinner than the process can make it"))
+def slot_web_reserve(slot_web: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Housing vane on either side of its slot beyond the process's least wall."""
+    return slot_web - minimum_wall
+
+
+@book.output("mm")
 def vane_root(rotor_vane_angle: Scalar, pcl_inner_radius: Scalar) -> Scalar:
     """Thickness of the rotor's vanes at their inner end, where they are thinnest."""
     return rotor_vane_angle * pcl_inner_radius
+
+
+@book.output("mm", at_least(0.0, "the rotor's vanes are thinner at their inner end than the process can make them"))
+def vane_root_reserve(vane_root: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Rotor vanes at their inner end beyond the process's least wall."""
+    return vane_root - minimum_wall
+
+
+@book.output("mm", at_least(0.0, "the slots are too narrow for their depth: the cutter cannot reach their ends"))
+def slot_pocket_reserve(
+    slot_opening: Scalar,
+    pocket_depth_ratio: Scalar,
+    floor_thickness: Scalar,
+    vane_height: Scalar,
+    window_ledge: Scalar,
+) -> Scalar:
+    """Depth the slots, milled from below, may have for their width beyond the one they have."""
+    return pocket_depth_ratio * slot_opening - (floor_thickness + vane_height - window_ledge)
+
+
+@book.output("mm", at_least(0.0, "the slots are too deep, the cutter cannot reach into their corners so far"))
+def slot_corner_reserve(
+    corner_radius: Scalar,
+    corner_depth_ratio: Scalar,
+    floor_thickness: Scalar,
+    vane_height: Scalar,
+    window_ledge: Scalar,
+) -> Scalar:
+    """Depth the corners of the slots, milled from below, may have beyond the one they have."""
+    return corner_depth_ratio * corner_radius - (floor_thickness + vane_height - window_ledge)
+
+
+_NARROW = "the slots are narrower than twice the radius of their corners: choose a smaller corner_radius"
+
+
+@book.output("mm", at_least(0.0, _NARROW))
+def slot_opening_reserve(slot_opening: Scalar, corner_radius: Scalar) -> Scalar:
+    """Distance of the two pads of a housing vane, at the inner end of the slot, beyond the slot's corners."""
+    return slot_opening - 2.0 * corner_radius
+
+
+@book.output("mm", at_least(0.0, _NARROW))
+def slot_width_reserve(slot_width: Scalar, corner_radius: Scalar) -> Scalar:
+    """Radial width of the slots beyond their corners."""
+    return slot_width - 2.0 * corner_radius
 
 
 _PRESSED_OUT = "what is squeezed out of the blocks' places could reach the springs, were all of it to go outwards"

@@ -8,7 +8,7 @@ from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
 from tvimdesign.physics import layer
-from tvimdesign.physics.shapes import Section, ring, sector
+from tvimdesign.physics.shapes import Section, corners, ring, sector
 
 book = Book(shared.group)
 
@@ -25,33 +25,52 @@ def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar) -> Scalar:
     return pcl_area * pcl_thickness
 
 
+@book.output("mm^3")
+def peltier_volume(
+    pcl_area: Scalar,
+    arc_count: Scalar,
+    corner_radius: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    peltier_thickness: Scalar,
+) -> Scalar:
+    """Volume of all Peltier pads together: the outline of the PCL, its corners as round as those of the pockets."""
+    rounded = arc_count * corners(corner_radius, pcl_inner_radius, pcl_outer_radius)
+    return (pcl_area - rounded) * peltier_thickness
+
+
 @book.helper()
-def window_section(
-    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar, window_ledge: Scalar
-) -> Section:
-    """Windows below the Peltier pads: the arcs, smaller by the ledge on every side."""
+def window_area(
+    arc_count: Scalar,
+    arc_span: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    window_ledge: Scalar,
+    corner_radius: Scalar,
+) -> Scalar:
+    """Area of the windows below the Peltier pads [m^2]: the arcs, smaller by the ledge on every side, and rounded."""
     span = arc_span - 2.0 * window_ledge / pcl_inner_radius
-    return sector(span, pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge).times(arc_count)
+    inner, outer = pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge
+    return arc_count * (sector(span, inner, outer).area - corners(corner_radius, inner, outer))
 
 
 @book.output("mm^3")
 def floor_volume(
-    core_radius: Scalar,
-    running_clearance: Scalar,
+    hub_radius: Scalar,
     housing_outer_radius: Scalar,
     floor_thickness: Scalar,
     floor_web: Scalar,
     peltier_volume: Scalar,
-    window_section: Section,
+    window_area: Scalar,
     spring_count: Scalar,
     wire_diameter: Scalar,
     tang_clearance: Scalar,
     mount_hole: Scalar,
 ) -> Scalar:
-    """Volume of the housing's floor, less bore, pad pockets, windows, tang holes and mounting holes."""
-    disc = ring(core_radius + running_clearance, housing_outer_radius).area
+    """Volume of the housing's floor around the hub, less pad pockets, windows, tang holes and mounting holes."""
+    disc = ring(hub_radius, housing_outer_radius).area
     holes = np.pi * ((0.5 * wire_diameter + tang_clearance) ** 2 + (0.5 * mount_hole) ** 2)
-    return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_section.area * floor_web
+    return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_area * floor_web
 
 
 @book.output("mm^3")

@@ -39,10 +39,16 @@ def window_depth(arc_width: Scalar, window_ledge: Scalar) -> Scalar:
     return arc_width - 2.0 * window_ledge
 
 
-@book.output("mm", at_least(1.2 * MM, "the floor below a Peltier pad must carry it", 0.0))
+@book.output("mm", at_least(0.0, "there must be a floor below a Peltier pad", 0.0))
 def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
     """Thickness of the floor below the Peltier pads."""
     return floor_thickness - peltier_thickness
+
+
+@book.output("mm", at_least(0.0, "the floor below a Peltier pad is thinner than the process can make it"))
+def floor_web_reserve(floor_web: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Floor below the Peltier pads beyond the process's least wall."""
+    return floor_web - minimum_wall
 
 
 book.after("retainer_gap")
@@ -63,3 +69,36 @@ def mount_pad_gap(
 ) -> Scalar:
     """Room between the mounting feet and the Peltier pads beyond the radial clearance."""
     return placement_radius - mount_boss_radius - pcl_outer_radius - radial_clearance
+
+
+_CORNER = "the cutter cannot reach into its corners so deep: choose a larger corner_radius"
+
+
+@book.output("mm", at_least(0.0, f"a pad's pocket is too deep, {_CORNER}"))
+def pad_pocket_reserve(corner_radius: Scalar, corner_depth_ratio: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Depth the corners of the pads' pockets may have beyond the one they have."""
+    return corner_depth_ratio * corner_radius - peltier_thickness
+
+
+@book.output("mm", at_least(0.0, f"the floor below a pad is too thick, {_CORNER}"))
+def window_corner_reserve(corner_radius: Scalar, corner_depth_ratio: Scalar, floor_web: Scalar) -> Scalar:
+    """Depth the corners of the windows may have beyond the one they have."""
+    return corner_depth_ratio * corner_radius - floor_web
+
+
+@book.output("mm", at_least(0.0, "the windows are narrower than twice the radius of their corners"))
+def window_width_reserve(window_width: Scalar, corner_radius: Scalar) -> Scalar:
+    """Width of the windows at their inner radius beyond their corners."""
+    return window_width - 2.0 * corner_radius
+
+
+@book.output("mm", at_least(0.0, "the windows are narrower than twice the radius of their corners"))
+def window_depth_reserve(window_depth: Scalar, corner_radius: Scalar) -> Scalar:
+    """Radial width of the windows beyond their corners."""
+    return window_depth - 2.0 * corner_radius
+
+
+@book.output("mm", at_least(0.0, "the windows are too narrow for the cutter to go through the floor"))
+def window_pocket_reserve(window_depth: Scalar, pocket_depth_ratio: Scalar, floor_web: Scalar) -> Scalar:
+    """Depth the windows may have for their radial width beyond the one they have."""
+    return pocket_depth_ratio * window_depth - floor_web
