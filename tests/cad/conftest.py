@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from cad_designs import BLOCKS, CASES, Made, design_of
 
 from tvimdesign.cad import CadReport, make_cad
+from tvimdesign.cad.store import FOLDER_VARIABLE
 from tvimdesign.study.design import Design, write_design
 
 QUICK = {"paper", "blocks"}
 """Cases that the fast tests take; every case is one of the slow tests."""
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _nothing_kept() -> Iterator[None]:
+    """Keep no results from one making of parts to the next, but where a test asks for it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(FOLDER_VARIABLE, "")
+        yield
 
 
 @pytest.fixture(

@@ -10,8 +10,8 @@ from cad_designs import random_blocks
 from tvimdesign.cad.assembly import build, drawn_parts
 from tvimdesign.cad.checks import all_checks, interference_checks, size_checks
 from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.export import stl_bytes
 from tvimdesign.cad.mesh import solid_mesh
+from tvimdesign.cad.print_files import closed
 from tvimdesign.cad.shapes import sector, turned
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import Design
@@ -157,4 +157,4 @@ def test_a_random_module_that_keeps_the_rules_passes_every_check(seed: int) -> N
     assert [check.text for check in checks if not check.ok] == []
     assert max(abs(check.value) for check in checks if check.name.endswith(("_volume", "_inertia", "_mass"))) < 1e-5
     for name, solid in drawn.items():
-        assert len(stl_bytes(name, solid_mesh(solid))) > 500
+        assert closed(name, solid_mesh(solid)).is_watertight

@@ -11,10 +11,10 @@ from cad_designs import broken_rules, design_of
 from tvimdesign.cad.assembly import build, drawn_parts
 from tvimdesign.cad.checks import all_checks, interference_checks, size_checks
 from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.export import stl_bytes
 from tvimdesign.cad.kinds import kind_of
 from tvimdesign.cad.mesh import solid_mesh
 from tvimdesign.cad.modes import MODULES
+from tvimdesign.cad.print_files import closed
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import Design
 
@@ -122,7 +122,7 @@ def test_what_cannot_be_drawn_names_the_part(paper: Design, row: str, value: flo
 def test_meshes_close_where_rounding_splits_their_vertices(overrides: dict[str, float]) -> None:
     dims = dimensions(design_of("split", overrides))
     for name, solid in drawn_parts(dims).items():
-        assert len(stl_bytes(name, solid_mesh(solid))) > 500
+        assert closed(name, solid_mesh(solid)).is_watertight
 
 
 @pytest.mark.parametrize(("process", "radius"), [("print_petg", 0.2), ("machine_6061", 1.5)])

@@ -32,15 +32,20 @@ def build(design: Design, rotor_angle: float = 0.0, progress: Progress | None = 
 
 def drawn_parts(dims: Dimensions, progress: Progress | None = None) -> dict[str, cq.Solid]:
     """Build one of every part but the springs, in the module's coordinates, by kind."""
+    return {kind: drawn_part(dims, kind, progress) for kind in MODULES[dims.mode].drawn(dims)}
+
+
+def drawn_part(dims: Dimensions, kind: str, progress: Progress | None = None) -> cq.Solid:
+    """Build one part that is no spring, in the module's coordinates."""
     if dims.count("spring_count") % 2:
         raise GeometryError(f"spring_count is {dims.spring_count:g}; half of them are left-hand, so it must be even")
-    return {name: _built(name, partial(draw, dims), progress) for name, draw in MODULES[dims.mode].drawn(dims).items()}
+    return _built(kind, partial(MODULES[dims.mode].drawn(dims)[kind], dims), progress)
 
 
-def free_springs(dims: Dimensions, progress: Progress | None = None) -> dict[str, cq.Solid]:
-    """Build the spring as its maker delivers it, of either hand, by kind."""
-    right = _built("spring_right", lambda: spring_solid(free_coil(dims)), progress)
-    return {"spring_right": right, "spring_left": _left_of(right, progress)}
+def free_spring(dims: Dimensions, kind: str) -> cq.Solid:
+    """Build the spring as its maker delivers it, of the hand its kind says."""
+    right = _built("spring_right", lambda: spring_solid(free_coil(dims)), None)
+    return right if kind == "spring_right" else _left_of(right, None)
 
 
 def installed_coils(dims: Dimensions, rotor_angle: float = 0.0) -> dict[str, Coil]:

@@ -34,18 +34,33 @@ def all_checks(
 ) -> list[Check]:
     """Run every check at rest and through the stroke."""
     say = progress or (lambda _: None)
-    at_rest = place(dims, drawn, progress=progress)
     say("sizes")
-    found = [*size_checks(design, at_rest), *envelope_checks(dims, at_rest)]
-    found += bearing_checks(dims)
-    say("interference at rest")
-    found += interference_checks(at_rest, "at rest")
-    for share in (-1.0, -0.5, 0.5, 1.0):
-        angle = share * dims.stroke
-        say(f"interference at {angle:+.4f} rad")
-        moved = place(dims, drawn, angle, progress)
-        found += interference_checks(moved, f"at {angle:+.4f} rad", lambda a, b: not _together(dims.mode, a, b))
+    found = rest_checks(design, dims, drawn)
+    for share in POSITIONS:
+        found += clearance_checks(dims, drawn, share, say)
     return found
+
+
+POSITIONS = (0.0, -1.0, -0.5, 0.5, 1.0)
+"""Of the rotor at which parts are held against each other, as shares of the stroke."""
+
+
+def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> list[Check]:
+    """Hold the sizes at rest against the rows, and the legs against their pins."""
+    at_rest = place(dims, drawn)
+    return [*size_checks(design, at_rest), *envelope_checks(dims, at_rest), *bearing_checks(dims)]
+
+
+def clearance_checks(
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, say: Callable[[str], None]
+) -> list[Check]:
+    """Hold every part against every other one at rest; at a share of the stroke, those that do not move together."""
+    where = "at rest" if share == 0.0 else f"at {share * dims.stroke:+.4f} rad"
+    say(f"interference {where}")
+    placed = place(dims, drawn, share * dims.stroke, say)
+    if share == 0.0:
+        return list(interference_checks(placed, where))
+    return list(interference_checks(placed, where, lambda a, b: not _together(dims.mode, a, b)))
 
 
 def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:

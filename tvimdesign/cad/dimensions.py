@@ -23,7 +23,12 @@ class Dimensions:
     def __init__(self, mode: str, values: Mapping[str, float]) -> None:
         """`values` are in mm, rad and plain numbers by row name."""
         self.mode = mode
-        self._values = dict(values)
+        self._values = values
+
+    @property
+    def by_name(self) -> Mapping[str, float]:
+        """All of them by row name."""
+        return self._values
 
     def __getattr__(self, name: str) -> float:
         """Value of a row; raises GeometryError where the design has none that can be drawn."""

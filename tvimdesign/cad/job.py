@@ -1,52 +1,82 @@
 """The child process that makes the parts: `python -m tvimdesign.cad.job DESIGN OUT`, a line of JSON for each step.
 
-It runs on its own because a boolean operation of the CAD kernel can hang or crash, and a process can be ended.
+It runs on its own because the CAD kernel can take a process with it, and starts a child of its own for every piece of
+work (`work.py`), because an operation of the kernel can hang.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import sys
+import tempfile
 import time
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
-from tvimdesign.errors import TvimError
-from tvimdesign.study.design import read_design
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.errors import CatalogError, GeometryError, TvimError
+from tvimdesign.files import write_whole
+from tvimdesign.study.design import Design, read_design
+
+if TYPE_CHECKING:
+    from tvimdesign.cad.work import Done
 
 
-def run(design_path: Path, out: Path, lines: TextIO) -> None:
-    """Build, check and write; tells `lines` each step, then the report, then the picture or why there is none."""
+def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
+    """Make what is not kept from before, put all files into `out`; tells `lines` each step, then what came of it."""
 
     def say(**message: Any) -> None:
         lines.write(json.dumps(message) + "\n")
         lines.flush()
 
-    def progress(step: str) -> None:
-        say(progress=step)
-
     started = time.perf_counter()
     design = read_design(design_path)
-    progress("loading the CAD kernel")
-    from tvimdesign.cad.assembly import drawn_parts, place
-    from tvimdesign.cad.checks import all_checks
+    say(progress="loading the CAD kernel")
     from tvimdesign.cad.dimensions import dimensions
-    from tvimdesign.cad.export import export, instances
+    from tvimdesign.cad.store import Store, user_folder
+    from tvimdesign.cad.trace import Subject
+    from tvimdesign.cad.work import Workshop
+    from tvimdesign.cad.works import PICTURES, works
 
-    dims = dimensions(design)
-    drawn = drawn_parts(dims, progress)
-    checks = [asdict(check) for check in all_checks(design, dims, drawn, progress)]
-    files, meshes = export(design, dims, drawn, out, progress)
-    checks += [asdict(check) for check in meshes]
-    say(checks=checks, files=files, seconds=time.perf_counter() - started)
-    # The picture comes last: where the graphics driver takes the process with it, the parts are there.
-    progress("drawing the picture")
-    from tvimdesign.cad.preview import write_preview
+    with tempfile.TemporaryDirectory(prefix="tvimdesign.") as own:
+        store = Store(user_folder() or Path(own))
+        workshop = Workshop(Subject(design, _titles(design)), store, lambda step: say(progress=step), timeout_s)
+        done = workshop.do(works(dimensions(design)))
+        files = _hand_out(done, out)
+    pictures = done.failed.pop(PICTURES, "")
+    if done.failed:
+        kept = f"the other {len(files)} files are in {out}" if files else "no parts were made"
+        raise GeometryError("; ".join(done.failed.values()) + f"; {kept}")
+    checks = [asdict(check) for result in done.results.values() for check in result.checks]
+    notes = [f"no pictures: {pictures}"] if pictures else []
+    say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
 
-    write_preview(out / "preview.png", dims, drawn, instances(dims, drawn, place(dims, drawn)))
-    say(picture="preview.png", seconds=time.perf_counter() - started)
+
+def _titles(design: Design) -> dict[str, str]:
+    """What the catalogue calls the records a design was made of; a record that is not here has its name only."""
+    told = design.study.get("catalog_folder")
+    titles = {}
+    for row in table_for(design.mode).choices:
+        with contextlib.suppress(CatalogError):
+            if row.shelf and row.name in design.choices:
+                catalog = Catalog(Path(told) if told else None)
+                titles[row.name] = catalog.record(row.shelf, design.choices[row.name]).title
+    return titles
+
+
+def _hand_out(done: Done, out: Path) -> list[str]:
+    """Copy the results into the user's folder, each file whole; returns their names."""
+    files = []
+    for result in done.results.values():
+        for name in result.out:
+            (out / name).parent.mkdir(parents=True, exist_ok=True)
+            write_whole(out / name, (result.folder / "out" / name).read_bytes())
+            files.append(name)
+    return sorted(files)
 
 
 def main(arguments: list[str]) -> int:
@@ -55,8 +85,8 @@ def main(arguments: list[str]) -> int:
     lines = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
     try:
-        design_path, out = (Path(argument) for argument in arguments)
-        run(design_path, out, lines)
+        design_path, out = (Path(argument) for argument in arguments[:2])
+        run(design_path, out, float(arguments[2]), lines)
     except TvimError as error:
         lines.write(json.dumps({"error": str(error), "code": error.exit_code}) + "\n")
         return error.exit_code

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import queue
+import signal
 import subprocess
 import sys
 import tempfile
@@ -20,21 +22,32 @@ from tvimdesign.errors import GeometryError, InputError
 
 TIMEOUT = 300.0
 """Seconds; a module takes about ten."""
+PART_TIMEOUT = 90.0
+"""Seconds for one part with its files, or one set of checks; the longest takes two."""
+JOB = "tvimdesign.cad.job"
 
 
 def make_cad(
-    design_path: Path, out: Path, timeout_s: float = TIMEOUT, progress: Callable[[str], None] | None = None
+    design_path: Path,
+    out: Path,
+    timeout_s: float = TIMEOUT,
+    progress: Callable[[str], None] | None = None,
+    *,
+    part_timeout_s: float = PART_TIMEOUT,
+    job: str = JOB,
 ) -> CadReport:
     """Build, check and write the parts of the design file into the folder `out`.
 
     `progress` is told each step. The files are written even where a check fails (`report.failed`), so that one can look
-    at what collides. Raises GeometryError, naming the part, where one cannot be built, the process crashes or
-    `timeout_s` [s] have passed; InputError where the design cannot be read.
+    at what collides. `job` is the module that is run as the child process: another one can change how parts are drawn
+    (`tvimdesign.cad.modes.MODULES`) and call this one's `main`. Raises GeometryError where a part cannot be built or
+    takes more than `part_timeout_s` [s], naming the part, once the files of the others are written; also where the
+    process crashes or `timeout_s` [s] have passed. Raises InputError where the design cannot be read.
     """
     out.mkdir(parents=True, exist_ok=True)
     state: dict[str, Any] = {"progress": "starting"}
     with tempfile.TemporaryFile() as talk:
-        process = _start(design_path, out, talk)
+        process = _start([job, str(design_path.resolve()), str(out.resolve()), str(part_timeout_s)], talk)
         try:
             for message in _messages(process, time.monotonic() + timeout_s):
                 state |= message
@@ -44,19 +57,28 @@ def make_cad(
         except (TimeoutError, subprocess.TimeoutExpired):
             code = None
         finally:
-            process.kill()
-            process.wait()
+            _end(process)
         return _report(out, state, code, timeout_s, _tail(talk))
 
 
-def _start(design_path: Path, out: Path, talk: IO[bytes]) -> subprocess.Popen[str]:
+def _start(arguments: list[str], talk: IO[bytes]) -> subprocess.Popen[str]:
     here = str(Path(tvimdesign.__file__).parents[1])
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
     return subprocess.Popen(
-        [sys.executable, "-m", "tvimdesign.cad.job", str(design_path.resolve()), str(out.resolve())],
+        [sys.executable, "-m", *arguments],
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=talk, text=True, encoding="utf-8",
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)}, start_new_session=True,
     )  # fmt: skip
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    """End the process with its children: they are one group."""
+    with contextlib.suppress(ProcessLookupError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+    process.wait()
 
 
 def _messages(process: subprocess.Popen[str], deadline: float) -> Iterator[dict[str, Any]]:
@@ -89,13 +111,13 @@ def _report(out: Path, state: dict[str, Any], code: int | None, timeout_s: float
         raise (GeometryError if state["code"] == GeometryError.exit_code else InputError)(state["error"])
     if "checks" not in state:
         raise GeometryError(f"{state['progress']}: {why}{f' ({tail})' if tail else ''}; no parts were made")
-    pictured = "picture" in state
     return CadReport(
         folder=out,
-        files=tuple(state["files"]) + ((state["picture"],) if pictured else ()),
+        files=tuple(state["files"]),
         checks=tuple(Check(**check) for check in state["checks"]),
         seconds=state["seconds"],
-        notes=() if pictured else (f"no preview.png: {why}",),
+        notes=tuple(state["notes"]),
+        reused=tuple(state["reused"]),
     )
 
 

@@ -9,8 +9,13 @@ from math import ceil, pi
 import cadquery as cq
 import numpy as np
 from numpy.typing import NDArray
+from OCP.BRep import BRep_Tool
+from OCP.BRepMesh import BRepMesh_IncrementalMesh
+from OCP.TopAbs import TopAbs_Orientation
+from OCP.TopLoc import TopLoc_Location
 
 from tvimdesign.cad.springs import Coil
+from tvimdesign.errors import GeometryError
 
 CHORD = 0.05
 """Largest distance of a mesh from its part [mm]."""
@@ -46,8 +51,32 @@ class Instance:
 
 def solid_mesh(solid: cq.Solid) -> Mesh:
     """Triangulate a solid in its own coordinates."""
-    points, triangles = solid.located(cq.Location()).tessellate(CHORD, TURN)
-    return Mesh(np.array([point.toTuple() for point in points]), np.array(triangles, dtype=np.int64))
+    patches = [mesh for _, mesh in face_meshes(solid)]
+    first = np.cumsum([0] + [len(mesh.vertices) for mesh in patches])
+    faces = [mesh.faces + start for mesh, start in zip(patches, first, strict=False)]
+    return Mesh(np.concatenate([mesh.vertices for mesh in patches]), np.concatenate(faces))
+
+
+def face_meshes(solid: cq.Solid) -> list[tuple[cq.Face, Mesh]]:
+    """Triangulate a solid, face by face; neighbours have the same points on the edge between them."""
+    # A fresh copy: the kernel keeps triangles with a shape, and gives those of an earlier setting.
+    fresh = solid.located(cq.Location()).copy()
+    BRepMesh_IncrementalMesh(fresh.wrapped, CHORD, False, TURN, False)
+    return [(face, _patch(face)) for face in fresh.Faces()]
+
+
+def _patch(face: cq.Face) -> Mesh:
+    """The kernel's triangles of one face."""
+    location = TopLoc_Location()
+    found = BRep_Tool.Triangulation_s(face.wrapped, location)
+    if found is None:
+        raise GeometryError("a face has no triangles; the part cannot be meshed")
+    move = location.Transformation()
+    points = (found.Node(index).Transformed(move) for index in range(1, found.NbNodes() + 1))
+    corners = np.array([found.Triangle(index).Get() for index in range(1, found.NbTriangles() + 1)], dtype=np.int64) - 1
+    inside_out = face.wrapped.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
+    vertices = np.array([(point.X(), point.Y(), point.Z()) for point in points])
+    return Mesh(vertices, corners[:, ::-1] if inside_out else corners)
 
 
 def spring_mesh(coil: Coil) -> Mesh:

@@ -31,6 +31,9 @@ class CadReport:
     notes: tuple[str, ...] = field(default=())
     """What is missing and why, such as the picture on a machine that cannot render."""
 
+    reused: tuple[str, ...] = field(default=())
+    """The parts and checks that were kept from before, because nothing they hang on has changed."""
+
     @property
     def failed(self) -> tuple[Check, ...]:
         """The checks that did not hold: the parts are there to be looked at, not to be made."""

@@ -12,15 +12,22 @@ from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
 from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB
-from OCP.STEPCAFControl import STEPCAFControl_Writer
+from OCP.STEPCAFControl import STEPCAFControl_Reader, STEPCAFControl_Writer
 from OCP.STEPControl import STEPControl_StepModelType
 from OCP.TCollection import TCollection_ExtendedString, TCollection_HAsciiString
 from OCP.TDataStd import TDataStd_Name
-from OCP.TDF import TDF_Label
+from OCP.TDF import TDF_Label, TDF_LabelSequence
 from OCP.TDocStd import TDocStd_Document
 from OCP.TopLoc import TopLoc_Location
 from OCP.XCAFApp import XCAFApp_Application
-from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
+from OCP.XCAFDoc import (
+    XCAFDoc_Area,
+    XCAFDoc_Centroid,
+    XCAFDoc_ColorType,
+    XCAFDoc_DocumentTool,
+    XCAFDoc_ShapeTool,
+    XCAFDoc_Volume,
+)
 
 from tvimdesign.cad.kinds import Rgb
 from tvimdesign.cad.part21 import in_fixed_order, plain_text
@@ -74,6 +81,7 @@ class _Document:
         writer.SetColorMode(True)
         writer.SetNameMode(True)
         writer.SetMaterialMode(True)
+        writer.SetPropsMode(True)
         writer.Transfer(self.document, STEPControl_StepModelType.STEPControl_AsIs)
         header = APIHeaderSection_MakeHeader(writer.ChangeWriter().Model(False))
         header.SetName(_text(name))
@@ -91,9 +99,9 @@ class _Document:
 
 
 def write_part(path: Path, solid: cq.Solid, product: Product) -> None:
-    """Write one part."""
+    """Write one part, with the properties by which a reader holds what arrived against what was sent."""
     document = _Document()
-    document.add(solid, product)
+    _add_validation(document.add(solid, product), solid)
     document.write(path, product.name)
 
 
@@ -114,9 +122,54 @@ def write_assembly(path: Path, name: str, placed: Mapping[str, cq.Solid], produc
     document.write(path, name)
 
 
+def _add_validation(label: TDF_Label, solid: cq.Solid) -> None:
+    """Give a product its volume, area and centroid, the geometric validation properties of AP242.
+
+    Parts alone have them: in an assembly the kernel hangs those of a part that stands at the origin on a shape aspect,
+    where other programs do not look.
+    """
+    whole = solid.located(cq.Location())
+    XCAFDoc_Volume.Set_s(label, whole.Volume())
+    XCAFDoc_Area.Set_s(label, whole.Area())
+    XCAFDoc_Centroid.Set_s(label, whole.Center().toPnt())
+
+
 def _text(text: str) -> TCollection_HAsciiString:
     return TCollection_HAsciiString(text)
 
 
 def _name(label: TDF_Label, name: str) -> None:
     TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
+
+
+@dataclass(frozen=True)
+class Validation:
+    """What a STEP file says its part must come to, in millimetres."""
+
+    volume: float
+    area: float
+    centroid: tuple[float, float, float]
+
+
+def read_part(path: Path) -> tuple[cq.Solid, Validation]:
+    """Read a part back with its validation properties; raises GeometryError where the file has no one solid or none."""
+    document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+    XCAFApp_Application.GetApplication_s().InitDocument(document)
+    reader = STEPCAFControl_Reader()
+    reader.SetPropsMode(True)
+    if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone or not reader.Transfer(document):
+        raise GeometryError(f"{path.name}: the CAD kernel cannot read it")
+    labels = TDF_LabelSequence()
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(labels)
+    attributes = (XCAFDoc_Volume(), XCAFDoc_Area(), XCAFDoc_Centroid())
+    # Asking for an attribute that is not there takes the process with it.
+    if labels.Length() != 1 or not all(labels.Value(1).IsAttribute(one.GetID_s()) for one in attributes):
+        raise GeometryError(f"{path.name}: does not read back as one part with volume, area and centroid")
+    for one in attributes:
+        labels.Value(1).FindAttribute(one.GetID_s(), one)
+    volume, area, centroid = attributes
+    solids = cq.Shape.cast(XCAFDoc_ShapeTool.GetShape_s(labels.Value(1))).Solids()
+    if len(solids) != 1:
+        raise GeometryError(f"{path.name}: reads back as {len(solids)} solids")
+    where = centroid.Get()
+    return solids[0], Validation(volume.Get(), area.Get(), (where.X(), where.Y(), where.Z()))

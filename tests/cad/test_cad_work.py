@@ -1,0 +1,195 @@
+"""Pieces of work: each in a process of its own with a time-out, done again only where something it read has changed."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from cad_designs import design_of
+
+from tvimdesign.cad import make_cad
+from tvimdesign.cad.dimensions import dimensions
+from tvimdesign.cad.outcome import Check
+from tvimdesign.cad.store import Store
+from tvimdesign.cad.trace import Subject
+from tvimdesign.cad.work import Done, Job, Work, Workshop
+from tvimdesign.cad.works import works
+from tvimdesign.errors import GeometryError
+from tvimdesign.study.design import Design, write_design
+
+Run = Callable[..., Done]
+TITLES = {"structure_material": "PETG"}
+
+
+def plate(job: Job) -> list[Check]:
+    (job.folder / "out/plate.txt").write_text(f"{job.dims.link_thickness:.3f}")
+    (job.folder / "kept/thickness").write_text(f"{round(job.dims.link_thickness)}")
+    return [Check("plate", 0.0, 1.0, True, "plate")]
+
+
+def stack(job: Job) -> list[Check]:
+    (job.folder / "out/stack.txt").write_text((job.needs["plate"] / "thickness").read_text() + job.design.name)
+    return []
+
+
+def never_ends(job: Job) -> list[Check]:
+    job.progress("cutting the bore")
+    while True:
+        time.sleep(0.01)
+
+
+def crashes(_: Job) -> list[Check]:
+    os.kill(os.getpid(), signal.SIGKILL)
+    return []
+
+
+def refuses(_: Job) -> list[Check]:
+    raise GeometryError("bore is -1 mm; it must be above zero")
+
+
+PLATE, STACK = Work(name="plate", do=plate), Work(name="stack", do=stack, needs=("plate",), named=True)
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Run:
+    def do(*wanted: Work, design: Design | None = None, timeout_s: float = 20.0, **changed: float) -> Done:
+        base = design or design_of("toy", {})
+        subject = Subject(base.model_copy(update={"values": base.values | changed}), TITLES)
+        return Workshop(subject, Store(tmp_path / "kept"), lambda _: None, timeout_s, hands=2).do(wanted)
+
+    return do
+
+
+def text(done: Done, name: str) -> str:
+    folder = done.results[name].folder / "out"
+    return (folder / f"{name}.txt").read_text()
+
+
+def test_work_is_done_after_what_it_needs_and_kept(run: Run) -> None:
+    first = run(STACK, PLATE)
+    assert first.reused == []
+    assert text(first, "stack") == "4toy"
+    assert first.results["plate"].checks[0].name == "plate"
+    again = run(STACK, PLATE)
+    assert set(again.reused) == {"plate", "stack"}
+    assert again.results["plate"].checks == first.results["plate"].checks
+
+
+def test_a_change_of_what_was_not_read_does_nothing_again(run: Run) -> None:
+    run(PLATE, STACK)
+    assert set(run(PLATE, STACK, core_radius=0.011).reused) == {"plate", "stack"}
+
+
+def test_a_change_does_again_only_what_hangs_on_it(run: Run) -> None:
+    run(PLATE, STACK)
+    # 4.2 mm is written otherwise, but what the stack needs of it, rounded, is the same.
+    thicker = run(PLATE, STACK, link_thickness=4.2e-3)
+    assert (thicker.reused, text(thicker, "plate")) == (["stack"], "4.200")
+    thickest = run(PLATE, STACK, link_thickness=5.0e-3)
+    assert (thickest.reused, text(thickest, "stack")) == ([], "5toy")
+
+
+def test_only_work_that_writes_the_name_is_done_again_for_another_name(run: Run) -> None:
+    run(PLATE, STACK)
+    renamed = run(PLATE, STACK, design=design_of("other", {}))
+    assert (renamed.reused, text(renamed, "stack")) == (["plate"], "4other")
+
+
+def test_a_kept_file_that_has_changed_is_not_used(run: Run) -> None:
+    first = run(PLATE)
+    (first.results["plate"].folder / "out/plate.txt").write_text("5.000")
+    again = run(PLATE)
+    assert (again.reused, text(again, "plate")) == ([], "4.000")
+
+
+def test_other_code_makes_all_kept_results_void(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    run(PLATE)
+    monkeypatch.setattr("tvimdesign.cad.store.code_digest", lambda: "other")
+    assert run(PLATE).reused == []
+
+
+def test_stuck_work_is_named_with_its_step_and_costs_only_what_needs_it(run: Run) -> None:
+    stuck = Work(name="bore", do=never_ends)
+    needing = Work(name="assembly", do=stack, needs=("bore", "plate"))
+    started = time.monotonic()
+    done = run(stuck, needing, PLATE, timeout_s=1.0)
+    assert time.monotonic() - started < 10.0
+    assert done.failed["bore"] == "bore: no answer in 1 s (at: cutting the bore)"
+    assert done.failed["assembly"] == "assembly: not made, for it needs bore"
+    assert list(done.results) == ["plate"]
+
+
+def test_a_crash_and_a_refusal_are_named_and_leave_nothing_half_made(run: Run, tmp_path: Path) -> None:
+    done = run(Work(name="rotor", do=crashes), Work(name="hub", do=refuses), PLATE)
+    assert done.failed["rotor"] == "rotor: its process ended with code -9"
+    assert done.failed["hub"] == "hub: bore is -1 mm; it must be above zero"
+    assert list(done.results) == ["plate"]
+    assert [path for path in (tmp_path / "kept").rglob("*") if path.is_file()] == [
+        path for path in (tmp_path / "kept/plate").rglob("*") if path.is_file()
+    ]
+
+
+def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tvimdesign.cad.store._MOST", 2)
+    for thickness in (4.0e-3, 4.1e-3, 4.2e-3):
+        run(PLATE, link_thickness=thickness)
+    assert len(list((tmp_path / "kept/plate").iterdir())) == 2
+    assert run(PLATE, link_thickness=4.1e-3).reused == ["plate"]
+    assert run(PLATE, link_thickness=4.0e-3).reused == []
+
+
+def test_a_thicker_layer_leaves_the_pads_as_they_were(run: Run) -> None:
+    wanted = [work for work in works(dimensions(design_of("any", {}))) if work.name in {"pcl_arc", "peltier_pad"}]
+    run(*wanted)
+    again = run(*wanted, pcl_thickness=1.1e-3)
+    assert again.reused == ["peltier_pad"]
+    assert again.failed == {}
+
+
+STUCK = """
+import sys
+import time
+from tvimdesign.cad import job, shear
+
+def stuck(dims):
+    while True:
+        time.sleep(0.01)
+
+shear.DRAWN["{kind}"] = stuck
+sys.exit(job.main(sys.argv[1:]))
+"""
+
+
+@pytest.mark.slow
+def test_a_part_that_never_comes_is_an_error_with_its_name_and_the_others_are_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "stuck_job.py").write_text(STUCK.format(kind="retainer"))
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    write_design(design_of("paper", {}), tmp_path / "design.json")
+    with pytest.raises(GeometryError, match=r"^retainer: no answer in 5 s.*; the other \d+ files are in"):
+        make_cad(tmp_path / "design.json", tmp_path / "cad", part_timeout_s=5.0, job="stuck_job")
+    assert (tmp_path / "cad/step/housing.step").exists()
+    assert (tmp_path / "cad/drawings/rotor.pdf").exists()
+    assert not (tmp_path / "cad/step/retainer.step").exists()
+    assert not (tmp_path / "cad/assembly.step").exists()
+
+
+@pytest.mark.slow
+def test_a_second_making_takes_over_everything_and_gives_the_same_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "kept"))
+    write_design(design_of("paper", {}), tmp_path / "design.json")
+    first = make_cad(tmp_path / "design.json", tmp_path / "cad")
+    made = {name: (tmp_path / "cad" / name).read_bytes() for name in first.files}
+    shutil.rmtree(tmp_path / "cad")
+    second = make_cad(tmp_path / "design.json", tmp_path / "cad")
+    assert len(second.reused) == len(works(dimensions(design_of("any", {}))))
+    assert second.checks == first.checks
+    assert {name: (tmp_path / "cad" / name).read_bytes() for name in second.files} == made

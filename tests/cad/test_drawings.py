@@ -1,0 +1,239 @@
+"""Drawings, the spring maker's sheet, the bill of materials and the note, against the design's rows and by hand."""
+
+from __future__ import annotations
+
+import csv
+import io
+from math import pi
+
+import cadquery as cq
+import ezdxf
+import numpy as np
+import pytest
+from cad_designs import CASES, design_of
+from ezdxf.document import Drawing
+from ezdxf.entities import Dimension
+from ezdxf.math import Vec3
+
+from tvimdesign.cad.assembly import drawn_parts, place
+from tvimdesign.cad.assembly_note import assembly_note
+from tvimdesign.cad.bom import bill, bill_csv
+from tvimdesign.cad.dimensions import dimensions
+from tvimdesign.cad.drawings import _apart, part_sheet
+from tvimdesign.cad.export import product
+from tvimdesign.cad.kinds import KINDS
+from tvimdesign.cad.projection import from_above, section
+from tvimdesign.cad.spring_sheet import Line, spring_csv, spring_lines, spring_sheet
+from tvimdesign.study.design import Design
+
+DRAWN = ("housing", "rotor", "link", "retainer")
+TITLES = {"spring_material": "Music wire, ASTM A228", "structure_material": "PETG, printed"}
+Solids = dict[str, cq.Solid]
+
+
+@pytest.fixture(scope="module", params=["paper", "blocks"])
+def module(request: pytest.FixtureRequest) -> tuple[Design, Solids]:
+    mode, overrides = CASES[request.param]
+    design = design_of(request.param, overrides, mode)
+    return design, drawn_parts(dimensions(design))
+
+
+@pytest.fixture(scope="module")
+def drawings(module: tuple[Design, Solids]) -> dict[str, Drawing]:
+    """The drawings read back from DXF, by kind of part."""
+    design, solids = module
+    sheets = {kind: part_sheet(kind, solids[kind], product(design, kind), design.name) for kind in DRAWN}
+    return {kind: ezdxf.read(io.StringIO(sheet.dxf().decode())) for kind, sheet in sheets.items()}
+
+
+def texts(document: Drawing) -> list[str]:
+    return [entity.dxf.text for entity in document.modelspace().query("TEXT")]
+
+
+def measured(document: Drawing) -> list[float]:
+    """What the dimensions measure; of an ordinate the height over the lowest face."""
+    dimensions_drawn = document.modelspace().query("DIMENSION")
+    found = [one.get_measurement() if isinstance(one, Dimension) else 0.0 for one in dimensions_drawn]
+    return [one.y if isinstance(one, Vec3) else float(one) for one in found]
+
+
+def test_a_drawing_dimensions_the_rows_of_the_design(
+    module: tuple[Design, Solids], drawings: dict[str, Drawing]
+) -> None:
+    design, _ = module
+    mm = {name: 1e3 * value for name, value in design.values.items()}
+    expected = {
+        "housing": [2 * mm["housing_outer_radius"], 2 * mm["housing_inner_radius"], 2 * mm["hub_radius"],
+                    2 * (mm["core_radius"] + mm["running_clearance"]),
+                    mm["pin_top_level"] + mm["floor_thickness"] + mm["foot_height"]],
+        "rotor": [2 * mm["rotor_radius"], mm["retainer_screw_depth"], 2 * mm["core_radius"], mm["retainer_screw_pilot"],
+                  mm["link_bottom_level"] + mm["floor_thickness"] + mm["running_clearance"]],
+        "link": [mm["link_length"] + 2 * mm["link_half_width"], mm["link_thickness"]],
+        "retainer": [2 * (mm["core_radius"] + mm["retainer_lip"]), mm["retainer_screw_clearance"],
+                     mm["retainer_thickness"]],
+    }  # fmt: skip
+    for kind, sizes in expected.items():
+        found = np.array(measured(drawings[kind]))
+        for size in sizes:
+            assert np.min(np.abs(found - size)) < 1e-4, f"{kind}: {size} is not among {found}"
+
+
+def test_holes_are_called_out_with_number_size_and_place(
+    module: tuple[Design, Solids], drawings: dict[str, Drawing]
+) -> None:
+    design, _ = module
+    radius = 2e3 * design.values["placement_radius"]
+    figure = f"{radius:.2f}".rstrip("0").rstrip(".")
+    assert f"4× ⌀3.4 hole, on ⌀{figure} from 45°, h 0 to 10" in texts(drawings["housing"])
+    assert any(
+        text.startswith("4× ⌀") and f"boss, on ⌀{figure} from 0°, h 10 to" in text
+        for text in texts(drawings["housing"])
+    )
+    assert any(text.startswith("4× ⌀3.4 hole") and text.endswith("through") for text in texts(drawings["link"]))
+
+
+def test_the_title_block_says_what_the_part_is(module: tuple[Design, Solids], drawings: dict[str, Drawing]) -> None:
+    design, _ = module
+    for kind in DRAWN:
+        said = set(texts(drawings[kind]))
+        mass = 1e3 * design.values[KINDS[kind].volume] * design.values["structure_density"]
+        assert {kind, "petg", design.name, f"{mass:.2f} g", "A3, first angle", "A – A"} <= said
+        assert any("ISO 2768-m" in text for text in said)
+
+
+def test_a_drawing_is_sound_dxf_in_millimetres_at_true_size(drawings: dict[str, Drawing]) -> None:
+    for document in drawings.values():
+        assert document.audit().errors == []
+        assert document.header["$INSUNITS"] == 4
+        style = document.dimstyles.get("SHEET").dxf
+        assert (style.dimlfac, style.dimdsep, style.dimzin) == (1.0, 46, 8)
+
+
+def test_no_text_lies_on_another(drawings: dict[str, Drawing]) -> None:
+    for kind, document in drawings.items():
+        boxes = []
+        for entity in document.modelspace().query("TEXT"):
+            width, height = 0.62 * entity.dxf.height * len(entity.dxf.text), entity.dxf.height
+            place = entity.get_placement()
+            x, y = place[1].x, place[1].y
+            if "CENTER" in place[0].name:
+                x -= 0.5 * width
+            if "TOP" in place[0].name:
+                y -= height
+            if "MIDDLE" in place[0].name:
+                y -= 0.5 * height
+            boxes.append((x, x + width, y, y + height, entity.dxf.text))
+        for index, (left, right, low, high, text) in enumerate(boxes):
+            for other_left, other_right, other_low, other_high, other in boxes[:index]:
+                apart = left >= other_right or right <= other_left or low >= other_high or high <= other_low
+                assert apart, f"{kind}: {text!r} lies on {other!r}"
+
+
+def test_figures_are_kept_apart_and_in_order() -> None:
+    assert _apart([0.0, 10.0, 20.0], 5.0) == [0.0, 10.0, 20.0]
+    assert _apart([0.0, 1.0, 20.0], 5.0) == [-2.0, 3.0, 20.0]
+    assert _apart([0.0, 0.0, 0.0, 7.0], 4.0) == pytest.approx([-4.25, -0.25, 3.75, 7.75])
+
+
+def test_views_have_the_size_of_the_part_and_its_cut_faces_their_area() -> None:
+    # A tube of 20 and 10 mm, 30 high: cut through, two rectangles of 5 x 30.
+    tube = cq.Solid.makeCylinder(10, 30).cut(cq.Solid.makeCylinder(5, 30)).Solids()[0]
+    assert from_above(tube).bounds == pytest.approx((-10, 10, -10, 10))
+    assert sorted(arc.radius for arc in from_above(tube).arcs) == [5, 10]
+    front = section(tube)
+    assert front.bounds == pytest.approx((-10, 10, 0, 30))
+    areas = [abs(_area(outlines[0].points)) for outlines in front.cut]
+    assert areas == pytest.approx([150.0, 150.0])
+
+
+def _area(points: tuple[tuple[float, float], ...]) -> float:
+    x, y = np.array(points).T
+    return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+
+
+def by_name(lines: list[Line]) -> dict[str, Line]:
+    return {line.name: line for line in lines}
+
+
+def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
+    design = design_of("paper", {})
+    lines = by_name(spring_lines(design, dimensions(design), TITLES))
+    # The paper's table I: d 2.413, D 24.4094, n 3.25; the rest by hand.
+    assert (lines["wire diameter d"].value, lines["mean coil diameter D"].value) == ("2.413", "24.41")
+    assert (lines["inside diameter"].value, lines["outside diameter"].value) == ("22", "26.82")
+    assert (lines["body coils n"].value, lines["free angle"].value) == ("3.25", "90")
+    assert lines["wire"].value == "Music wire, ASTM A228"
+    assert lines["hand"].value == "2 right, 2 left"
+    # DIN 2194, grade 2: 2.4 x 3.25^0.76 x sqrt(10.116) = 18.70 deg; 0.025 x 24.409 x 2.413^-0.17 = 0.525 mm.
+    assert lines["free angle"].tolerance == "± 18.7"
+    assert lines["mean coil diameter D"].tolerance == "± 0.53"
+    rate = float(lines["rate"].value)
+    modulus, bending = 196.5e3, float(lines["coils that bend"].value)
+    assert rate == pytest.approx(modulus * 2.413**4 / (64 * 24.4094 * bending) * pi / 180, rel=1e-3)
+    assert float(lines["torque M1 at 8.59 deg"].value) == pytest.approx(rate * 8.594, rel=1e-3)
+    told = list(csv.DictReader(io.StringIO(spring_csv(list(lines.values())).decode())))
+    assert {row["name"]: row["value"] for row in told} == {line.name: line.value for line in lines.values()}
+
+
+def test_the_spring_s_sheet_is_drawn_at_true_size() -> None:
+    for case in ("paper", "odd"):
+        mode, overrides = CASES[case]
+        design = design_of(case, overrides, mode)
+        dims = dimensions(design)
+        lines = spring_lines(design, dims, TITLES)
+        document = ezdxf.read(io.StringIO(spring_sheet(design, dims, lines).dxf().decode()))
+        found = measured(document)
+        for size in (dims.coil_diameter - dims.wire_diameter, dims.coil_diameter, dims.leg_length, dims.tang_length):
+            assert np.min(np.abs(np.array(found) - size)) < 1e-4, (case, size)
+        assert document.audit().errors == []
+
+
+def test_the_bill_counts_and_weighs_the_module(module: tuple[Design, Solids]) -> None:
+    design, solids = module
+    items = bill(design, TITLES, place(dimensions(design), solids))
+    assert sum(one.quantity * one.mass for one in items) == pytest.approx(1e3 * design.values["module_mass"], rel=1e-4)
+    count = {one.kind: one.quantity for one in items}
+    assert (count["housing"], count["spring_left"], count["spring_right"]) == (1, 2, 2)
+    rows = list(csv.DictReader(io.StringIO(bill_csv(items).decode())))
+    springs = next(row for row in rows if row["part"] == "spring_left")
+    assert (springs["made_or_bought"], springs["catalogue_record"]) == ("bought", "music_wire")
+    assert springs["title"] == "Music wire, ASTM A228"
+    assert sum(float(row["mass_all_g"]) for row in rows) == pytest.approx(1e3 * design.values["module_mass"], rel=1e-3)
+
+
+def test_the_note_takes_every_part_in_order(module: tuple[Design, Solids]) -> None:
+    design, solids = module
+    dims = dimensions(design)
+    items = bill(design, TITLES, place(dims, solids))
+    note = assembly_note(design, dims, items).decode()
+    assert note.startswith(f"# Putting together: {design.name}")
+    for words in ("views/exploded.png", "views/section.png", "bom.csv", "Wind up each spring by 8.59 degrees"):
+        assert words in note
+    pads = next(one.quantity for one in items if one.kind == "peltier_pad")
+    assert f"the {pads} Peltier pads" in note
+    assert ("pockets of the floor" in note) == (design.mode == "shear")
+    steps = note[note.index("## Steps") :]
+    first = [
+        steps.index(words) for words in ("Deburr", "Peltier pads", "retainer", "springs on their posts", "link to")
+    ]
+    assert first == sorted(first)
+
+
+def test_a_kind_that_no_step_takes_has_one_of_its_own() -> None:
+    design = design_of("paper", {})
+    dims = dimensions(design)
+    placed = place(dims, drawn_parts(dims))
+    items = bill(design, {}, {name: solid for name, solid in placed.items() if name[:5] not in {"rotor", "pelti"}})
+    assert "Fit the pcl arc (4)." in assembly_note(design, dims, items).decode()
+
+
+def test_a_sheet_is_a_pdf_of_its_true_size_with_no_date(module: tuple[Design, Solids]) -> None:
+    design, solids = module
+    sheet = part_sheet("retainer", solids["retainer"], product(design, "retainer"), design.name)
+    data = sheet.pdf()
+    assert data.startswith(b"%PDF-")
+    assert b"/MediaBox [ 0 0 1190.5511811" in data
+    assert b"/CreationDate" not in data
+    again = part_sheet("retainer", solids["retainer"], product(design, "retainer"), design.name)
+    assert again.pdf() == data
+    assert again.dxf() == sheet.dxf()

@@ -1,0 +1,169 @@
+"""What a printer gets, against closed forms: wider holes, the right side down, a mesh error that was measured."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from math import cos, pi, tau
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import cadquery as cq
+import numpy as np
+import pytest
+import trimesh
+
+from tvimdesign.cad.features import holes, levels, upright_cylinders
+from tvimdesign.cad.kinds import KINDS
+from tvimdesign.cad.making import MAKING, Making
+from tvimdesign.cad.mesh import Mesh, face_meshes
+from tvimdesign.cad.modes import MODULES
+from tvimdesign.cad.print_files import _distance, as_printed, printed_mesh, stl_bytes, threemf_bytes
+from tvimdesign.cad.step import Product, read_part, write_assembly, write_part
+from tvimdesign.errors import GeometryError
+
+UP = Making(down="bottom", why="")
+OVER = Making(down="top", why="")
+PRODUCT = Product(name="bracket & <foot>", colour=(1.0, 0.5, 0.0), material="PETG", density=1270.0)
+
+
+def bracket() -> cq.Solid:
+    """A block of 40 x 30 x 10 mm on z = 5 with a through hole of 6, a blind one of 4 from above, a boss of 8."""
+    block = cq.Solid.makeBox(40, 30, 10, cq.Vector(0, 0, 5))
+    through = cq.Solid.makeCylinder(3, 10, cq.Vector(10, 15, 5))
+    blind = cq.Solid.makeCylinder(2, 4, cq.Vector(30, 15, 11))
+    boss = cq.Solid.makeCylinder(4, 6, cq.Vector(20, 15, 15))
+    across = cq.Solid.makeCylinder(1.5, 30, cq.Vector(20, 0, 10), cq.Vector(0, 1, 0))
+    return block.fuse(boss).cut(through, blind, across).Solids()[0]
+
+
+def cup() -> cq.Solid:
+    """A cup of 20 mm with a post in it: its inside is no hole."""
+    body = cq.Solid.makeCylinder(10, 10).cut(cq.Solid.makeCylinder(8, 8, cq.Vector(0, 0, 2)))
+    return body.fuse(cq.Solid.makeCylinder(2, 5, cq.Vector(0, 0, 2))).Solids()[0]
+
+
+def test_upright_cylinders_are_read_off_a_solid() -> None:
+    found = [(one.radius, one.x, one.bottom, one.top, one.concave) for one in upright_cylinders(bracket())]
+    assert found == [(2, 30, 11, 15, True), (3, 10, 5, 15, True), (4, 20, 15, 21, False)]
+    assert all(one.is_round and not one.is_central for one in upright_cylinders(bracket()))
+    assert levels(bracket()) == [5, 11, 15, 21]
+
+
+def test_a_hole_is_empty_and_goes_all_the_way_round() -> None:
+    assert [one.radius for one in holes(bracket())] == [2, 3]
+    assert holes(cup()) == []
+
+
+def test_holes_are_wider_in_print_by_what_the_process_takes_away() -> None:
+    part = bracket()
+    printed = as_printed(part, UP, 0.3)
+    less = pi * ((3.15**2 - 3.0**2) * 10 + (2.15**2 - 2.0**2) * 4)
+    # The hole across goes through the middle of no upright one.
+    assert part.Volume() - printed.Volume() == pytest.approx(less, rel=1e-6)
+    assert [one.radius for one in holes(printed)] == [2.15, 3.15]
+    assert as_printed(part, UP, 0.0).Volume() == pytest.approx(part.Volume(), rel=1e-12)
+
+
+def test_a_part_lies_on_the_side_it_is_printed_on() -> None:
+    up, over = as_printed(bracket(), UP, 0.0), as_printed(bracket(), OVER, 0.0)
+    assert (up.BoundingBox().zmin, over.BoundingBox().zmin) == pytest.approx((0.0, 0.0), abs=1e-9)
+    # Turned over, the boss is what stands on the bed, and the plate's lower face is up.
+    assert levels(up) == [0, 6, 10, 16]
+    assert levels(over) == [0, 6, 10, 16]
+    assert up.isInside(cq.Vector(20, 15, 15))
+    assert over.isInside(cq.Vector(20, -15, 1))
+    assert not over.isInside(cq.Vector(5, -15, 1))
+
+
+def test_every_kind_says_how_it_is_come_by() -> None:
+    kinds = {kind for module in MODULES.values() for kind in module.kinds}
+    assert kinds == set(MAKING) == set(KINDS)
+    assert all(making.why for making in MAKING.values())
+
+
+def test_the_mesh_error_is_the_sagitta_of_its_chords() -> None:
+    part = cq.Solid.makeCylinder(20, 5)
+    body, measured = printed_mesh("disc", part)
+    rim = body.vertices[np.abs(np.hypot(*body.vertices[:, :2].T) - 20.0) < 1e-6]
+    azimuths = np.unique(np.round(np.arctan2(rim[:, 1], rim[:, 0]), 9))
+    widest = np.diff([*azimuths, azimuths[0] + tau]).max()
+    assert measured == pytest.approx(20.0 * (1.0 - cos(0.5 * widest)), rel=1e-6)
+    assert 0.0 < measured < 0.05
+    assert body.is_watertight
+
+
+def test_a_mesh_coarser_than_its_part_is_found_on_any_surface() -> None:
+    ball = cq.Solid.makeSphere(10)
+    face, mesh = next(pair for pair in face_meshes(ball) if pair[0].geomType() == "SPHERE")
+    finest = _distance(face, mesh)
+    coarse = Mesh(mesh.vertices * 0.99, mesh.faces)
+    assert finest < 0.05
+    assert _distance(face, coarse) == pytest.approx(0.1 + 0.99 * finest, rel=1e-3)
+
+
+def test_a_3mf_has_unit_name_material_and_the_part() -> None:
+    body, _ = printed_mesh("bracket", bracket())
+    data = threemf_bytes(body, PRODUCT)
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        assert archive.testzip() is None
+        assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+        root = ET.fromstring(archive.read("3D/3dmodel.model"))
+    space = {"m": "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"}
+    assert root.attrib["unit"] == "millimeter"
+    base, thing = root.find(".//m:base", space), root.find(".//m:object", space)
+    assert base is not None
+    assert thing is not None
+    assert base.attrib == {"name": "PETG", "displaycolor": "#FF8000"}
+    assert thing.attrib["name"] == "bracket & <foot>"
+    points = np.array([[float(one.attrib[axis]) for axis in "xyz"] for one in root.iterfind(".//m:vertex", space)])
+    corners = [[int(one.attrib[key]) for key in ("v1", "v2", "v3")] for one in root.iterfind(".//m:triangle", space)]
+    read = trimesh.Trimesh(points, corners)
+    assert read.is_watertight
+    assert read.volume == pytest.approx(body.volume, rel=1e-6)
+
+
+def test_an_stl_is_the_same_body() -> None:
+    body, _ = printed_mesh("bracket", bracket())
+    read = trimesh.load_mesh(io.BytesIO(stl_bytes(body)), file_type="stl")
+    assert read.is_watertight
+    assert read.volume == pytest.approx(bracket().Volume(), rel=2e-3)
+
+
+def test_a_step_part_says_its_volume_area_and_centroid(tmp_path: Path) -> None:
+    # A block of 10 x 20 x 30 mm with a hole of 6 mm at (5, 5).
+    part = cq.Solid.makeBox(10, 20, 30).cut(cq.Solid.makeCylinder(3, 30, cq.Vector(5, 5, 0))).Solids()[0]
+    write_part(tmp_path / "part.step", part, PRODUCT)
+    solid, told = read_part(tmp_path / "part.step")
+    bore = 9.0 * pi
+    assert told.volume == pytest.approx(30.0 * (200.0 - bore), rel=1e-9)
+    assert told.area == pytest.approx(2.0 * (200.0 - bore) + 60.0 * 30.0 + 6.0 * pi * 30.0, rel=1e-9)
+    assert told.centroid == pytest.approx((5.0, (200.0 * 10.0 - bore * 5.0) / (200.0 - bore), 15.0), rel=1e-9)
+    assert solid.Volume() == pytest.approx(told.volume, rel=1e-9)
+    text = (tmp_path / "part.step").read_text()
+    for words in ("AP242", "geometric validation property", "VOLUME_MEASURE", "AREA_MEASURE", "centre point"):
+        assert words in text
+
+
+def test_a_step_file_without_these_is_refused(tmp_path: Path) -> None:
+    box = cq.Solid.makeBox(1, 1, 1)
+    write_assembly(tmp_path / "a.step", "a", {"box_1": box}, {"box_1": PRODUCT})
+    with pytest.raises(GeometryError, match="volume, area and centroid"):
+        read_part(tmp_path / "a.step")
+
+
+def test_a_mirror_leaves_holes_holes() -> None:
+    mirrored = bracket().mirror("XZ").Solids()[0]
+    assert [one.concave for one in upright_cylinders(mirrored)] == [True, True, False]
+
+
+def test_an_arc_has_its_span_and_its_middle() -> None:
+    (arc,) = upright_cylinders(cut_in_half())
+    assert arc.span == pytest.approx(pi)
+    assert cos(arc.middle) == pytest.approx(-1.0)
+    assert not arc.is_round
+
+
+def cut_in_half() -> cq.Solid:
+    whole = cq.Solid.makeCylinder(5, 3)
+    return whole.intersect(cq.Solid.makeBox(10, 20, 10, cq.Vector(-10, -10, -1))).Solids()[0]

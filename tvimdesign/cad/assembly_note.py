@@ -1,0 +1,78 @@
+"""The note on putting a module together: what there is, the steps in order, and the pictures that show them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import degrees
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tvimdesign.cad import names
+from tvimdesign.cad.bom import Item
+from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.making import MAKING
+from tvimdesign.device import Input, Output, table_for
+from tvimdesign.study.design import Design
+
+_STEPS = Path(__file__).with_name("assembly_steps.yaml")
+
+
+def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item]) -> bytes:
+    """Write the note as Markdown."""
+    lines = [
+        f"# Putting together: {design.name}",
+        "",
+        f"![Parts in the order in which they go on]({names.EXPLODED})",
+        "",
+    ]
+    lines += ["## Parts", "", "| | part | quantity | | g each | g |", "|---|---|---|---|---|---|"]
+    for number, one in enumerate(items, start=1):
+        of = f"{'made of' if one.made else 'bought:'} {one.title}"
+        each = f"{one.mass:.2f} | {one.mass * one.quantity:.2f}"
+        lines.append(f"| {number} | {_words(one.kind)} | {one.quantity} | {of} | {each} |")
+    total = sum(one.mass * one.quantity for one in items)
+    lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{names.BILL_OF_MATERIALS}`.", ""]
+    lines += ["## Printing", "", *(_printing(one.kind) for one in items if one.made), ""]
+    lines += [f"The files in `print/` lie so, with upright holes {dims.hole_compensation:g} mm wider.", ""]
+    lines += ["## Steps", ""]
+    lines += [f"{number}. {text}" for number, text in enumerate(_steps(design, dims, items), start=1)]
+    lines += ["", f"![Cut through the axis]({names.SECTION})", ""]
+    return "\n".join(lines).encode()
+
+
+def _printing(kind: str) -> str:
+    lying = "as it stands in the module" if MAKING[kind].down == "bottom" else "turned over"
+    return f"- {_words(kind)}: {lying}; {MAKING[kind].why}."
+
+
+def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]:
+    """Steps for the kinds this module has, and one for each kind that no step takes."""
+    kinds = {one.kind for one in items}
+    written = yaml.safe_load(_STEPS.read_text("utf-8"))
+    wanted = [step for step in written if kinds.issuperset(step["kinds"])]
+    known = _Figures(design, dims, {f"number_of_{one.kind}": one.quantity for one in items})
+    texts = [str(step["text"]).format_map(known) for step in wanted]
+    taken = {kind for step in wanted for kind in step["kinds"]}
+    return texts + [f"Fit the {_words(one.kind)} ({one.quantity})." for one in items if one.kind not in taken]
+
+
+class _Figures(dict[str, Any]):
+    """Rows by name as they are written in a text: lengths in mm, angles in degrees, counts as they are."""
+
+    def __init__(self, design: Design, dims: Dimensions, counts: Mapping[str, int]) -> None:
+        """`counts` are there beside the rows."""
+        super().__init__(counts)
+        self._dims = dims
+        rows: list[Input | Output] = [*table_for(design.mode).inputs, *table_for(design.mode).outputs]
+        self._angles = {row.name for row in rows if row.unit in {"rad", "deg"}}
+
+    def __missing__(self, name: str) -> str:
+        """Value of a row."""
+        value: float = getattr(self._dims, name)
+        return f"{degrees(value) if name in self._angles else value:.3g}"
+
+
+def _words(kind: str) -> str:
+    return kind.replace("_", " ")

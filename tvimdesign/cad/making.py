@@ -1,0 +1,44 @@
+"""How each kind of part is come by: printed lying on which side and why, drawn for a workshop, or bought."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True, kw_only=True)
+class Making:
+    """How one kind of part is come by."""
+
+    down: Literal["bottom", "top", "bought"]
+    """The side that lies on the print bed, as the part stands in the module; `bought` is not printed at all."""
+    why: str
+    """Why that side, or where it is bought."""
+    drawn: bool = False
+    """Whether a workshop gets a drawing of it."""
+
+
+MAKING = {
+    "housing": Making(
+        down="bottom", drawn=True,
+        why="feet and skirt on the bed: posts, hub and seats grow upwards and come out round; only the floor needs "
+        "support, in the open space under it",
+    ),
+    "rotor": Making(
+        down="top", drawn=True,
+        why="link end of the core on the bed: the face the PCL bonds to, and the vanes, come out on top without marks "
+        "of supports, which stand between plate and bed",
+    ),
+    "link": Making(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
+    "retainer": Making(down="bottom", drawn=True, why="flat: no support"),
+    "pcl_arc": Making(down="bottom", why="flat; print it of PCL, or cut it from sheet"),
+    "pcl_block": Making(down="bottom", why="flat; print it of PCL, or cut it from sheet"),
+    "peltier_pad": Making(down="bought", why="a Peltier module of the catalogue, cut or chosen to this size"),
+    "spring_right": Making(down="bought", why="wound to the spring maker's sheet"),
+    "spring_left": Making(down="bought", why="wound to the spring maker's sheet"),
+    "link_screw": Making(down="bought", why="a screw of the catalogue"),
+    "retainer_screw": Making(down="bought", why="a screw of the catalogue"),
+    "bearing_inner": Making(down="bought", why="the part of a ball bearing of the catalogue that turns"),
+    "bearing_outer": Making(down="bought", why="the part of a ball bearing of the catalogue that stands"),
+}  # fmt: skip
+"""By kind of part, of all modes."""

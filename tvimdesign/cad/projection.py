@@ -1,0 +1,185 @@
+"""Views of a solid as plane curves: from above, and from the front with the near half cut away."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import degrees, dist
+
+import cadquery as cq
+import numpy as np
+from numpy.typing import NDArray
+from OCP.BRepLib import BRepLib
+from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+from OCP.HLRAlgo import HLRAlgo_Projector
+from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape
+from OCP.TopoDS import TopoDS_Shape
+
+Array = NDArray[np.float64]
+Point = tuple[float, float]
+_CHORD = 0.01
+"""Largest distance [mm] of a chain of lines from the curve it stands for."""
+_DIGITS = 5
+_VISIBLE = ("VCompound", "OutLineVCompound", "Rg1LineVCompound")
+_HIDDEN = ("HCompound", "OutLineHCompound")
+
+
+@dataclass(frozen=True, order=True)
+class Arc:
+    """Part of a circle, counter-clockwise between two angles [deg]; all of it where they are 360 apart."""
+
+    centre: Point
+    radius: float
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, order=True)
+class Chain:
+    """Straight lines from point to point."""
+
+    points: tuple[Point, ...]
+
+
+@dataclass(frozen=True)
+class View:
+    """What is seen of a solid, in its own millimetres: x to the right, y (or z) upwards."""
+
+    arcs: tuple[Arc, ...]
+    chains: tuple[Chain, ...]
+    hidden: tuple[Chain, ...] = ()
+    """What lies behind, as lines."""
+    cut: tuple[tuple[Chain, ...], ...] = ()
+    """Faces in the plane of a section, each its outline and then its holes."""
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Least and largest x, least and largest y."""
+        points = [point for chain in self.chains for point in chain.points]
+        points += [
+            (arc.centre[0] + right * arc.radius, arc.centre[1] + up * arc.radius)
+            for arc in self.arcs
+            for right, up in ((1, 0), (-1, 0), (0, 1), (0, -1))
+            if _is_on(arc, degrees(float(np.arctan2(up, right))))
+        ]
+        x, y = np.array(points).T
+        return float(x.min()), float(x.max()), float(y.min()), float(y.max())
+
+
+def from_above(solid: cq.Solid) -> View:
+    """Plan view, with what lies behind."""
+    visible, hidden = _edges(solid, (0, 0, 1))
+    arcs, chains = _curves(visible)
+    behind = {_chain(edge) for edge in hidden} - {_chain(edge) for edge in visible}
+    return View(arcs, chains, tuple(sorted(behind)))
+
+
+def section(solid: cq.Solid) -> View:
+    """Front view of the half behind the plane y = 0, with its faces in that plane."""
+    box = solid.BoundingBox()
+    size = 2.0 * (box.DiagonalLength + box.center.Length)
+    behind = solid.intersect(cq.Solid.makeBox(size, size, size, cq.Vector(-0.5 * size, 0, -0.5 * size)))
+    arcs, chains = _curves(edge for half in behind.Solids() for edge in _edges(half, (0, -1, 0))[0])
+    faces = [face for face in behind.Faces() if _lies_in_section(face)]
+    cut = sorted(
+        (tuple(_outline(wire) for wire in (face.outerWire(), *face.innerWires())) for face in faces),
+        key=lambda outlines: outlines[0],
+    )
+    return View(arcs, chains, cut=tuple(cut))
+
+
+def _lies_in_section(face: cq.Face) -> bool:
+    box = face.BoundingBox()
+    return bool(face.geomType() == "PLANE" and max(abs(box.ymin), abs(box.ymax)) < 1e-6)
+
+
+def _edges(solid: cq.Solid, towards_viewer: tuple[float, float, float]) -> tuple[list[cq.Edge], list[cq.Edge]]:
+    """Visible and hidden edges of a solid, projected; the viewer's right is x."""
+    algorithm = HLRBRep_Algo()
+    algorithm.Add(solid.wrapped)
+    algorithm.Projector(HLRAlgo_Projector(gp_Ax2(gp_Pnt(), gp_Dir(*towards_viewer), gp_Dir(1, 0, 0))))
+    algorithm.Update()
+    algorithm.Hide()
+    shapes = HLRBRep_HLRToShape(algorithm)
+    visible = [edge for which in _VISIBLE for edge in _drawn(getattr(shapes, which)())]
+    return visible, [edge for which in _HIDDEN for edge in _drawn(getattr(shapes, which)())]
+
+
+def _drawn(found: TopoDS_Shape | None) -> list[cq.Edge]:
+    """Edges of one kind, none where the view has none of it."""
+    if found is None or found.IsNull():
+        return []
+    BRepLib.BuildCurves3d_s(found)
+    return list(cq.Shape.cast(found).Edges())
+
+
+def _curves(edges: Iterable[cq.Edge]) -> tuple[tuple[Arc, ...], tuple[Chain, ...]]:
+    """Edges in the plane of the view as arcs and chains, each once and in a fixed order."""
+    arcs, chains = set(), set()
+    for edge in edges:
+        if edge.geomType() == "CIRCLE":
+            arcs.add(_arc(edge))
+        else:
+            chains.add(_chain(edge))
+    return tuple(sorted(arcs)), tuple(sorted(chains))
+
+
+def _chain(edge: cq.Edge) -> Chain:
+    """An edge as lines, the same whichever way it runs."""
+    points = _sampled(edge)
+    return Chain(min(points, points[::-1]))
+
+
+def _arc(edge: cq.Edge) -> Arc:
+    centre, radius = edge.arcCenter(), edge.radius()
+    if edge.IsClosed():
+        return Arc((_round(centre.x), _round(centre.y)), _round(radius), 0.0, 360.0)
+    ends = [edge.positionAt(share) - centre for share in (0.0, 0.5, 1.0)]
+    first, middle, last = (degrees(float(np.arctan2(at.y, at.x))) for at in ends)
+    forward = (middle - first) % 360.0 < (last - first) % 360.0
+    start, end = (first, last) if forward else (last, first)
+    return Arc((_round(centre.x), _round(centre.y)), _round(radius), _round(start % 360.0), _round(end % 360.0))
+
+
+def _sampled(edge: cq.Edge) -> tuple[Point, ...]:
+    """Points of an edge, so many that lines between them keep to it."""
+    count = 2
+    while count < 257:
+        shares = np.linspace(0.0, 1.0, 2 * count - 1).tolist()
+        finer = np.array([edge.positionAt(share).toTuple()[:2] for share in shares])
+        points, between = finer[::2], finer[1::2]
+        if np.max(_beside(between, points[:-1], points[1:])) < _CHORD:
+            break
+        count = 2 * count - 1
+    return tuple((_round(x), _round(y)) for x, y in points.tolist())
+
+
+def _beside(points: Array, start: Array, end: Array) -> Array:
+    """Distance of points from the lines between two others."""
+    along = end - start
+    length = np.maximum(np.hypot(*along.T), 1e-12)
+    away = points - start
+    return np.asarray(np.abs(along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]) / length)
+
+
+def _outline(wire: cq.Wire) -> Chain:
+    """A closed wire in the section's plane: x and z."""
+    flat = wire.rotate(cq.Vector(), cq.Vector(1, 0, 0), -90.0)
+    pieces = [list(_sampled(edge)) for edge in flat.Edges()]
+    points = pieces.pop(0)
+    while pieces:
+        here = points[-1]
+        piece = min(pieces, key=lambda one: min(dist(one[0], here), dist(one[-1], here)))
+        pieces.remove(piece)
+        points += piece[1:] if dist(piece[0], here) <= dist(piece[-1], here) else piece[-2::-1]
+    return Chain(tuple(points))
+
+
+def _is_on(arc: Arc, angle: float) -> bool:
+    """Whether an arc passes an angle [deg]."""
+    span = (arc.end - arc.start) % 360.0 or 360.0
+    return (angle - arc.start) % 360.0 <= span
+
+
+def _round(value: float) -> float:
+    return round(value, _DIGITS) + 0.0

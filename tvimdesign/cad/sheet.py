@@ -1,0 +1,197 @@
+"""A drawing sheet: A3 with frame, title block and dimension style, geometry at its true size, as DXF and PDF."""
+
+from __future__ import annotations
+
+import io
+import random
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import matplotlib as mpl
+from ezdxf.addons.drawing.config import BackgroundPolicy, ColorPolicy, Configuration, LineweightPolicy
+from ezdxf.addons.drawing.frontend import Frontend
+from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
+from ezdxf.addons.drawing.properties import BackendProperties, RenderContext
+from ezdxf.enums import TextEntityAlignment
+from ezdxf.fonts import fonts
+from ezdxf.npshapes import NumpyPath2d, to_matplotlib_path
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+
+Point = tuple[float, float]
+SIZE = (420.0, 297.0)
+"""A3, landscape [mm]."""
+_FONT = "DejaVuSans.ttf"
+"""Comes with matplotlib, so that a drawing looks the same on every machine."""
+_LAYERS = {"OUTLINE": 50, "FINE": 25, "HATCH": 18, "CENTRE": 18, "HIDDEN": 18, "DIMENSION": 25, "TEXT": 25, "FRAME": 50}
+"""Line widths by layer, 1/100 mm."""
+_DASHES = {"CENTRE": "CENTER", "HIDDEN": "DASHED"}
+_TITLE_WIDTH, _ROW, _MARGIN = 180.0, 8.0, 10.0
+_TEXT = 2.5
+"""Height of letters and figures on paper [mm]."""
+_INCH = 25.4
+
+
+@dataclass(frozen=True)
+class Field:
+    """One field of the title block."""
+
+    label: str
+    text: str
+    share: float = 0.5
+    """Of the block's width."""
+
+
+class Sheet:
+    """A sheet at a scale. Places are in mm on paper; geometry keeps its size, and the frame is scaled."""
+
+    def __init__(self, scale: float) -> None:
+        """`scale` is paper over part: 2 for 2:1."""
+        self.scale = scale
+        _use_own_font()
+        with _no_time():
+            self.document = ezdxf.new("R2010", setup=["linetypes"])
+        self.document.header["$INSUNITS"] = 4
+        self.document.header["$MEASUREMENT"] = 1
+        self.document.header["$LTSCALE"] = 0.35 / scale
+        self.space = self.document.modelspace()
+        self.document.styles.add("SHEET", font=_FONT)
+        for name, width in _LAYERS.items():
+            self.document.layers.add(name, lineweight=width, linetype=_DASHES.get(name, "CONTINUOUS"))
+        self._dimension_style()
+        self.lines([(_MARGIN, _MARGIN), (SIZE[0] - _MARGIN, _MARGIN), (SIZE[0] - _MARGIN, SIZE[1] - _MARGIN),
+                    (_MARGIN, SIZE[1] - _MARGIN), (_MARGIN, _MARGIN)], "FRAME")  # fmt: skip
+
+    def _dimension_style(self) -> None:
+        style = self.document.dimstyles.new("SHEET").dxf
+        unit = 1.0 / self.scale
+        sizes = {"dimtxt": _TEXT, "dimasz": 2.5, "dimexe": 1.0, "dimexo": 0.8, "dimgap": 0.8, "dimcen": 0.0}
+        for name, value in sizes.items():
+            setattr(style, name, value * unit)
+        # Lengths as measured, a point before the decimals, no zeros at their end; text above its line.
+        settings = {"dimlfac": 1.0, "dimdec": 2, "dimdsep": 46, "dimzin": 8, "dimtad": 1, "dimtih": 0, "dimtoh": 0,
+                    "dimtxsty": "SHEET", "dimblk": "", "dimlunit": 2, "dimadec": 1, "dimtmove": 1}  # fmt: skip
+        for name, setting in settings.items():
+            setattr(style, name, setting)
+
+    def at(self, point: Point) -> Point:
+        """Where a place on paper is in the drawing's own coordinates."""
+        return point[0] / self.scale, point[1] / self.scale
+
+    def lines(self, points: Sequence[Point], layer: str) -> None:
+        """Straight lines between places on paper."""
+        self.space.add_lwpolyline([self.at(point) for point in points], dxfattribs={"layer": layer})
+
+    def text(self, text: str, at: Point, height: float = _TEXT, align: str = "BOTTOM_LEFT") -> None:
+        """One line of text at a place on paper."""
+        entity = self.space.add_text(text, height=height / self.scale, dxfattribs={"layer": "TEXT", "style": "SHEET"})
+        entity.set_placement(self.at(at), align=TextEntityAlignment[align])
+
+    def column(self, lines: Sequence[str], at: Point, pitch: float = 4.6, height: float = _TEXT) -> None:
+        """Lines of text below one another, the first below a place on paper."""
+        for index, line in enumerate(lines):
+            self.text(line, (at[0], at[1] - (index + 1) * pitch), height)
+
+    def title_block(self, title: str, rows: Sequence[Sequence[Field]]) -> None:
+        """Title block in the lower right corner: a title, and rows of fields from the bottom up."""
+        left, bottom = SIZE[0] - _MARGIN - _TITLE_WIDTH, _MARGIN
+        top = bottom + _ROW * len(rows) + 1.5 * _ROW
+        self.lines([(left, bottom), (left, top), (left + _TITLE_WIDTH, top)], "FRAME")
+        for index, row in enumerate(rows):
+            level = bottom + _ROW * (index + 1)
+            self.lines([(left, level), (left + _TITLE_WIDTH, level)], "FINE")
+            x = left
+            for one in row:
+                if x > left:
+                    self.lines([(x, level - _ROW), (x, level)], "FINE")
+                self.text(one.label, (x + 1.5, level - 0.8), 1.6, "TOP_LEFT")
+                self.text(one.text, (x + 1.5, level - _ROW + 1.4), _TEXT)
+                x += one.share * _TITLE_WIDTH
+        self.text(title, (left + 3.0, top - 1.0 * _ROW), 5.0)
+        self._first_angle((left + _TITLE_WIDTH - 28.0, top - 0.75 * _ROW))
+
+    def _first_angle(self, at: Point) -> None:
+        """The symbol of first-angle projection, ISO 5456-2: a cone, and to its right what is seen from its left."""
+        x, y = at
+        self.lines([(x, y - 2), (x, y + 2), (x + 9, y + 4), (x + 9, y - 4), (x, y - 2)], "FINE")
+        self.lines([(x - 2, y), (x + 11, y)], "CENTRE")
+        for radius in (2.0, 4.0):
+            self.space.add_circle(self.at((x + 18, y)), radius / self.scale, dxfattribs={"layer": "FINE"})
+        self.lines([(x + 12.5, y), (x + 23.5, y)], "CENTRE")
+        self.lines([(x + 18, y - 5.5), (x + 18, y + 5.5)], "CENTRE")
+
+    def dxf(self) -> bytes:
+        """The drawing as DXF, the same bytes for the same drawing."""
+        stream = io.StringIO()
+        with _no_time():
+            self.document.write(stream)
+        return stream.getvalue().encode(self.document.output_encoding)
+
+    def pdf(self) -> bytes:
+        """The sheet as PDF in its true size."""
+        figure = Figure(figsize=(SIZE[0] / _INCH, SIZE[1] / _INCH))
+        FigureCanvasPdf(figure)
+        axes = figure.add_axes((0, 0, 1, 1))
+        axes.set_axis_off()
+        look = Configuration(
+            background_policy=BackgroundPolicy.WHITE, color_policy=ColorPolicy.BLACK,
+            lineweight_policy=LineweightPolicy.ABSOLUTE, lineweight_scaling=1.0,
+        )  # fmt: skip
+        backend = _Backend(axes, adjust_figure=False)
+        with _fixed_chance():
+            Frontend(RenderContext(self.document), backend, config=look).draw_layout(self.space, finalize=True)
+        axes.set_aspect("auto")
+        axes.set_xlim(0.0, SIZE[0] / self.scale)
+        axes.set_ylim(0.0, SIZE[1] / self.scale)
+        stream = io.BytesIO()
+        says: dict[str, Any] = {"CreationDate": None, "Creator": "tvimdesign", "Producer": "tvimdesign"}
+        figure.savefig(stream, format="pdf", metadata=says)
+        return stream.getvalue()
+
+
+def ratio(scale: float) -> str:
+    """A scale as it is written on a drawing."""
+    return f"{scale:g}:1" if scale >= 1.0 else f"1:{1.0 / scale:g}"
+
+
+class _Backend(MatplotlibBackend):
+    """Fills letters by the sense in which their outlines run, as fonts mean it; ⌀ has two holes side by side."""
+
+    def draw_filled_paths(self, paths: Iterable[NumpyPath2d], properties: BackendProperties) -> None:
+        """Fill one letter."""
+        filled = to_matplotlib_path(paths, detect_holes=False)
+        self.ax.add_patch(PathPatch(filled, color=properties.color, linewidth=0, zorder=self._get_z()))
+
+
+@contextmanager
+def _no_time() -> Iterator[None]:
+    """Leave the time of writing and random numbers out of a DXF file."""
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+@contextmanager
+def _fixed_chance() -> Iterator[None]:
+    """Hatching is moved by a random hair, to miss corners; let it be the same hair every time."""
+    before = random.getstate()
+    random.seed(0)
+    try:
+        yield
+    finally:
+        random.setstate(before)
+
+
+def _use_own_font() -> None:
+    """Let drawings use the one font that is there on every machine, whatever else is installed."""
+    folder = Path(mpl.get_data_path()) / "fonts" / "ttf"
+    fonts.font_manager.clear()
+    fonts.font_manager.scan_folder(folder)
