@@ -20,8 +20,9 @@ SPACING = 2.5
 """Between samples of the surface [mm]."""
 _OFF = 2.0 * CHORD
 """How far from the surface a ray towards the tool starts [mm]."""
-_STEEPEST = -0.01
-"""A face may look this little away from the tool and still count as upright (a sine)."""
+_STEEPEST = -0.3
+"""A face may look away from the tool by this sine: triangles of a low curved face do. What is truly under cut hides
+from the ray."""
 _FLAT = 0.99
 _NOTHING = 1.0
 """Hidden area [mm^2] that is no more than what the mesh leaves open at edges."""
