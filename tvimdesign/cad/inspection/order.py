@@ -91,8 +91,9 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[C
             yield _way_check(kind_of(names[0]), group[0].side, {name: meshes[name] for name in names}, together)
         there |= {name: meshes[name] for name in names}
         if kind_of(names[0]).endswith("_screw"):
-            yield from (_tool_check(name, group[0].side, meshes[name], there) for name in names)
-    yield from _mount_checks(dims, there)
+            standing, out = Standing(there), _WAY[group[0].side]
+            yield from (_driver(name, _end(meshes[name], out), out, standing) for name in names)
+    yield from mount_checks(dims, Standing(there))
 
 
 def _groups(order: Sequence[Placed]) -> Iterator[list[Placed]]:
@@ -144,36 +145,32 @@ def _leading(mesh: Mesh, out: Array) -> Array:
     return np.asarray(inwards + middle * np.minimum(1.0, _SKIN / np.maximum(length, 1e-9)))
 
 
-def _tool_check(name: str, side: str, mesh: Mesh, there: Mapping[str, Mesh]) -> Check:
-    """Whether a driver comes to a screw that has just been put in."""
-    out = _WAY[side]
+def _end(mesh: Mesh, out: Array) -> Array:
+    """Middle of a screw's head."""
     ends = mesh.vertices @ out
-    head = mesh.vertices[ends > ends.max() - 1e-6].mean(axis=0)
-    return _driver(name, head, out, {other: one for other, one in there.items() if other != name})
+    return np.asarray(mesh.vertices[ends > ends.max() - 1e-6].mean(axis=0))
 
 
-def _mount_checks(dims: Dimensions, there: Mapping[str, Mesh]) -> Iterator[Check]:
+def mount_checks(dims: Dimensions, there: Standing) -> Iterator[Check]:
     """Whether a driver comes from above to the screws that fix the housing, the module complete and at rest."""
     for index, (x, y) in enumerate(mounts(dims)):
         yield _driver(f"mount_screw_{index + 1}", np.array([x, y, 0.0]), _WAY["above"], there)
 
 
-def _driver(name: str, head: Array, out: Array, others: Mapping[str, Mesh]) -> Check:
+def _driver(name: str, head: Array, out: Array, there: Standing) -> Check:
+    """Whether a driver comes to a screw along its axis; the screw itself lies behind the rays."""
     angles = np.arange(_TOOL_RAYS) * 2.0 * pi / _TOOL_RAYS
     rim = [
         [share * TOOL_RADIUS * cos(one), share * TOOL_RADIUS * sin(one), 0.0] for share in (0.5, 1.0) for one in angles
     ]
     starts = head + _SKIN * out + np.array([[0.0, 0.0, 0.0], *rim])
-    standing = Standing(others)
-    free = standing.triangles.first_hits(starts, np.tile(out, (len(starts), 1))).distance
+    free = there.triangles.first_hits(starts, np.tile(out, (len(starts), 1))).distance
     least = float(free.min())
     text = f"a driver {2.0 * TOOL_RADIUS:.3g} mm thick has {TOOL_LENGTH:.3g} mm before the screw"
     place = None
     if least < TOOL_LENGTH:
         place = starts[int(np.argmin(free))] + least * out
-        text = (
-            f"a driver {2.0 * TOOL_RADIUS:.3g} mm thick meets {standing.nearest(place)} {least:.3g} mm before the screw"
-        )
+        text = f"a driver {2.0 * TOOL_RADIUS:.3g} mm thick meets {there.nearest(place)} {least:.3g} mm before the screw"
     return finding(
         name, "driver", min(least, TOOL_LENGTH) if least < inf else TOOL_LENGTH, TOOL_LENGTH, "mm",
         at_least(least, TOOL_LENGTH), text, place=place, resolution=2.0 * pi * TOOL_RADIUS / _TOOL_RAYS,

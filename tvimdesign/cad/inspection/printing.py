@@ -86,7 +86,7 @@ def bed_check(part: str, size: Array, bed: tuple[float, float, float]) -> Check:
 
 def overhangs(triangles: Triangles, overhang_angle: float) -> list[Overhang]:
     """Find what leans more than an angle from upright [rad] and does not lie on the bed."""
-    above = triangles.corners[:, :, 2].min(axis=1) > triangles.lower[2] + _ON_BED
+    above = triangles.corners[:, :, 2].max(axis=1) > triangles.lower[2] + _ON_BED
     leaning = -triangles.normal[:, 2] > sin(overhang_angle) + 1e-6
     chosen = np.flatnonzero(above & leaning)
     found = [_overhang(triangles, group) for group in _connected(triangles.corners, chosen)]

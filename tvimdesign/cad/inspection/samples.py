@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,27 +42,30 @@ def samples(triangles: Triangles, spacing: float, only: Index | None = None) -> 
     length = sides.max(axis=1)
     rows = np.ceil(length / spacing).astype(int)
     columns = np.ceil(2.0 * area / length / spacing).astype(int)
-    points, owners = [], []
+    points, owners, areas = [], [], []
     for shape in np.unique(np.stack((rows, columns), axis=1), axis=0):
         group = np.flatnonzero((rows == shape[0]) & (columns == shape[1]))
-        weights = _weights(*(int(number) for number in shape))
+        weights, shares = _weights(*(int(number) for number in shape))
         # The longest side goes from the corner before `longest` to it; the apex is the one after.
         turned = (longest[group, None] + np.array([-1, 0, 1])) % 3
         corners = np.take_along_axis(all_corners[group], turned[:, :, None], axis=1)
         points.append(np.einsum("wk,nkc->nwc", weights, corners).reshape(-1, 3))
         owners.append(np.repeat(group, len(weights)))
-    owner = np.concatenate(owners)
-    count = np.bincount(owner, minlength=len(area))
-    triangle = chosen[owner]
-    return Samples(np.concatenate(points), triangles.normal[triangle], triangle, (area / count)[owner])
+        areas.append((area[group, None] * shares).ravel())
+    triangle = chosen[np.concatenate(owners)]
+    return Samples(np.concatenate(points), triangles.normal[triangle], triangle, np.concatenate(areas))
 
 
-def _weights(rows: int, columns: int) -> Array:
-    """Weights of a triangle's corners, the first two those of its base, for points in even strips above the base."""
-    found = []
+def _weights(rows: int, columns: int) -> tuple[Array, Array]:
+    """Weights of a triangle's corners, the first two those of its base, for points in strips of one height above it.
+
+    Returns also the share of the area that each point stands for.
+    """
+    weights, shares = [], []
     for strip in range(columns):
-        height = 1.0 - np.sqrt(1.0 - (strip + 0.5) / columns)  # of equal area each
-        number = max(1, round(rows * (1.0 - height)))
+        height = (strip + 0.5) / columns
+        number = max(1, ceil(rows * (1.0 - strip / columns)))
         along = (np.arange(number) + 0.5) / number * (1.0 - height)
-        found.append(np.stack((1.0 - height - along, along, np.full(number, height)), axis=1))
-    return np.concatenate(found)
+        weights.append(np.stack((1.0 - height - along, along, np.full(number, height)), axis=1))
+        shares.append(np.full(number, 2.0 * (1.0 - height) / columns / number))
+    return np.concatenate(weights), np.concatenate(shares)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
 from tvimdesign.cad.inspection.finding import at_least, finding
@@ -16,6 +18,8 @@ SPACING = 2.0
 """Between samples of the whole surface [mm]."""
 _CLOSER = 4
 """How much closer the samples lie around thin walls."""
+_NEIGHBOURS = 1.5
+"""Samples no further apart than so many of their spacings are neighbours."""
 _AROUND = 40
 """Samples with the thinnest walls whose triangles are sampled closer in any case."""
 _OPPOSED = -0.5
@@ -26,7 +30,7 @@ def wall_checks(part: str, triangles: Triangles, minimum_wall: float, thinnest_w
     """Hold the walls of a part against the process [mm], and tell of edges that taper to nothing."""
     everywhere = samples(triangles, SPACING)
     coarse = wall_thickness(triangles, everywhere)
-    thin = coarse < thinnest_wall
+    thin = coarse < minimum_wall
     thin[np.argsort(coarse)[:_AROUND]] = True
     where = samples(triangles, SPACING / _CLOSER, np.unique(everywhere.triangle[thin]))
     thickness = wall_thickness(triangles, where)
@@ -47,13 +51,18 @@ def wall_thickness(triangles: Triangles, where: Samples) -> Array:
 def _tapering(where: Samples, thickness: Array, minimum_wall: float) -> NDArray[np.bool_]:
     """Which samples lie by an edge at which two faces meet almost flat: no wall, the part just ends there.
 
-    It is told from a wall by having no thickness at all somewhere, and counts as far around that as a wall is thick.
+    It is told from a wall by thinning down to nothing: of thin samples that are neighbours some have no thickness.
     """
-    nothing = thickness < CHORD
-    if not nothing.any() or nothing[thickness < minimum_wall].all():
-        return np.zeros(len(where), dtype=bool)
-    away, _ = KDTree(where.point[nothing]).query(where.point)
-    return np.asarray((away < minimum_wall) & (thickness < minimum_wall))
+    tapering = np.zeros(len(where), dtype=bool)
+    thin = np.flatnonzero(thickness < minimum_wall)
+    nothing = thickness[thin] < CHORD
+    if not nothing.any() or nothing.all():
+        return tapering
+    pairs = KDTree(where.point[thin]).query_pairs(_NEIGHBOURS * SPACING / _CLOSER, output_type="ndarray")
+    links = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(thin), len(thin)))
+    _, patch = connected_components(links, directed=False)
+    tapering[thin] = np.isin(patch, patch[nothing])
+    return tapering
 
 
 def _thinnest(part: str, where: Samples, thickness: Array, minimum_wall: float, thinnest_wall: float) -> Check:
