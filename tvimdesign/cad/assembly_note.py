@@ -49,13 +49,17 @@ def _printing(kind: str) -> str:
 
 def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]:
     """Steps for the kinds this module has, and one for each kind that no step takes."""
-    kinds = {one.kind for one in items}
-    written = yaml.safe_load(_STEPS.read_text("utf-8"))
-    wanted = [step for step in written if kinds.issuperset(step["kinds"])]
+    wanted = steps_of({one.kind for one in items})
     known = _Figures(design, dims, {f"number_of_{one.kind}": one.quantity for one in items})
     texts = [str(step["text"]).format_map(known) for step in wanted]
     taken = {kind for step in wanted for kind in step["kinds"]}
     return texts + [f"Fit the {_words(one.kind)} ({one.quantity})." for one in items if one.kind not in taken]
+
+
+def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
+    """Steps of a module of these kinds of part, in order, as the data file has them."""
+    written: list[dict[str, Any]] = yaml.safe_load(_STEPS.read_text("utf-8"))
+    return [step for step in written if kinds.issuperset(step["kinds"])]
 
 
 class _Figures(dict[str, Any]):

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Any, Literal
+
+Level = Literal["pass", "warning", "failure"]
 
 
 @dataclass(frozen=True)
@@ -12,11 +16,29 @@ class Check:
 
     name: str
     value: float
-    """Relative deviation, or what two parts share [mm^3], or a gap [mm]."""
+    """In `unit`; without one a relative deviation, a ratio or a number of things."""
     limit: float
     ok: bool
+    """Whether the part can be made and used; with a warning it can, at a price that `text` says."""
     text: str
     """What was checked, for people."""
+    warned: bool = False
+    part: str = ""
+    """The part, or the two parts, it is about."""
+    place: Sequence[float] | None = None
+    """Where the value was found, in the module's coordinates [mm]."""
+    unit: str = ""
+    resolution: float = 0.0
+    """How far apart the samples lie that the value was found from, in mm; 0 where it is exact."""
+
+    @property
+    def level(self) -> Level:
+        """What to make of it."""
+        return "failure" if not self.ok else "warning" if self.warned else "pass"
+
+    def plain(self) -> dict[str, Any]:
+        """All of it, for a JSON file."""
+        return asdict(self) | {"level": self.level, "basis": "sampled" if self.resolution else "exact"}
 
 
 @dataclass(frozen=True)

@@ -139,9 +139,9 @@ def user_folder() -> Path | None:
 def code_digest() -> str:
     """Digest of all that makes parts of a design: this package's code and the libraries it draws with."""
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.iterdir()):
-        if path.is_file():
-            digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    here = Path(__file__).parent
+    for path in sorted(path for suffix in ("*.py", "*.yaml") for path in here.rglob(suffix)):
+        digest.update(path.relative_to(here).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     for name in _LIBRARIES:
         digest.update(f"{name} {metadata.version(name)}\n".encode())
     return digest.hexdigest()

@@ -18,6 +18,7 @@ from tvimdesign.cad.checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.drawings import part_sheet
 from tvimdesign.cad.export import glb_bytes, instances, product
+from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.kinds import SPRINGS, kind_of
 from tvimdesign.cad.making import MAKING
 from tvimdesign.cad.mesh import CHORD, spring_mesh
@@ -46,12 +47,17 @@ def works(dims: Dimensions) -> list[Work]:
         Work(name=f"interference_{index + 1}", do=partial(_clearances, share), needs=kinds)
         for index, share in enumerate(POSITIONS)
     ]
+    inspections = [
+        Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,)) for kind in kinds if MAKING[kind].drawn
+    ]
     return [
         *parts,
         *springs,
         Work(name="sizes", do=_sizes, needs=kinds),
         Work(name=PICTURES, do=_pictures, needs=kinds),
         *clearances,
+        *inspections,
+        Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True),
         Work(name="spring_sheet", do=_spring_sheet, named=True),
         Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True),
@@ -122,6 +128,14 @@ def _sizes(job: Job) -> list[Check]:
 
 def _clearances(share: float, job: Job) -> list[Check]:
     return clearance_checks(job.dims, _solids(job.needs), share, job.progress)
+
+
+def _inspect(kind: str, job: Job) -> list[Check]:
+    return part_checks(job.design, job.dims, kind, _solids(job.needs)[kind])
+
+
+def _inspect_module(job: Job) -> list[Check]:
+    return list(module_checks(job.design, job.dims, _solids(job.needs)))
 
 
 def _assembly(job: Job) -> list[Check]:

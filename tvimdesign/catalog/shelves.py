@@ -69,9 +69,16 @@ SHELVES: Mapping[str, Shelf] = {
             "corner_depth_ratio": "1",
             "pocket_depth_ratio": "1",
             "thread_engagement": "1",
+            "thinnest_wall": "mm",
+            "overhang_angle": "deg",
+            "bridge_span": "mm",
+            "hole_depth_ratio": "1",
+            "bed_length": "mm",
+            "bed_width": "mm",
+            "bed_height": "mm",
         },
-        words={"structure_material": (), "thread": ("self_tapping", "tapped")},
-        rising=(("minimum_running_clearance", "running_clearance"),),
+        words={"method": ("printed", "milled"), "structure_material": (), "thread": ("self_tapping", "tapped")},
+        rising=(("minimum_running_clearance", "running_clearance"), ("thinnest_wall", "minimum_wall")),
     ),
     "screws": Shelf(
         values={

@@ -84,11 +84,15 @@ class Book:
         )  # fmt: skip
         self.rows.append(row)
 
-    def option(self, name: str, options: tuple[str, ...], description: str) -> None:
-        """Add a choice among words; the first is the default."""
-        self.rows.append(
-            Choice(name=name, description=description, group=self.group, default=options[0], options=options)
+    def option(
+        self, name: str, options: tuple[str, ...], description: str, record: tuple[str, str] | None = None
+    ) -> None:
+        """Add a choice among words; the default is the first, or the word `record` of (choice, word) names."""
+        default = "" if record else options[0]
+        row = Choice(
+            name=name, description=description, group=self.group, default=default, options=options, record=record
         )
+        self.rows.append(row)
 
     def output(
         self,

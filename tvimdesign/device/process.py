@@ -20,8 +20,19 @@ for name, unit, field, description in (
     ("corner_depth_ratio", "1", "corner_depth_ratio", "Largest depth of a corner over its radius"),
     ("pocket_depth_ratio", "1", "pocket_depth_ratio", "Largest depth of a pocket over its width"),
     ("thread_engagement", "1", "thread_engagement", "Least length of thread over a screw's diameter"),
+    ("thinnest_wall", "mm", "thinnest_wall", "Wall below which the process makes none, however weak"),
+    ("overhang_angle", "deg", "overhang_angle", "Lean from upright up to which a face needs no support"),
+    ("bridge_span", "mm", "bridge_span", "Longest bridge between two supports"),
+    ("hole_depth_ratio", "1", "hole_depth_ratio", "Largest depth of a hole over its diameter"),
+    ("bed_length", "mm", "bed_length", "Length of the printer's bed, or travel of the mill"),
+    ("bed_width", "mm", "bed_width", "Width of the printer's bed, or travel of the mill"),
+    ("bed_height", "mm", "bed_height", "Height the machine can make"),
 ):
     limits.property(name, unit, ("process", field), description)
+limits.option(
+    "making_method", ("printed", "milled"), "How the process shapes a part: in layers, or with a mill of three axes",
+    record=("process", "method"),
+)  # fmt: skip
 
 
 _WALL = "is thinner than the process can make it"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -86,7 +85,7 @@ def run_study(
                 drawing.finish()
         if cad and study.write.cad and found.found:
             with _noting(troubles):
-                told["cad"] = _parts(design, folder.path / "cad", progress)
+                told["cad"] = _parts(design, folder.path / "cad", progress, as_json)
         inputs = {"study": path, **_records(found.design, catalog, table)}
         folder.finish(found.design.status, inputs, found.design.study, found.seconds)
     if as_json:
@@ -168,28 +167,34 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     with ResultsFolder(out, overwrite) as folder:
         kept = write_design(design, folder.path / "design.json")
         with talk() as progress, _noting(troubles):
-            report = _parts(kept, folder.path, progress)
+            report = _parts(kept, folder.path, progress, as_json)
             if as_json:
                 print(json.dumps(report, indent=2))
             else:
-                said = f"{len(report['checks'])} checks on the solids hold; parts are in [bold]{out}[/bold]"
-                wide_console().print(said, soft_wrap=True)
+                wide_console().print(f"Parts are in [bold]{out}[/bold]", soft_wrap=True)
         folder.finish("parts failed" if troubles else design.status, {"design": source}, design.study)
     if troubles:
         raise _partly(troubles)
 
 
-def _parts(design: Path, out: Path, progress: Progress) -> dict[str, Any]:
-    """Make the parts beside their checks.json. Raises GeometryError where a part or a check fails."""
+def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> dict[str, Any]:
+    """Make the parts beside their checks.json, and tell what was found. Raises GeometryError where a check fails."""
     from tvimdesign.cad import make_cad
+    from tvimdesign.report.solid_checks import print_solid_checks
 
     progress("parts: starting the CAD kernel")
     report = make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
-    told = {"checks": [asdict(check) for check in report.checks], "files": report.files, "notes": report.notes}
+    told = {"checks": [check.plain() for check in report.checks], "files": report.files, "notes": report.notes}
     write_whole(out / "checks.json", (json.dumps(told, indent=2) + "\n").encode())
+    progress("")
+    if not as_json:
+        print_solid_checks(report.checks, wide_console())
     if report.failed:
         worst = sorted(report.failed, key=lambda check: -abs(check.value))[:3]
-        lines = [f"  {check.text}: {check.value:.4g}, limit {check.limit:.4g}" for check in worst]
+        lines = [
+            f"  {check.text}: {check.value:.4g}{check.unit and ' '}{check.unit}, limit {check.limit:.4g}"
+            for check in worst
+        ]
         raise GeometryError(
             f"the parts are written, but {len(report.failed)} of {len(report.checks)} checks fail, the worst:\n"
             + "\n".join(lines)

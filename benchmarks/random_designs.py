@@ -1,0 +1,231 @@
+"""Random designs within a study's bounds: each breaks a named rule and is refused, or its parts are sound.
+
+Designs are drawn from the study's ranges (seeded); what a study does not vary is as it says. Those that break a rule of
+the table are counted by rule. The others are built, each in a process of its own with a time limit, and held to: one
+valid solid a part, a watertight mesh, the volumes of the model, nothing in each other's way at rest and through the
+stroke; with `--inspect` also all that the process wants. Ends with code 1 where one that keeps the rules fails.
+"""
+
+from __future__ import annotations
+
+import argparse
+import multiprocessing as mp
+import os
+import resource
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table, table_for
+from tvimdesign.device.rows import Output, Supplied, Swing
+from tvimdesign.errors import TvimError
+from tvimdesign.study import Study, given, read_study
+from tvimdesign.study.design import Design
+from tvimdesign.study.model import Options
+
+STUDIES = Path(__file__).resolve().parents[1] / "studies"
+_CHUNK = 20_000
+"""Designs whose rules are worked out at once."""
+_MOST = 5_000_000
+"""Draws after which a study's bounds are taken to hold no design that keeps the rules."""
+TIME_LIMIT = 120.0
+"""Seconds for one design: ten times what the slowest takes."""
+
+
+@dataclass
+class Tally:
+    """What came of all draws."""
+
+    drawn: int = 0
+    refused: Counter[str] = field(default_factory=Counter)
+    """Designs that broke a rule, by rule; one may break several."""
+    built: int = 0
+    failed: list[str] = field(default_factory=list)
+    """What was wrong with designs that keep every rule."""
+    warned: Counter[str] = field(default_factory=Counter)
+    """Warnings of the inspection, by what was checked."""
+    seconds: float = 0.0
+    """Processor time of the building."""
+
+
+class Draws:
+    """Random designs within the bounds of a study."""
+
+    def __init__(self, study: Study, seed: int) -> None:
+        """`seed` makes the same designs again."""
+        self.study = study
+        self.table: Table = table_for(study.mode)
+        self._known = given(study, Catalog(), self.table)
+        self._random = np.random.default_rng(seed)
+        self._rows = [row for row in self.table.outputs if _is_plain(row, self.table)]
+        self._ruled = [row for row in self._rows if row.rules and not row.hidden]
+
+    def keeping_rules(self, count: int, tally: Tally) -> Iterator[Design]:
+        """Draw until `count` designs keep every rule; those that do not are counted by what they break."""
+        found = 0
+        while found < count:
+            if tally.drawn >= _MOST:
+                raise RuntimeError(f"{self.study.name}: of {tally.drawn} draws only {found} keep the rules")
+            drawn = self._draw(_CHUNK)
+            kept = self._keeping(drawn, tally)
+            for index in kept[: count - found]:
+                yield self._design({name: float(values[index]) for name, values in drawn.items()}, int(index))
+            found += len(kept)
+
+    def _draw(self, count: int) -> dict[str, NDArray[np.float64]]:
+        drawn = {}
+        for name, allowed in self.study.vary.items():
+            if isinstance(allowed, Options):
+                numbers = [value for value in allowed.values if not isinstance(value, str)]
+                if numbers:
+                    drawn[name] = self._random.choice(np.array(numbers), count)
+            else:
+                drawn[name] = self._random.uniform(allowed.lower, allowed.upper, count)
+        return drawn
+
+    def _keeping(self, drawn: dict[str, NDArray[np.float64]], tally: Tally) -> NDArray[np.int64]:
+        """Which of the draws keep every rule."""
+        with np.errstate(all="ignore"):  # what cannot be drawn has no number, and breaks the rule for that reason
+            values = self.table.evaluate(self._known | drawn, [row.name for row in self._ruled])
+        count = len(next(iter(drawn.values())))
+        keeps = np.ones(count, dtype=bool)
+        for row in self._ruled:
+            value = np.broadcast_to(np.asarray(values[row.name], dtype=float), (count,))
+            for rule in row.rules:
+                good = value >= rule.value if rule.sense == ">=" else value <= rule.value
+                tally.refused[row.name] += int((~good).sum())
+                keeps &= good
+        tally.drawn += count
+        return np.flatnonzero(keeps)
+
+    def _design(self, drawn: dict[str, float], index: int) -> Design:
+        """A design with every number that follows from its inputs alone."""
+        known: dict[str, Any] = self._known | drawn
+        visible = [row.name for row in self._rows if not row.hidden]
+        values = {name: float(value) for name, value in known.items() if isinstance(value, int | float)}
+        with np.errstate(all="ignore"):
+            values |= {name: float(value) for name, value in self.table.evaluate(known, visible).items()}
+        choices = {row.name: str(getattr(known[row.name], "name", known[row.name])) for row in self.table.choices}
+        return Design(
+            tvimdesign="0", name=f"{self.study.name}, draw {index}", mode=self.study.mode, status="evaluated",
+            choices=choices, values=values, study={},
+        )  # fmt: skip
+
+
+def _is_plain(row: Output, table: Table) -> bool:
+    """Whether a row follows from the inputs alone, without an operating point and without a simulation."""
+    behind = [table.by_name[name] for name in (row.name, *table.ancestors(row.name)) if name in table.by_name]
+    return not any(
+        isinstance(one, (*Supplied, Swing)) or getattr(one, "per_point", False) or getattr(one, "instant", False)
+        for one in behind
+    )
+
+
+def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
+    """Build a design's parts; returns what is wrong with them, and what the inspection warns of."""
+    from tvimdesign.cad.assembly import drawn_parts
+    from tvimdesign.cad.checks import all_checks
+    from tvimdesign.cad.dimensions import dimensions
+    from tvimdesign.cad.inspection.inspect import module_checks, part_checks, solid_check
+    from tvimdesign.cad.making import MAKING
+    from tvimdesign.cad.mesh import solid_mesh
+    from tvimdesign.cad.print_files import closed
+
+    dims = dimensions(design)
+    drawn = drawn_parts(dims)
+    checks = [*all_checks(design, dims, drawn), *(solid_check(kind, solid) for kind, solid in drawn.items())]
+    for kind, solid in drawn.items():
+        closed(kind, solid_mesh(solid))
+        if inspect and MAKING[kind].drawn:
+            checks += part_checks(design, dims, kind, solid)
+    if inspect:
+        checks += module_checks(design, dims, drawn)
+    wrong = [
+        f"{check.text}: {check.value:.4g}, limit {check.limit:.4g}" for check in checks if check.level == "failure"
+    ]
+    return wrong, [check.name for check in checks if check.level == "warning"]
+
+
+def _child(design: Design, inspect: bool, mouth: Connection) -> None:
+    try:
+        wrong, warned = faults(design, inspect)
+    except TvimError as error:
+        wrong, warned = [str(error)], []
+    except Exception as error:  # the kernel raises a dozen classes; each is a failure of the design it came from
+        wrong, warned = [f"{type(error).__name__}: {error}"], []
+    mouth.send((wrong, warned))
+
+
+def run(study: Study, count: int, seed: int, inspect: bool = False, hands: int = 1) -> Tally:
+    """Draw, refuse, build and check, `hands` designs at once."""
+    tally = Tally()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    context: Any = mp.get_context("fork")
+    at_work: list[tuple[Design, Any, Connection, float]] = []
+    for design in Draws(study, seed).keeping_rules(count, tally):
+        if len(at_work) == hands:
+            _settle(*at_work.pop(0), tally)
+        ear, mouth = context.Pipe(duplex=False)
+        child = context.Process(target=_child, args=(design, inspect, mouth), daemon=True)
+        child.start()
+        mouth.close()
+        at_work.append((design, child, ear, time.monotonic()))
+    for one in at_work:
+        _settle(*one, tally)
+    tally.seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    return tally
+
+
+def _settle(design: Design, child: Any, ear: Connection, started: float, tally: Tally) -> None:
+    """Take in what a child found, or end it when it has had its time."""
+    wrong = [f"no answer in {TIME_LIMIT:g} s"]
+    try:
+        if ear.poll(max(0.0, started + TIME_LIMIT - time.monotonic())):
+            wrong, warned = ear.recv()
+            tally.warned.update(warned)
+    except EOFError:
+        child.join()
+        wrong = [f"its process ended with code {child.exitcode}"]
+    child.kill()
+    child.join()
+    tally.built += 1
+    tally.failed += [f"{design.name}: {text}" for text in wrong]
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run for the studies named, print the counts; returns the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("studies", nargs="*", type=Path)
+    parser.add_argument("--designs", type=int, default=100, help="that keep the rules and are built, for each study")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--hands", type=int, default=os.cpu_count() or 1, help="designs that are built at once")
+    parser.add_argument("--inspect", action="store_true", help="also walls, overhang, order of assembly ...")
+    asked = parser.parse_args(arguments)
+    failed = False
+    for path in asked.studies or [STUDIES / "paper_shear.yaml", STUDIES / "compare_compression.yaml"]:
+        tally = run(read_study(path), asked.designs, asked.seed, asked.inspect, asked.hands)
+        each = tally.seconds / max(1, tally.built)
+        print(
+            f"{path.stem}: {tally.drawn} drawn, {tally.built} that keep the rules built, {each:.1f} s of processor each"
+        )
+        print(f"  {len(tally.failed)} faults")
+        for text in tally.failed:
+            print(f"    {text}")
+        for title, counts in (("refused by rule", tally.refused), ("warnings", tally.warned)):
+            told = ", ".join(f"{name} {number}" for name, number in counts.most_common() if number)
+            print(f"  {title}: {told or 'none'}")
+        failed = failed or bool(tally.failed)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

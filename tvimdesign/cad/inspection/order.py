@@ -1,0 +1,177 @@
+"""Whether the parts go into their places in the order of the assembly note, and a tool reaches each screw."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from math import cos, inf, pi, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from tvimdesign.cad.assembly_note import steps_of
+from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.inspection.finding import at_least, at_most, finding
+from tvimdesign.cad.inspection.rays import Triangles
+from tvimdesign.cad.inspection.samples import samples
+from tvimdesign.cad.kinds import kind_of
+from tvimdesign.cad.mesh import Array, Instance, Mesh
+from tvimdesign.cad.outcome import Check
+from tvimdesign.cad.parts import mounts
+
+SPACING = 2.0
+"""Between samples of a part that is put in its place [mm]."""
+_SKIN = 0.12
+"""How far under a part's surface a sample lies [mm]: more than the meshes of two parts that touch are off together."""
+_STEEPEST = -0.1
+"""A face whose normal has at least this much of the way in is one the part goes in with."""
+_WAY = {"above": np.array([0.0, 0.0, 1.0]), "below": np.array([0.0, 0.0, -1.0])}
+"""Back out, by the side a part comes from."""
+TOOL_LENGTH = 60.0
+"""Free length of a driver [mm]; assumed: bits and long keys have 50 to 100 mm."""
+TOOL_RADIUS = 3.2
+"""Of a driver [mm]; assumed: a hexagonal bit of 6.35 mm, ISO 1173, turned down at its end; bare keys are thinner."""
+_TOOL_RAYS = 24
+
+
+class Placed(NamedTuple):
+    """One part that comes into its place."""
+
+    name: str
+    side: str
+
+
+class Standing:
+    """The parts that are in place, as one mesh that knows which part each triangle is of."""
+
+    def __init__(self, parts: Mapping[str, Mesh]) -> None:
+        """`parts` are meshes in the module's coordinates, by name."""
+        self._parts = dict(parts)
+
+    @cached_property
+    def triangles(self) -> Triangles:
+        """All of them together."""
+        first = np.cumsum([0] + [len(mesh.vertices) for mesh in self._parts.values()])
+        faces = [mesh.faces + start for mesh, start in zip(self._parts.values(), first, strict=False)]
+        return Triangles(Mesh(np.concatenate([mesh.vertices for mesh in self._parts.values()]), np.concatenate(faces)))
+
+    def nearest(self, point: Array) -> str:
+        """Name of the part whose box a point lies closest to."""
+
+        def away(mesh: Mesh) -> float:
+            outside = np.maximum(mesh.vertices.min(axis=0) - point, point - mesh.vertices.max(axis=0))
+            return float(np.linalg.norm(np.maximum(outside, 0.0)))
+
+        return min(self._parts, key=lambda name: away(self._parts[name]))
+
+
+def sequence(names: Sequence[str]) -> list[Placed]:
+    """Every part in the order in which it comes into its place, by the steps of the assembly note."""
+    kinds = {kind_of(name) for name in names}
+    order: list[Placed] = []
+    for step in steps_of(kinds):
+        for one in step.get("place", ()):
+            order += [Placed(name, one["from"]) for name in names if one["part"] in (name, kind_of(name))]
+    return order
+
+
+def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[Check]:
+    """Put part after part in its place and hold its way in against those that are there; then look at the screws."""
+    meshes = {name: in_module(instance) for name, instance in placed.items()}
+    order = sequence(list(meshes))
+    left = sorted(set(meshes) - {one.name for one in order})
+    text = "every part has its step" if not left else f"no step puts these in their places: {', '.join(left)}"
+    yield finding("module", "steps", len(left), 0.0, "", at_most(len(left), 0.0), text)
+    there: dict[str, Mesh] = {}
+    for group in _groups(order):
+        together = Standing(there) if there else None
+        names = [one.name for one in group]
+        if together:
+            # Copies of a part go in alike: what is before one is before all of them but for the angle.
+            yield _way_check(kind_of(names[0]), group[0].side, {name: meshes[name] for name in names}, together)
+        there |= {name: meshes[name] for name in names}
+        if kind_of(names[0]).endswith("_screw"):
+            standing, out = Standing(there), _WAY[group[0].side]
+            yield from (_driver(name, _end(meshes[name], out), out, standing) for name in names)
+    yield from mount_checks(dims, Standing(there))
+
+
+def _groups(order: Sequence[Placed]) -> Iterator[list[Placed]]:
+    """Neighbours in the order that are of one kind and come from one side."""
+    group: list[Placed] = []
+    for one in order:
+        if group and (kind_of(one.name), one.side) != (kind_of(group[0].name), group[0].side):
+            yield group
+            group = []
+        group.append(one)
+    if group:
+        yield group
+
+
+def in_module(instance: Instance) -> Mesh:
+    """Mesh of a placed part in the module's coordinates."""
+    turn, shift = instance.matrix[:3, :3], instance.matrix[:3, 3]
+    return Mesh(instance.mesh.vertices @ turn.T + shift, instance.mesh.faces)
+
+
+def _way_check(kind: str, side: str, copies: Mapping[str, Mesh], there: Standing) -> Check:
+    """Look back along the way in from every copy: what it meets there, the part would have to pass through."""
+    out = _WAY[side]
+    points = [_leading(mesh, out) for mesh in copies.values()]
+    found = there.triangles.first_hits(np.concatenate(points), np.tile(out, (sum(map(len, points)), 1)))
+    blocked = np.flatnonzero(~found.missed)
+    text = f"comes into its place from {side}, nothing in its way"
+    place = None
+    if len(blocked):
+        first = blocked[int(np.argmin(found.distance[blocked]))]
+        place = np.concatenate(points)[first] + found.distance[first] * out
+        text = (
+            f"comes from {side}, and {there.nearest(place)} is in its way: {len(blocked)} samples of it meet something"
+        )
+    return finding(
+        kind, f"way in from {side}", len(blocked), 0.0, "", at_most(len(blocked), 0.0), text,
+        place=place, resolution=SPACING,
+    )  # fmt: skip
+
+
+def _leading(mesh: Mesh, out: Array) -> Array:
+    """Points just under the faces a part goes in with."""
+    triangles = Triangles(mesh)
+    where = samples(triangles, SPACING, np.flatnonzero(triangles.normal @ out < _STEEPEST))
+    inwards = where.point - _SKIN * where.normal
+    # Under a face, but also away from its edges: towards the middle of the triangle, as far.
+    middle = triangles.corners[where.triangle].mean(axis=1) - where.point
+    length = np.linalg.norm(middle, axis=1, keepdims=True)
+    return np.asarray(inwards + middle * np.minimum(1.0, _SKIN / np.maximum(length, 1e-9)))
+
+
+def _end(mesh: Mesh, out: Array) -> Array:
+    """Middle of a screw's head."""
+    ends = mesh.vertices @ out
+    return np.asarray(mesh.vertices[ends > ends.max() - 1e-6].mean(axis=0))
+
+
+def mount_checks(dims: Dimensions, there: Standing) -> Iterator[Check]:
+    """Whether a driver comes from above to the screws that fix the housing, the module complete and at rest."""
+    for index, (x, y) in enumerate(mounts(dims)):
+        yield _driver(f"mount_screw_{index + 1}", np.array([x, y, 0.0]), _WAY["above"], there)
+
+
+def _driver(name: str, head: Array, out: Array, there: Standing) -> Check:
+    """Whether a driver comes to a screw along its axis; the screw itself lies behind the rays."""
+    angles = np.arange(_TOOL_RAYS) * 2.0 * pi / _TOOL_RAYS
+    rim = [
+        [share * TOOL_RADIUS * cos(one), share * TOOL_RADIUS * sin(one), 0.0] for share in (0.5, 1.0) for one in angles
+    ]
+    starts = head + _SKIN * out + np.array([[0.0, 0.0, 0.0], *rim])
+    free = there.triangles.first_hits(starts, np.tile(out, (len(starts), 1))).distance
+    least = float(free.min())
+    text = f"a driver {2.0 * TOOL_RADIUS:.3g} mm thick has {TOOL_LENGTH:.3g} mm before the screw"
+    place = None
+    if least < TOOL_LENGTH:
+        place = starts[int(np.argmin(free))] + least * out
+        text = f"a driver {2.0 * TOOL_RADIUS:.3g} mm thick meets {there.nearest(place)} {least:.3g} mm before the screw"
+    return finding(
+        name, "driver", min(least, TOOL_LENGTH) if least < inf else TOOL_LENGTH, TOOL_LENGTH, "mm",
+        at_least(least, TOOL_LENGTH), text, place=place, resolution=2.0 * pi * TOOL_RADIUS / _TOOL_RAYS,
+    )  # fmt: skip

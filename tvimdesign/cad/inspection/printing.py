@@ -1,0 +1,115 @@
+"""Whether a part prints as it lies on the bed: what needs support, what is bridged without, and room on the bed."""
+
+from __future__ import annotations
+
+from math import degrees, sin, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from tvimdesign.cad.inspection.across import across
+from tvimdesign.cad.inspection.finding import at_least, finding
+from tvimdesign.cad.inspection.rays import Index, Triangles
+from tvimdesign.cad.inspection.samples import samples
+from tvimdesign.cad.mesh import Array, Mesh
+from tvimdesign.cad.outcome import Check
+
+SPACING = 2.0
+"""Between samples of a face that overhangs [mm]; of a large one, further, so that there are about `_MANY`."""
+_MANY = 100
+_ON_BED = 0.05
+"""How far above the bed a face still lies on it [mm]."""
+_BELOW = 0.1
+"""How far below a ceiling its walls are looked for [mm]."""
+_LEVEL = 0.999
+_NOTHING = 1.0
+"""Overhanging area [mm^2] that needs no word."""
+_TURNED_OVER = np.array([1.0, -1.0, -1.0])
+
+
+class Overhang(NamedTuple):
+    """One connected face, or several, that lean further than the process lets them."""
+
+    area: float
+    """[mm^2]."""
+    span: float
+    """Longest of the shortest ways between walls across it [mm]; infinite where it ends in the air, or leans."""
+    middle: Array
+
+
+def lying(mesh: Mesh, down: str) -> Mesh:
+    """Return the mesh as it is printed: as it stands in the module, or turned over about x."""
+    return Mesh(mesh.vertices * _TURNED_OVER, mesh.faces) if down == "top" else mesh
+
+
+def printing_checks(
+    part: str, mesh: Mesh, down: str, overhang_angle: float, bridge_span: float, bed: tuple[float, float, float]
+) -> list[Check]:
+    """Hold a part as it is printed against the process: angle from upright [rad], lengths [mm]."""
+    triangles = Triangles(lying(mesh, down))
+    found = overhangs(triangles, overhang_angle)
+    back = _TURNED_OVER if down == "top" else np.ones(3)
+    bridges = [one for one in found if one.span <= bridge_span]
+    hanging = [one for one in found if one.span > bridge_span]
+    area = sum(one.area for one in hanging)
+    worst = max(hanging, key=lambda one: one.area, default=None)
+    angle = f"{degrees(overhang_angle):.3g} deg"
+    text = f"{area:.4g} mm2 lean more than {angle} and are no bridge of {bridge_span:.3g} mm or less"
+    if worst:
+        text += f": they need support, {len(hanging)} places, the largest {worst.area:.4g} mm2"
+    span = max((one.span for one in bridges), default=0.0)
+    longest = max(bridges, key=lambda one: one.span, default=None)
+    bridged = f"{len(bridges)} bridges, the longest {span:.3g} mm" if bridges else "nothing is bridged"
+    return [
+        finding(
+            part, "overhang", area, _NOTHING, "mm^2", "warning" if worst else "pass", text,
+            place=worst.middle * back if worst else None, resolution=SPACING,
+        ),
+        finding(
+            part, "bridge", span, bridge_span, "mm", "pass", bridged,
+            place=longest.middle * back if longest else None, resolution=SPACING,
+        ),
+        bed_check(part, triangles.upper - triangles.lower, bed),
+    ]  # fmt: skip
+
+
+def bed_check(part: str, size: Array, bed: tuple[float, float, float]) -> Check:
+    """Hold a part's box, turned about z as suits it, against what the machine can make [mm]."""
+    need, have = sorted(size[:2]), sorted(bed[:2])
+    room = min(have[0] - need[0], have[1] - need[1], bed[2] - size[2])
+    text = " x ".join(f"{length:.4g}" for length in size) + " mm on a machine for "
+    text += " x ".join(f"{length:.4g}" for length in bed) + " mm"
+    return finding(part, "bed", room, 0.0, "mm", at_least(room, 0.0), text)
+
+
+def overhangs(triangles: Triangles, overhang_angle: float) -> list[Overhang]:
+    """Find what leans more than an angle from upright [rad] and does not lie on the bed."""
+    above = triangles.corners[:, :, 2].max(axis=1) > triangles.lower[2] + _ON_BED
+    leaning = -triangles.normal[:, 2] > sin(overhang_angle) + 1e-6
+    chosen = np.flatnonzero(above & leaning)
+    found = [_overhang(triangles, group) for group in _connected(triangles.corners, chosen)]
+    return [one for one in found if one.area > _NOTHING]
+
+
+def _connected(corners: Array, chosen: Index) -> list[Index]:
+    """Group triangles that share a corner."""
+    if not len(chosen):
+        return []
+    points = np.round(corners[chosen].reshape(-1, 3), 4) + 0.0
+    _, corner = np.unique(points, axis=0, return_inverse=True)
+    owner = np.repeat(np.arange(len(chosen)), 3)
+    links = coo_matrix((np.ones(len(owner)), (owner, len(chosen) + corner.ravel())), shape=(4 * len(chosen),) * 2)
+    _, label = connected_components(links, directed=False)
+    return [chosen[label[: len(chosen)] == one] for one in np.unique(label[: len(chosen)])]
+
+
+def _overhang(triangles: Triangles, group: Index) -> Overhang:
+    area = float(triangles.area[group].sum())
+    where = samples(triangles, max(SPACING, sqrt(area / _MANY)), group)
+    level = bool(np.all(-triangles.normal[group, 2] > _LEVEL))
+    down = np.array([0.0, 0.0, -1.0])
+    spans = across(triangles, where.point + _BELOW * down, down)[0] if level else np.full(len(where), np.inf)
+    worst = int(np.argmax(spans))
+    return Overhang(area, float(spans[worst]), where.point[worst])
