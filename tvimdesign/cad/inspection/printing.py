@@ -58,7 +58,7 @@ def printing_checks(
     angle = f"{degrees(overhang_angle):.3g} deg"
     text = f"{area:.4g} mm2 lean more than {angle} and are no bridge of {bridge_span:.3g} mm or less"
     if worst:
-        text += f": they need support, {len(hanging)} places, the largest {worst.area:.4g} mm2"
+        text += f": they need support, {_places(len(hanging))}, the largest {worst.area:.4g} mm2"
     span = max((one.span for one in bridges), default=0.0)
     longest = max(bridges, key=lambda one: one.span, default=None)
     bridged = f"{len(bridges)} bridges, the longest {span:.3g} mm" if bridges else "nothing is bridged"
@@ -113,3 +113,7 @@ def _overhang(triangles: Triangles, group: Index) -> Overhang:
     spans = across(triangles, where.point + _BELOW * down, down)[0] if level else np.full(len(where), np.inf)
     worst = int(np.argmax(spans))
     return Overhang(area, float(spans[worst]), where.point[worst])
+
+
+def _places(count: int) -> str:
+    return "in one place" if count == 1 else f"in {count} places"
