@@ -221,8 +221,8 @@ def test_a_kind_that_no_step_takes_has_one_of_its_own() -> None:
     design = design_of("paper", {})
     dims = dimensions(design)
     placed = place(dims, drawn_parts(dims))
-    items = bill(design, {}, {name: solid for name, solid in placed.items() if name[:5] not in {"rotor", "pelti"}})
-    assert "Fit the pcl arc (4)." in assembly_note(design, dims, items).decode()
+    items = bill(design, {}, {name: solid for name, solid in placed.items() if name != "retainer"})
+    assert "Fit the retainer screw" in assembly_note(design, dims, items).decode()
 
 
 def test_a_sheet_is_a_pdf_of_its_true_size_with_no_date(module: tuple[Design, Solids]) -> None:

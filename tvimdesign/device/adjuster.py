@@ -19,8 +19,8 @@ from tvimdesign.physics.friction import disc_torque
 from tvimdesign.physics.shapes import bar_across
 
 FIXED = "fixed"
-NO_LIMIT = np.inf
-"""What is left of a limit on adjusters where there are none."""
+NO_LIMIT = 1.0
+"""What is left of a limit on adjusters where there are none [m, N*m]: more than any module has."""
 
 places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
 books = (places, weights, rules)
@@ -174,7 +174,7 @@ def adjuster_wall_gap(
     adjuster_radius: Scalar,
     slip_clearance: Scalar,
 ) -> Scalar:
-    """Room between the adjusters' pockets and the housing's wall; endless where tangs are fixed."""
+    """Room between the adjusters' pockets and the housing's wall; no limit where tangs are fixed."""
     if preload_adjuster == FIXED:
         return NO_LIMIT
     return housing_inner_radius - placement_radius - adjuster_radius - slip_clearance
@@ -189,7 +189,7 @@ def adjuster_pcl_gap(
     pcl_outer_radius: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between the adjusters' pockets and the PCL beyond the least wall; endless where tangs are fixed."""
+    """Floor between the adjusters' pockets and the PCL beyond the least wall; no limit where tangs are fixed."""
     if preload_adjuster == FIXED:
         return NO_LIMIT
     return placement_radius - adjuster_radius - slip_clearance - pcl_outer_radius - minimum_wall
@@ -207,7 +207,7 @@ def adjuster_mount_gap(
     mount_hole: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between adjusters' pockets and mounting holes beyond the least wall; endless where tangs are fixed."""
+    """Floor between adjusters' pockets and mounting holes beyond the least wall; no limit where tangs are fixed."""
     if preload_adjuster == FIXED:
         return NO_LIMIT
     apart = 2.0 * placement_radius * np.sin(0.5 * np.pi / spring_count)
@@ -220,7 +220,7 @@ def adjuster_mount_gap(
 def adjuster_post_reserve(
     preload_adjuster: str, post_radius: Scalar, adjuster_screw_pilot: Scalar, minimum_wall: Scalar
 ) -> Scalar:
-    """Wall of an adjuster's post around its screw beyond the process's least; endless where tangs are fixed."""
+    """Wall of an adjuster's post around its screw beyond the process's least; no limit where tangs are fixed."""
     return NO_LIMIT if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_pilot - minimum_wall
 
 
@@ -232,7 +232,7 @@ def adjuster_thread_reserve(
     thread_engagement: Scalar,
     adjuster_screw_diameter: Scalar,
 ) -> Scalar:
-    """Thread in the adjusters beyond what the process wants; endless where tangs are fixed."""
+    """Thread in the adjusters beyond what the process wants; no limit where tangs are fixed."""
     thread = adjuster_screw_depth - screw_tip_room
     return NO_LIMIT if preload_adjuster == FIXED else thread - thread_engagement * adjuster_screw_diameter
 
@@ -246,7 +246,7 @@ def adjuster_top_reserve(
     driver_slot_depth: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Post between screw's hole and driver's slot beyond the process's least wall; endless where tangs are fixed."""
+    """Post between screw's hole and driver's slot beyond the process's least wall; no limit where tangs are fixed."""
     between = adjuster_thickness + post_height - adjuster_screw_depth - driver_slot_depth
     return NO_LIMIT if preload_adjuster == FIXED else between - minimum_wall
 
@@ -261,7 +261,7 @@ def adjuster_grip_reserve(
     spring_rate: Scalar,
     spring_winding: Scalar,
 ) -> Scalar:
-    """Torque at which a clamped adjuster slips less the spring's largest; endless where tangs are fixed."""
+    """Torque at which a clamped adjuster slips less the spring's largest; no limit where tangs are fixed."""
     if preload_adjuster == FIXED:
         return NO_LIMIT
     grip = disc_torque(adjuster_friction, adjuster_clamp_force, 0.5 * adjuster_screw_clearance, adjuster_radius)
