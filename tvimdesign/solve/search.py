@@ -11,7 +11,7 @@ from tvimdesign.device import Table
 from tvimdesign.errors import InfeasibleError, InputError
 from tvimdesign.solve.account import account
 from tvimdesign.solve.branch import BranchAndBound
-from tvimdesign.solve.contradiction import refuse_contradiction
+from tvimdesign.solve.contradiction import at_a_glance, refuse_contradiction
 from tvimdesign.solve.enumeration import enumerate_all
 from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
 from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer, Progress, Run
@@ -45,11 +45,14 @@ def optimize(
     that are `traded` can be weighed and bounded with it afterwards.
     """
     refuse_unreachable(study, catalog, table)
-    refuse_contradiction(study, catalog, table)
     sizes, records = listed_sizes(study, table), listed_records(study, table)
     _refuse_too_many(sizes, len(records))
     trees = _trees(study, catalog, table, sizes, records, reference, progress, traded)
+    if all(at_a_glance(t.optimizer.model, t.optimizer.study, table, t.optimizer.problem.limits) for t in trees):
+        refuse_contradiction(study, catalog, table)
     free = [(tree, run) for tree in trees for run in tree.starts()]
+    if not any(run.start.converged for _, run in free):
+        refuse_contradiction(study, catalog, table)
     choosing: Choosing | None = None
     if sizes.names:
         choosing, found = _choose(trees, len(records), study.solver)
