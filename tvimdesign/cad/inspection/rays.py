@@ -85,22 +85,27 @@ def _tree(corners: Array) -> tuple[Index, list[tuple[Array, Array]]]:
     """Halve triangles along the longest side of their box; returns those of each leaf, and the boxes by level."""
     depth = max(0, int(np.ceil(np.log2(max(len(corners), 1) / _LEAF))))
     leaves = 2**depth
-    # As many as fill all leaves; the last one stands in for what is missing.
-    order = np.concatenate((np.arange(len(corners)), np.full(leaves * _LEAF - len(corners), len(corners) - 1)))
-    middle = corners.mean(axis=1)
+    # As many as fill all leaves; those that are too many stand for no triangle, and no ray meets their boxes.
+    order = np.arange(leaves * _LEAF)
+    triangle = np.minimum(order, len(corners) - 1)
+    middle = np.ascontiguousarray(corners.mean(axis=1).T)[:, triangle]
     groups = order[None, :]
     for _ in range(depth):
-        points = middle[groups]
-        axis = np.argmax(np.ptp(points, axis=1), axis=1)
-        along = np.take_along_axis(points, axis[:, None, None], axis=2)[:, :, 0]
+        points = middle[:, groups]
+        axis = np.argmax(np.ptp(points, axis=2), axis=0)
+        along = np.take_along_axis(points, axis[None, :, None], axis=0)[0]
         groups = np.take_along_axis(groups, np.argsort(along, axis=1, kind="stable"), axis=1)
         groups = groups.reshape(2 * len(groups), -1)
-    points = corners[groups].reshape(leaves, -1, 3)
-    boxes = [(points.min(axis=1) - _ROOM, points.max(axis=1) + _ROOM)]
-    for _ in range(depth):
-        lower, upper = boxes[0]
-        boxes.insert(0, (lower.reshape(-1, 2, 3).min(axis=1), upper.reshape(-1, 2, 3).max(axis=1)))
-    return groups, boxes
+    placed = triangle[groups.ravel()]
+    empty = (groups.ravel() >= len(corners))[:, None]
+    lower = np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2])[placed] - _ROOM
+    upper = np.maximum(np.maximum(corners[:, 0], corners[:, 1]), corners[:, 2])[placed] + _ROOM
+    lower, upper = np.where(empty, np.nan, lower), np.where(empty, np.nan, upper)
+    boxes: list[tuple[Array, Array]] = []
+    while len(lower) > 1:
+        lower, upper = np.fmin(lower[::2], lower[1::2]), np.fmax(upper[::2], upper[1::2])
+        boxes.insert(0, (lower, upper))
+    return triangle[groups], boxes[: depth + 1]
 
 
 def _meets_box(lower: Array, upper: Array, origin: Array, inverse: Array) -> Any:

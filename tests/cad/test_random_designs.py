@@ -1,0 +1,39 @@
+"""Random designs within a study's bounds: refused by a named rule, or sound."""
+
+from __future__ import annotations
+
+import pytest
+import random_designs
+from support import ROOT
+
+from tvimdesign.study import read_study
+
+STUDIES = {"shear": "wrist_joint", "compression": "wrist_compression"}
+
+
+def tally(mode: str, count: int) -> random_designs.Tally:
+    return random_designs.run(read_study(ROOT / f"studies/{STUDIES[mode]}.yaml"), count, seed=20)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mode", STUDIES)
+def test_fifteen_designs_of_either_mode_that_keep_the_rules_are_sound(mode: str) -> None:
+    found = tally(mode, 15)
+    assert found.failed == []
+    assert found.built == 15
+    assert found.refused["rotor_spring_gap"] > 0
+
+
+@pytest.mark.parametrize("mode", STUDIES)
+def test_a_random_design_is_sound_or_refused_by_a_named_rule(mode: str) -> None:
+    found = tally(mode, 1)
+    assert (found.failed, found.built) == ([], 1)
+    assert found.refused["rotor_spring_gap"] > 0
+
+
+def test_a_design_that_is_not_sound_is_told() -> None:
+    draws = random_designs.Draws(read_study(ROOT / "studies/wrist_joint.yaml"), seed=20)
+    good = next(draws.keeping_rules(1, random_designs.Tally()))
+    bad = good.model_copy(update={"values": good.values | {"housing_volume": 1.01 * good.value("housing_volume")}})
+    wrong, _ = random_designs.faults(bad, inspect=False)
+    assert [text.split(":")[0] for text in wrong] == ["housing_volume", "module_mass"]
