@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-designs lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -38,6 +38,9 @@ bench: $(VENV)/.bench bench-switch  ## everything against what people would use 
 
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
 	$(BENCH) benchmarks/switch.py
+
+bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
+	$(BENCH) benchmarks/random_designs.py
 
 lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
 	$(BIN)/ruff check .
