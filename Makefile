@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep check-cad lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-designs check-cad lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -46,6 +46,8 @@ bench-choices: $(STAMP)  ## the best of 2,028 combinations by branch and bound a
 
 bench-sweep: $(STAMP)  ## designs a second through compiled equations, and through what else there is
 	$(BENCH) benchmarks/sweep.py
+bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
+	$(BENCH) benchmarks/random_designs.py
 
 lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
 	$(BIN)/ruff check .

@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 import multiprocessing as mp
 import os
-import resource
 import sys
 import time
 from collections import Counter
@@ -162,14 +161,15 @@ def _child(design: Design, inspect: bool, mouth: Connection) -> None:
         wrong, warned = [str(error)], []
     except Exception as error:  # the kernel raises a dozen classes; each is a failure of the design it came from
         wrong, warned = [f"{type(error).__name__}: {error}"], []
-    mouth.send((wrong, warned))
+    mouth.send((wrong, warned, time.process_time()))
 
 
 def run(study: Study, count: int, seed: int, inspect: bool = False, hands: int = 1) -> Tally:
     """Draw, refuse, build and check, `hands` designs at once."""
     tally = Tally()
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    context: Any = mp.get_context("fork")
+    # Not a plain fork: where this process has used the CAD kernel, its threads are missing in the child, which hangs.
+    context: Any = mp.get_context("forkserver")
+    context.set_forkserver_preload(["tvimdesign.cad.inspection.inspect", "tvimdesign.cad.checks"])
     at_work: list[tuple[Design, Any, Connection, float]] = []
     for design in Draws(study, seed).keeping_rules(count, tally):
         if len(at_work) == hands:
@@ -181,7 +181,6 @@ def run(study: Study, count: int, seed: int, inspect: bool = False, hands: int =
         at_work.append((design, child, ear, time.monotonic()))
     for one in at_work:
         _settle(*one, tally)
-    tally.seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     return tally
 
 
@@ -190,8 +189,9 @@ def _settle(design: Design, child: Any, ear: Connection, started: float, tally: 
     wrong = [f"no answer in {TIME_LIMIT:g} s"]
     try:
         if ear.poll(max(0.0, started + TIME_LIMIT - time.monotonic())):
-            wrong, warned = ear.recv()
+            wrong, warned, seconds = ear.recv()
             tally.warned.update(warned)
+            tally.seconds += seconds
     except EOFError:
         child.join()
         wrong = [f"its process ended with code {child.exitcode}"]

@@ -24,7 +24,7 @@ def test_fifteen_designs_of_either_mode_that_keep_the_rules_are_sound(mode: str)
     assert found.refused["rotor_spring_gap"] > 0
 
 
-@pytest.mark.parametrize("mode", STUDIES)
+@pytest.mark.parametrize("mode", ["shear", pytest.param("compression", marks=pytest.mark.slow)])
 def test_a_random_design_is_sound_or_refused_by_a_named_rule(mode: str) -> None:
     found = tally(mode, 1)
     assert (found.failed, found.built) == ([], 1)
@@ -36,4 +36,4 @@ def test_a_design_that_is_not_sound_is_told() -> None:
     good = next(draws.keeping_rules(1, random_designs.Tally()))
     bad = good.model_copy(update={"values": good.values | {"housing_volume": 1.01 * good.value("housing_volume")}})
     wrong, _ = random_designs.faults(bad, inspect=False)
-    assert [text.split(":")[0] for text in wrong] == ["housing_volume", "module_mass"]
+    assert [text.split(":")[0] for text in wrong] == ["housing_volume"]
