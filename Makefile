@@ -46,6 +46,7 @@ bench-choices: $(STAMP)  ## the best of 2,028 combinations by branch and bound a
 
 bench-sweep: $(STAMP)  ## designs a second through compiled equations, and through what else there is
 	$(BENCH) benchmarks/sweep.py
+
 bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
 	$(BENCH) benchmarks/random_designs.py
 
