@@ -15,6 +15,12 @@ Command = Callable[..., CompletedProcess[str]]
 TRANSFORMED = {"hold_angle", "set_angle", "backlash", "relaxation_loss"}
 """Rows read off a Laplace transform, whose weights cancel: other rounding shows in the tenth digit."""
 
+USED_BY_PARTS = {
+    "hole_compensation", "making_method", "thinnest_wall", "overhang_angle", "bridge_span", "hole_depth_ratio",
+    "bed_length", "bed_width", "bed_height",
+}  # fmt: skip
+"""Rows that print files and checks on the solids read alone."""
+
 
 def digits(name: str, usual: float) -> float:
     """Relative tolerance between two ways to compute a row, by full name, from the one that is usual."""

@@ -7,7 +7,7 @@ import pint
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support import digits
+from support import USED_BY_PARTS, digits
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, Supplied, Table, table_for
@@ -30,7 +30,7 @@ def test_choice_is_described_and_its_default_exists(row: Choice, inputs: dict[st
     if row.shelf and inputs[row.name] not in row.options:
         assert Catalog().record(row.shelf, inputs[row.name].name) == inputs[row.name]
     else:
-        assert row.default in row.options
+        assert (inputs[row.name] if row.record else row.default) in row.options
 
 
 @pytest.mark.parametrize("row", TABLE.inputs, ids=lambda row: row.name)
@@ -44,7 +44,7 @@ def test_default_of_an_input_lies_within_its_limits(row: Input, inputs: dict[str
 def test_every_input_and_choice_is_used() -> None:
     used = {name for row in TABLE.outputs for name in TABLE.ancestors(row.name)}
     used |= {"horizon", "current_slew"}  # the solver's own: how long a stage is waited for, how fast currents change
-    used |= {"hole_compensation"}  # the print files alone: no solid of the model has it
+    used |= USED_BY_PARTS
     used |= {stage.drive for stage in TABLE.stages}
     used |= {row.record[0] for row in TABLE.inputs if row.record}  # a record is used through its values
     assert {row.name for row in TABLE.rows if not isinstance(row, Output)} <= used
