@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from tvimdesign.solve.branch import BranchAndBound
 from tvimdesign.solve.listed import Box, Sizes, is_one
-from tvimdesign.solve.optimizer import Run
+from tvimdesign.solve.run import Run
 from tvimdesign.solve.tree import Tree
 
 

@@ -14,7 +14,8 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.front import Front, trace_front
 from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.optimizer import Optimizer, Run
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.run import Run
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.solution import Solution
 from tvimdesign.solve.statuses import meaning

@@ -22,7 +22,8 @@ from tvimdesign.report.plots import Drawing
 from tvimdesign.report.talk import Progress
 from tvimdesign.solve.answer import Answer
 from tvimdesign.solve.front import Front, trace_front
-from tvimdesign.solve.optimizer import Optimizer, Run
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.run import Run
 from tvimdesign.solve.tradeoff import Point, Tradeoff
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design

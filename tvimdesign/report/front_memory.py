@@ -13,7 +13,7 @@ from tvimdesign import __version__
 from tvimdesign.errors import InputError
 from tvimdesign.report.folder import PROGRESS, ResultsFolder
 from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.optimizer import Trace
+from tvimdesign.solve.run import Trace
 from tvimdesign.solve.tradeoff import Failure, Point
 from tvimdesign.study import Study
 

@@ -7,8 +7,9 @@ from typing import Literal
 import numpy as np
 
 from tvimdesign.solve.limits import Limit, in_words, make_limit, on_switch
-from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer, Run
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
 from tvimdesign.solve.response import Place, Response
+from tvimdesign.solve.run import Run
 from tvimdesign.solve.solution import Held, Solution, Start
 from tvimdesign.solve.statuses import meaning
 from tvimdesign.study import Range

@@ -17,9 +17,10 @@ from tvimdesign.solve.curves import Curves, impedance_sweep, stage_history
 from tvimdesign.solve.history import intervals
 from tvimdesign.solve.limits import Limit, advice_of, in_words, limits_of, on_switch, refuse_impossible
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Progress
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.release import contact_seen
 from tvimdesign.solve.rig import Rig
+from tvimdesign.solve.run import Progress
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.solve.solution import Solution

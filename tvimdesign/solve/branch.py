@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.solve.listed import SAME_SIZE, Box, is_one
-from tvimdesign.solve.optimizer import Run
+from tvimdesign.solve.run import Run
 from tvimdesign.solve.tree import Tree, order
 
 GAP = 1e-6

@@ -17,7 +17,9 @@ import numpy as np
 
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.optimizer import NLP, Array, Optimizer, Run
+from tvimdesign.solve.ipopt import NLP, solver_of
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.run import Array, Run
 
 TRACE = 1e-4
 """Weight of the study's own objective beside the slacks."""
@@ -69,7 +71,7 @@ class Elastic:
              ca.vertcat(rows[:first], rows[first:last] - slacks, rows[last:])],
             *NLP,
         )  # fmt: skip
-        self._solver = optimizer.solver_of(written.expand())
+        self._solver = solver_of(written.expand(), optimizer.study.solver)
         self._rows = ca.Function("rows", [whole["x"], whole["p"]], [rows])
 
     def settle(

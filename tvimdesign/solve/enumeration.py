@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.solve.listed import Box
-from tvimdesign.solve.optimizer import Run
+from tvimdesign.solve.run import Run
 from tvimdesign.solve.tree import Tree
 
 _TOLD = 100

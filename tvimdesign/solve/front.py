@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from tvimdesign.solve import front_shape as shape
 from tvimdesign.solve.front_shape import Frame
 from tvimdesign.solve.goal import Bound, Goal
-from tvimdesign.solve.optimizer import Trace
+from tvimdesign.solve.run import Trace
 from tvimdesign.solve.tradeoff import ONE_POINT, Failure, Point, Tradeoff
 
 SIDE_WEIGHT = 1e-2

@@ -13,7 +13,8 @@ from tvimdesign.solve.contradiction import Ranges
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.labels import row_names, unknown_names
 from tvimdesign.solve.limits import Limit, in_words, is_constant, limits_of
-from tvimdesign.solve.optimizer import Array, Optimizer
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.run import Array
 
 STEP = 1e-4
 """Step of the differences, in unknowns, which are logarithms or of order one; fourth order, so its error is 1e-16."""

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from tvimdesign.device import Input, Table
-from tvimdesign.solve.optimizer import Ends
+from tvimdesign.solve.run import Ends
 from tvimdesign.study import Options, Study
 from tvimdesign.units import format_quantity
 

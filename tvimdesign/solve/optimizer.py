@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
@@ -19,20 +18,17 @@ from tvimdesign.errors import InfeasibleError, SimulationError
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.drive import Drive, ramp_time
 from tvimdesign.solve.goal import Goal
+from tvimdesign.solve.ipopt import NLP, solver_of
 from tvimdesign.solve.limits import Limit, impossible, limits_of, on_switch, unchangeable
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
+from tvimdesign.solve.run import Array, Derivatives, Ends, Progress, Run, Trace
 from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
 from tvimdesign.solve.solution import Start
 from tvimdesign.solve.stage_model import StageModel
 from tvimdesign.solve.starting_points import unit_points
 from tvimdesign.solve.transcription import guess
 from tvimdesign.study import ProfileOptions, Range, Study, given
-
-Array = NDArray[np.float64]
-Progress = Callable[[str], None]
-Ends = tuple[float, float]
-"""Least and largest value of a number, SI; twice the same fixes it."""
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
@@ -41,78 +37,6 @@ SHORTEST = 0.1  # s; with a slow supply all of a stage may be its ramp, and the 
 MAX_DRAWS = 100
 EXPAND_FROM = 4
 """Runs from which on it pays to expand the problem to scalar operations: slower to build, four times faster to run."""
-
-_IPOPT = {
-    "print_level": 0,
-    "sb": "yes",
-    "linear_solver": "mumps",
-    # With MUMPS's usual 1e-6 the pivots of a freezing layer are too small: it miscounts negative eigenvalues, and IPOPT
-    # answers with tiny steps.
-    "mumps_pivtol": 1e-2,
-    "mu_init": 1e-3,
-    # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.
-    "honor_original_bounds": "yes",
-}
-_WARM = {
-    "warm_start_init_point": "yes",
-    "mu_init": 1e-6,
-    "warm_start_bound_push": 1e-5,
-    "warm_start_mult_bound_push": 1e-5,
-    "warm_start_slack_bound_push": 1e-5,
-}
-_WARM_ITERATIONS = 30
-"""A warm start takes five to ten iterations or goes nowhere; who asks for one then starts from further back."""
-NLP = (["x", "p"], ["f", "g"])
-"""The names nlpsol knows the parts of a problem by."""
-_DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_hess_l"}
-"""Derivatives a solver has built, by the option under which another one takes them."""
-
-
-class Trace(NamedTuple):
-    """What a run left behind for another one to begin from, warm."""
-
-    unknowns: Array
-    multipliers: Array
-    bound_multipliers: Array
-
-
-@dataclass
-class Run:
-    """What IPOPT left behind at one start."""
-
-    start: Start
-    inputs: Array
-    drives: dict[str, Drive]
-    """The free currents by stage."""
-    ends: dict[str, float]
-    """Time [s] each stage takes that the problem has."""
-    unknowns: Array
-    multipliers: Array
-    bound_multipliers: Array
-    parameter_multipliers: Array
-    """What the objective falls with every parameter of the problem, per unit."""
-    within: Mapping[str, Ends] = field(default_factory=dict)
-    """Ends of their own that some numbers were kept within."""
-
-    @property
-    def trace(self) -> Trace:
-        """Where another run may begin."""
-        return Trace(self.unknowns, self.multipliers, self.bound_multipliers)
-
-
-@dataclass(frozen=True)
-class Derivatives:
-    """The problem where a run ended: its constraints' values, and exact first and second derivatives."""
-
-    rows: Array
-    jacobian: Any
-    """DM, of the constraints by the unknowns."""
-    hessian: Any
-    """DM, of the Lagrangian, both triangles."""
-    values: dict[str, float]
-    """The minimised outputs, as collocation has them."""
-    gradients: dict[str, Array]
-    """Of the minimised outputs by the unknowns."""
 
 
 class Optimizer:
@@ -254,30 +178,9 @@ class Optimizer:
 
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:
-            most = self.study.solver.max_iterations
-            options = {**_WARM, "max_iter": min(most, _WARM_ITERATIONS)} if warm else {}
-            known = {  # deriving is most of the work of building one, and has been done
-                option: other.get_function(name)
-                for other in self._solvers.values()
-                for option, name in _DERIVATIVES.items()
-            }
-            self._solvers[warm] = self.solver_of(self._compiled, options, derivatives=known)
+            known = self._solvers.values()
+            self._solvers[warm] = solver_of(self._compiled, self.study.solver, known, warm=warm)
         return self._solvers[warm]
-
-    def solver_of(
-        self, function: Any, options: Mapping[str, Any] | None = None, derivatives: Mapping[str, Any] | None = None
-    ) -> Any:
-        """IPOPT for a problem, set up as all are here, with derivatives that are known."""
-        ipopt: dict[str, Any] = {
-            **_IPOPT,
-            "max_iter": self.study.solver.max_iterations,
-            "tol": self.study.solver.tolerance,
-            **(options or {}),
-        }
-        settings: dict[str, Any] = {
-            "ipopt": ipopt, "print_time": False, "show_eval_warnings": False, **(derivatives or {}),
-        }  # fmt: skip
-        return ca.nlpsol("design", "ipopt", function, settings)
 
     # --- starts ---
 

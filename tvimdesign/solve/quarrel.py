@@ -18,7 +18,8 @@ import numpy as np
 from tvimdesign.solve.contradiction import proved, ranges_of
 from tvimdesign.solve.elastic import AT_PEACE, Elastic, Settled
 from tvimdesign.solve.limits import Limit, in_words, make_limit, on_switch
-from tvimdesign.solve.optimizer import Array, Optimizer, Progress, Run
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.run import Array, Progress, Run
 from tvimdesign.solve.solution import Quarrel, Side
 from tvimdesign.units import format_quantity
 

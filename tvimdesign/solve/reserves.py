@@ -21,7 +21,8 @@ from tvimdesign.solve.rig import Rig
 from tvimdesign.study import Study
 
 if TYPE_CHECKING:
-    from tvimdesign.solve.optimizer import Ends, Optimizer, Run
+    from tvimdesign.solve.optimizer import Optimizer
+    from tvimdesign.solve.run import Ends, Run
 
 ROUNDS = 6
 _SETTLED = 1e-3

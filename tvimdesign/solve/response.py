@@ -13,7 +13,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.optimizer import Array, Derivatives, Optimizer, Run
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.run import Array, Derivatives, Run
 
 Place: TypeAlias = tuple[Literal["row", "upper", "lower"], int]
 """What moves: a row of the problem's constraints, or an end of the range of one of its unknowns."""

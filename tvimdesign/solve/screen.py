@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.limits import on_switch
-from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Ends, Optimizer
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
+from tvimdesign.solve.run import Ends
 
 _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
 

@@ -14,9 +14,10 @@ from tvimdesign.solve.branch import BranchAndBound
 from tvimdesign.solve.contradiction import at_a_glance, refuse_contradiction
 from tvimdesign.solve.enumeration import enumerate_all
 from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
-from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer, Progress, Run
+from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer
 from tvimdesign.solve.quarrel import make_peace
 from tvimdesign.solve.reach import refuse_unreachable
+from tvimdesign.solve.run import Progress, Run
 from tvimdesign.solve.solution import Choosing, Quarrel, Solution, Standard, Work
 from tvimdesign.solve.tree import Tree, order
 from tvimdesign.study import SolverOptions, Study

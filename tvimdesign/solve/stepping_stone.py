@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from tvimdesign.solve.optimizer import Array, Optimizer, Run
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.run import Array, Run
 from tvimdesign.solve.solution import Constant
 
 

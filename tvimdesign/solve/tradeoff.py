@@ -14,7 +14,8 @@ from tvimdesign.errors import SimulationError
 from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.limits import in_words, on_switch
-from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer, Progress, Run, Trace
+from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
+from tvimdesign.solve.run import Progress, Run, Trace
 from tvimdesign.solve.solution import Solution
 from tvimdesign.solve.statuses import meaning
 from tvimdesign.study import Options, Study

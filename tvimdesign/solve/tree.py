@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from tvimdesign.solve.listed import Box, Sizes
-from tvimdesign.solve.optimizer import Array, Ends, Optimizer, Run
+from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.quarrel import SecondTry
+from tvimdesign.solve.run import Array, Ends, Run
 from tvimdesign.solve.screen import Screen
 from tvimdesign.solve.solution import SAME_OPTIMUM, Work
 from tvimdesign.solve.starting_points import FEW

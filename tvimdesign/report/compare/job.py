@@ -29,8 +29,9 @@ from tvimdesign.report.trouble import complaint
 from tvimdesign.report.why import binding
 from tvimdesign.solve.answer import Answer, answer
 from tvimdesign.solve.front import Front, trace_front, undominated
-from tvimdesign.solve.optimizer import Optimizer, Run
+from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.rig import rig_of_design
+from tvimdesign.solve.run import Run
 from tvimdesign.solve.tradeoff import Point, Tradeoff
 from tvimdesign.solve.trials import find_test
 from tvimdesign.study import Study, drawn, read_study
