@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support import ROOT, STUDIES, Command
+from support import RELEASED, ROOT, STUDIES, Command
 
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
     "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml",
 }  # fmt: skip
 PLOTS = {"bounds.png", "impedance.png", "mass.png", "cycle.png"}
-RELEASED = ("paper_shear", "paper_compression")
 OPTIMISED = {"why.csv"}
 QUICK = {"paper_as_published", "paper_shear", "paper_compression", "front_shear"}
 """Studies that take seconds; the others are slow tests."""
@@ -155,54 +154,3 @@ def test_the_released_parts_are_of_the_design_the_study_gives(runs: Runs, name: 
     for row, value in now.items():
         # Gaps that bind are zero to the solver's tolerance; a micrometre is nothing on a part.
         assert released[row] == pytest.approx(value, rel=1e-4, abs=1e-6), f"{row}: run `make cad`"
-
-
-@pytest.mark.parametrize("name", RELEASED)
-def test_the_released_parts_passed_every_check(name: str) -> None:
-    checks = json.loads((ROOT / f"cad/{name}/checks.json").read_text())["checks"]
-    assert len(checks) > 200
-    assert all(check["ok"] for check in checks)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", RELEASED)
-def test_the_released_parts_can_be_made_again(tvimdesign: Command, tmp_path: Path, name: str) -> None:
-    released = ROOT / "cad" / name
-    done = tvimdesign("cad", released / "design.json", "--out", tmp_path / "parts")
-    assert done.returncode == 0, done.stderr
-    made = {path.name for path in (tmp_path / "parts/step").iterdir()}
-    assert {path.name for path in (released / "step").iterdir()} == made, "run `make cad`"
-    for kept in released.rglob("*"):
-        again = tmp_path / "parts" / kept.relative_to(released)
-        if kept.suffix in {".step", ".stl", ".3mf", ".dxf", ".csv", ".md"}:
-            assert kept.read_bytes() == again.read_bytes(), f"{kept.name} differs: run `make cad`"
-
-
-MADE = {"paper_as_published", "paper_shear", "paper_compression", "wrist_joint", "wrist_compression"}
-"""Studies whose parts are made: the others differ from these in dimensions, not in what is drawn."""
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("study", [path for path in STUDIES if path.stem in MADE], ids=lambda path: path.stem)
-def test_a_study_becomes_parts_that_pass_every_check(tvimdesign: Command, tmp_path: Path, study: Path) -> None:
-    done = tvimdesign("run", study, "--no-plots", "--out", tmp_path / "out")
-    assert done.returncode == 0, done.stderr
-    cad = tmp_path / "out/cad"
-    assert all(check["ok"] for check in json.loads((cad / "checks.json").read_text())["checks"])
-    mode = json.loads((tmp_path / "out/design.json").read_text())["mode"]
-    pcl = {"shear": "pcl_arc", "compression": "pcl_block"}[mode]
-    parts = ("housing", "rotor", "link", "retainer", pcl, "peltier_pad", "spring_left", "spring_right")
-    for part in parts:
-        assert (cad / f"step/{part}.step").stat().st_size > 500
-    for part in parts[:5]:
-        assert (cad / f"print/{part}.3mf").stat().st_size > 500
-    for part in parts[:4]:
-        assert (cad / f"drawings/{part}.pdf").stat().st_size > 10_000
-    for name in ("assembly.step", "assembly.glb", "preview.png", "views/exploded.png", "views/section.png"):
-        assert (cad / name).stat().st_size > 10_000
-    for name in ("bom.csv", "assembly.md", "springs/spring.csv", "springs/spring.pdf"):
-        assert (cad / name).stat().st_size > 500
-    from_design = tvimdesign("cad", tmp_path / "out/design.json", "--out", tmp_path / "again")
-    assert from_design.returncode == 0, from_design.stderr
-    same = (tmp_path / "again/step/rotor.step").read_bytes() == (cad / "step/rotor.step").read_bytes()
-    assert same, "the same design gave other bytes"
