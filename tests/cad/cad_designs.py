@@ -35,7 +35,7 @@ BLOCKS = {
 }  # fmt: skip
 WRIST_BLOCKS = {name: value for name, value in WRIST.items() if name not in {"arc_span", "pcl_thickness"}} | {
     "coil_diameter": 7.0 * MM, "coil_count": 6.2, "pcl_inner_radius": 9.5 * MM, "pcl_outer_radius": 16.0 * MM,
-    "rotor_rim": 3.5 * MM, "vane_count": 4, "block_height": 5.5 * MM, "block_depth": 3.0 * MM,
+    "rotor_rim": 4.3 * MM, "vane_count": 4, "block_height": 5.5 * MM, "block_depth": 3.0 * MM,
     "vane_thickness": 2.5 * MM,
 }  # fmt: skip
 ODD_BLOCKS = WRIST_BLOCKS | {"spring_pairs": 3, "vane_count": 3, "coil_count": 6.7, "preload_angle": 0.21,
@@ -46,7 +46,7 @@ BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 *
             "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM}  # fmt: skip
 BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "corner_radius": 0.5 * MM,
                            "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "pcl_inner_radius": 17.0 * MM,
-                           "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 3.5 * MM,
+                           "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 4.3 * MM,
                            "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM}  # fmt: skip
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),

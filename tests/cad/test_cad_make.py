@@ -139,6 +139,14 @@ def test_colours_are_put_in_the_order_of_their_parts() -> None:
     assert one.endswith(end)
 
 
+def test_a_colour_that_parts_share_stands_with_the_first_of_them_whichever_the_kernel_met_first() -> None:
+    styles, colour = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION", "COLOUR_RGB('',0.3);\n"
+    head, end = "#1 = A();\n#2 = B();\n", "ENDSEC;\n"
+    one = in_fixed_order(f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}")
+    other = in_fixed_order(f"{head}#3 = {styles}('',(#4),#2);\n#4 = {colour}#5 = {styles}('',(#4),#1);\n{end}")
+    assert one == other == f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}"
+
+
 def test_a_name_in_any_script_survives_step(tmp_path: Path) -> None:
     box = cq.Solid.makeBox(1, 1, 1)
     product = Product(name="box", colour=(1, 0, 0), material="Stahl für Übung", density=7850.0)
