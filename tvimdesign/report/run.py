@@ -25,15 +25,19 @@ if TYPE_CHECKING:
 CAD_TIME_LIMIT = 300.0  # s
 
 
-def check_study(path: Path) -> Study:
-    """Read a study and everything it names. Raises InputError with all that is wrong with it."""
+def check_study(path: Path, *, proof: bool = True) -> Study:
+    """Read a study and everything it names. Raises InputError with all that is wrong with it.
+
+    Limits that bounds prove impossible are looked for as well, which takes half a second, unless `proof` is not asked.
+    """
     from tvimdesign.solve.contradiction import refuse_contradiction
     from tvimdesign.solve.limits import refuse_impossible
 
     study = read_study(path)
     catalog, table = catalog_of(study), table_for(study.mode)
     refuse_impossible(study, catalog, table)
-    refuse_contradiction(study, catalog, table)
+    if proof:
+        refuse_contradiction(study, catalog, table)
     return study
 
 

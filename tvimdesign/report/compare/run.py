@@ -91,7 +91,7 @@ def _read(paths: Sequence[Path]) -> list[Entrant]:
     found = []
     for path in paths:
         try:
-            study = check_study(path)
+            study = check_study(path, proof=False)  # each search looks for itself
         except StudyError as error:
             problems += error.problems
         except InputError as error:
