@@ -14,13 +14,14 @@ import contextlib
 import io
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, MutableMapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_problem import LONGEST, Reference, study
+from reference_problem import LONGEST, Heat, Reference, study
 from scipy.integrate import solve_ivp
 from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
@@ -72,18 +73,27 @@ def by_tvimdesign(_: Reference, begin: Array) -> Found:
 # --- scipy ---
 
 
+class Event:
+    """What the switch waits for, as scipy takes it: it ends the integration where it passes zero."""
+
+    terminal = True
+
+    def __init__(self, heat: Heat) -> None:
+        """Of one design's switch."""
+        self._gap = heat.gap
+
+    def __call__(self, now: float, state: Array) -> float:
+        """Below zero before the event, above it after."""
+        return self._gap(now, state)
+
+
 def lsoda(tolerance: float) -> Callable[[Reference, Array], float]:
     """The switch by LSODA with the exact Jacobian, stopped at the event."""
 
     def switch(reference: Reference, design: Array) -> float:
         heat = reference.heat(design)
-
-        def gap(now: float, state: Array) -> float:
-            return heat.gap(now, state)
-
-        gap.terminal = True  # type: ignore[attr-defined]  # how scipy is told
         found = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="LSODA", jac=heat.jacobian, rtol=tolerance,
-                          atol=1e-2 * tolerance, events=gap)  # fmt: skip
+                          atol=1e-2 * tolerance, events=Event(heat))  # fmt: skip
         return float(found.t_events[0][0]) if len(found.t_events[0]) else LONGEST
 
     return switch
@@ -92,12 +102,7 @@ def lsoda(tolerance: float) -> Callable[[Reference, Array], float]:
 def bdf(reference: Reference, design: Array) -> float:
     """The switch as most would write it: solve_ivp's BDF at 1e-6, no Jacobian."""
     heat = reference.heat(design)
-
-    def gap(now: float, state: Array) -> float:
-        return heat.gap(now, state)
-
-    gap.terminal = True  # type: ignore[attr-defined]
-    found = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="BDF", rtol=1e-6, atol=1e-8, events=gap)
+    found = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="BDF", rtol=1e-6, atol=1e-8, events=Event(heat))
     return float(found.t_events[0][0]) if len(found.t_events[0]) else LONGEST
 
 
@@ -172,7 +177,7 @@ def openmdao(reference: Reference, begin: Array) -> Found:
             self.add_output("time", 100.0)
             self.declare_partials("*", "*", method="fd", step=1e-6)
 
-        def compute(self, inputs, outputs) -> None:  # type: ignore[no-untyped-def]
+        def compute(self, inputs: Mapping[str, Array], outputs: MutableMapping[str, Any]) -> None:
             count["switches"] += 1
             outputs["time"] = switch_time(reference, np.exp(inputs["unknowns"]))
 
@@ -184,7 +189,7 @@ def openmdao(reference: Reference, begin: Array) -> Found:
             self.add_output("residuals", np.zeros(len(reference.limits)))
             self.declare_partials("*", "*", method="fd", step=1e-6)
 
-        def compute(self, inputs, outputs) -> None:  # type: ignore[no-untyped-def]
+        def compute(self, inputs: Mapping[str, Array], outputs: MutableMapping[str, Any]) -> None:
             rows = reference.rows(np.exp(inputs["unknowns"]), float(inputs["time"][0]))
             outputs["objective"], outputs["residuals"] = rows[0], rows[1:]
 

@@ -45,7 +45,7 @@ class Bowl:
     def values(self, run: Any) -> dict[str, float]:
         return dict(run.values)
 
-    def best_within(self, box: Box, near: Any) -> tuple[Any, bool]:  # noqa: ARG002  # the face of a tree
+    def best_within(self, box: Box, _near: Any) -> tuple[Any, bool]:
         ends = list(self.sizes.ends(box).values())
         if ends[0][1] < self.least:
             return None, True

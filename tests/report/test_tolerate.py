@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support import Command
@@ -26,7 +27,7 @@ def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tu
     return folder / "results/arm-tolerances", json.loads(done.stdout), done.stderr
 
 
-def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, object], str]) -> None:
+def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
     folder, told, _ = results
     expected = {"contributors.csv", "limits.csv", "manifest.json", "outputs.csv", "spread.png", "tolerances.json",
                 "tolerated.yaml"}  # fmt: skip
@@ -41,7 +42,7 @@ def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict
     assert float(stiffness["deviation"]) == pytest.approx(float(stiffness["deviation_rss"]), rel=0.02)
 
 
-def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, object], str]) -> None:
+def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, Any], str]) -> None:
     rows = list(csv.DictReader((results[0] / "contributors.csv").read_text().splitlines()))
     mine = [row for row in rows if row["output"] == "spring_stiffness"]
     assert sum(float(row["share"]) for row in mine) == pytest.approx(1.0, abs=1e-4)
@@ -51,8 +52,8 @@ def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, object
     assert (float(wire["derivative"]), wire["derivative_unit"]) == (pytest.approx(9.3, rel=0.01), "N·m/rad / mm")
 
 
-def test_the_sentences_say_what_to_do(results: tuple[Path, dict[str, object], str]) -> None:
-    said = " ".join(results[1]["sentences"])  # type: ignore[arg-type]
+def test_the_sentences_say_what_to_do(results: tuple[Path, dict[str, Any], str]) -> None:
+    said = " ".join(results[1]["sentences"])
     assert "of the modules keep every limit" in said
     assert "Tighten preload_angle first" in said
     assert "(±18.7° by DIN 2194, grade 2) is 3.1 times the stroke" in said
@@ -60,7 +61,7 @@ def test_the_sentences_say_what_to_do(results: tuple[Path, dict[str, object], st
 
 
 def test_a_design_and_its_tables_are_printed(
-    results: tuple[Path, dict[str, object], str], tvimdesign: Command, tmp_path: Path
+    results: tuple[Path, dict[str, Any], str], tvimdesign: Command, tmp_path: Path
 ) -> None:
     done = tvimdesign("tolerate", results[0].parents[1] / "arm.yaml", "--samples", 300, "--out", tmp_path / "again")
     assert done.returncode == 0, done.stderr
@@ -73,7 +74,7 @@ def test_a_design_and_its_tables_are_printed(
     [(["--samples", 10], "--samples 10: must be 256 to 4194304"), (["--out", "arm.yaml"], "is a file")],
 )
 def test_bad_input_is_told(
-    results: tuple[Path, dict[str, object], str], tvimdesign: Command, arguments: list[object], said: str
+    results: tuple[Path, dict[str, Any], str], tvimdesign: Command, arguments: list[object], said: str
 ) -> None:
     done = tvimdesign("tolerate", "arm.yaml", *arguments, cwd=results[0].parents[1])
     assert (done.returncode, "Traceback" in done.stderr) == (2, False)

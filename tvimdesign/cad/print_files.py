@@ -11,7 +11,7 @@ import numpy as np
 import trimesh
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.GeomAPI import GeomAPI_ProjectPointOnSurf
-from OCP.gp import gp_Pnt
+from OCP.gp import gp_Dir, gp_Pnt
 
 from tvimdesign.cad.features import holes
 from tvimdesign.cad.making import Making
@@ -97,8 +97,8 @@ def _from_surface(face: cq.Face, points: Array) -> Array:
     return np.array([GeomAPI_ProjectPointOnSurf(gp_Pnt(*point), whole).LowerDistance() for point in points.tolist()])
 
 
-def _xyz(of: object) -> Array:
-    return np.array([of.X(), of.Y(), of.Z()])  # type: ignore[attr-defined]  # the kernel's points and directions
+def _xyz(of: gp_Pnt | gp_Dir) -> Array:
+    return np.array([of.X(), of.Y(), of.Z()])
 
 
 def stl_bytes(body: trimesh.Trimesh) -> bytes:
