@@ -10,11 +10,15 @@ import pytest
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, table_for
 from tvimdesign.errors import InputError
-from tvimdesign.solve.limits import refuse_impossible
+from tvimdesign.solve.limits import limits_of, refuse_impossible
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 TABLE = table_for("shear")
+RULES = (
+    "adjuster_wall_gap", "adjuster_pcl_gap", "adjuster_mount_gap", "adjuster_post_reserve", "adjuster_thread_reserve",
+    "adjuster_top_reserve", "adjuster_grip_reserve",
+)  # fmt: skip
 ROWS = (
     "preload_adjustment", "adjuster_radius", "adjuster_thickness", "tang_length", "adjuster_volume",
     "adjuster_screw_volume", "adjusters_mass", "module_mass", "housing_mass", "springs_mass", "post_radius",
@@ -90,8 +94,14 @@ def test_a_clamped_post_holds_its_spring_by_friction(rotary: dict[str, float]) -
 
 def test_a_fixed_tang_is_held_by_no_rule_of_the_adjusters(fixed: dict[str, float], rotary: dict[str, float]) -> None:
     for name in ("adjuster_post_reserve", "adjuster_thread_reserve", "adjuster_top_reserve", "adjuster_grip_reserve"):
-        assert fixed[name] == 1.0, "a metre, or a newton metre: more than any module has"
-        assert 0.0 < rotary[name] < 1.0
+        assert fixed[name] == 0.0
+        assert rotary[name] > 0.0
+    for adjuster, held in (("fixed", set()), ("rotary", set(RULES))):
+        study = read_study_text(f"mode: shear\nmodule: {{preload_adjuster: {adjuster}}}\n", "a test")
+        assert {limit.output for limit in limits_of(study, TABLE)} & set(RULES) == held
+    free = read_study_text("mode: shear\nvary: {preload_adjuster: {choose: [fixed, rotary]}}\n"
+                           "minimize: module_mass\n", "a test")  # fmt: skip
+    assert set(RULES) <= {limit.output for limit in limits_of(free, TABLE)}
 
 
 @pytest.mark.parametrize("mode", MODES)

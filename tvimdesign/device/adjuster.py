@@ -14,13 +14,11 @@ from tvimdesign.device.bodies import book as bodies
 from tvimdesign.device.book import Book
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
-from tvimdesign.device.rows import Scalar, at_least
+from tvimdesign.device.rows import Rule, Scalar, at_least
 from tvimdesign.physics.friction import disc_torque
 from tvimdesign.physics.shapes import bar_across
 
 FIXED = "fixed"
-NO_LIMIT = 1.0
-"""What is left of a limit on adjusters where there are none [m, N*m]: more than any module has."""
 
 places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
 books = (places, weights, rules)
@@ -164,8 +162,14 @@ def adjusters_mass(
 # --- rules -----------------------------------------------------------------------------------------------------------
 
 
+def _room(reason: str) -> Rule:
+    """There must be room, where there are adjusters at all."""
+    return at_least(0.0, reason, only=("preload_adjuster", "rotary"))
+
+
 @rules.output(
-    "mm", at_least(0.0, "the adjusters do not go in past the housing's wall: give the springs more radial_clearance")
+    "mm",
+    _room("the adjusters do not go in past the housing's wall: give the springs more radial_clearance"),
 )
 def adjuster_wall_gap(
     preload_adjuster: str,
@@ -174,13 +178,13 @@ def adjuster_wall_gap(
     adjuster_radius: Scalar,
     slip_clearance: Scalar,
 ) -> Scalar:
-    """Room between the adjusters' pockets and the housing's wall; no limit where tangs are fixed."""
+    """Room between the adjusters' pockets and the housing's wall; zero where tangs are fixed."""
     if preload_adjuster == FIXED:
-        return NO_LIMIT
+        return 0.0
     return housing_inner_radius - placement_radius - adjuster_radius - slip_clearance
 
 
-@rules.output("mm", at_least(0.0, "the floor between the adjusters' pockets and the PCL is thinner than can be made"))
+@rules.output("mm", _room("the floor between the adjusters' pockets and the PCL is thinner than can be made"))
 def adjuster_pcl_gap(
     preload_adjuster: str,
     placement_radius: Scalar,
@@ -189,14 +193,15 @@ def adjuster_pcl_gap(
     pcl_outer_radius: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between the adjusters' pockets and the PCL beyond the least wall; no limit where tangs are fixed."""
+    """Floor between the adjusters' pockets and the PCL beyond the least wall; zero where tangs are fixed."""
     if preload_adjuster == FIXED:
-        return NO_LIMIT
+        return 0.0
     return placement_radius - adjuster_radius - slip_clearance - pcl_outer_radius - minimum_wall
 
 
 @rules.output(
-    "mm", at_least(0.0, "the floor between the adjusters' pockets and the mounting holes is thinner than can be made")
+    "mm",
+    _room("the floor between the adjusters' pockets and the mounting holes is thinner than can be made"),
 )
 def adjuster_mount_gap(
     preload_adjuster: str,
@@ -207,24 +212,25 @@ def adjuster_mount_gap(
     mount_hole: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between adjusters' pockets and mounting holes beyond the least wall; no limit where tangs are fixed."""
+    """Floor between adjusters' pockets and mounting holes beyond the least wall; zero where tangs are fixed."""
     if preload_adjuster == FIXED:
-        return NO_LIMIT
+        return 0.0
     apart = 2.0 * placement_radius * np.sin(0.5 * np.pi / spring_count)
     return apart - adjuster_radius - slip_clearance - 0.5 * mount_hole - minimum_wall
 
 
 @rules.output(
-    "mm", at_least(0.0, "an adjuster's post would split around its screw: a thicker post, or a smaller screw")
+    "mm",
+    _room("an adjuster's post would split around its screw: a thicker post, or a smaller screw"),
 )
 def adjuster_post_reserve(
     preload_adjuster: str, post_radius: Scalar, adjuster_screw_pilot: Scalar, minimum_wall: Scalar
 ) -> Scalar:
-    """Wall of an adjuster's post around its screw beyond the process's least; no limit where tangs are fixed."""
-    return NO_LIMIT if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_pilot - minimum_wall
+    """Wall of an adjuster's post around its screw beyond the process's least; zero where tangs are fixed."""
+    return 0.0 if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_pilot - minimum_wall
 
 
-@rules.output("mm", at_least(0.0, "the adjusters' screws are too short to hold"))
+@rules.output("mm", _room("the adjusters' screws are too short to hold"))
 def adjuster_thread_reserve(
     preload_adjuster: str,
     adjuster_screw_depth: Scalar,
@@ -232,12 +238,12 @@ def adjuster_thread_reserve(
     thread_engagement: Scalar,
     adjuster_screw_diameter: Scalar,
 ) -> Scalar:
-    """Thread in the adjusters beyond what the process wants; no limit where tangs are fixed."""
+    """Thread in the adjusters beyond what the process wants; zero where tangs are fixed."""
     thread = adjuster_screw_depth - screw_tip_room
-    return NO_LIMIT if preload_adjuster == FIXED else thread - thread_engagement * adjuster_screw_diameter
+    return 0.0 if preload_adjuster == FIXED else thread - thread_engagement * adjuster_screw_diameter
 
 
-@rules.output("mm", at_least(0.0, "the screw's hole would reach the driver's slot: choose a shorter screw"))
+@rules.output("mm", _room("the screw's hole would reach the driver's slot: choose a shorter screw"))
 def adjuster_top_reserve(
     preload_adjuster: str,
     adjuster_thickness: Scalar,
@@ -246,12 +252,12 @@ def adjuster_top_reserve(
     driver_slot_depth: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Post between screw's hole and driver's slot beyond the process's least wall; no limit where tangs are fixed."""
+    """Post between screw's hole and driver's slot beyond the process's least wall; zero where tangs are fixed."""
     between = adjuster_thickness + post_height - adjuster_screw_depth - driver_slot_depth
-    return NO_LIMIT if preload_adjuster == FIXED else between - minimum_wall
+    return 0.0 if preload_adjuster == FIXED else between - minimum_wall
 
 
-@rules.output("N*m", at_least(0.0, "the clamped adjusters would slip under their springs"))
+@rules.output("N*m", _room("the clamped adjusters would slip under their springs"))
 def adjuster_grip_reserve(
     preload_adjuster: str,
     adjuster_friction: Scalar,
@@ -261,8 +267,8 @@ def adjuster_grip_reserve(
     spring_rate: Scalar,
     spring_winding: Scalar,
 ) -> Scalar:
-    """Torque at which a clamped adjuster slips less the spring's largest; no limit where tangs are fixed."""
+    """Torque at which a clamped adjuster slips less the spring's largest; zero where tangs are fixed."""
     if preload_adjuster == FIXED:
-        return NO_LIMIT
+        return 0.0
     grip = disc_torque(adjuster_friction, adjuster_clamp_force, 0.5 * adjuster_screw_clearance, adjuster_radius)
     return grip - spring_rate * spring_winding

@@ -36,11 +36,17 @@ class Rule:
     reason: str
     exists_above: float | None = None
     """The value at and below which there is no such geometry, and the equations mean nothing."""
+    only: tuple[str, str] | None = None
+    """(option, word): the machine has what the limit is on only where that is chosen."""
+
+    def applies(self, chosen: Mapping[str, Any]) -> bool:
+        """Whether there is anything to limit with some options chosen, by name; an option left open may be any."""
+        return self.only is None or chosen.get(self.only[0], self.only[1]) == self.only[1]
 
 
-def at_least(value: float, reason: str, exists_above: float | None = None) -> Rule:
+def at_least(value: float, reason: str, exists_above: float | None = None, only: tuple[str, str] | None = None) -> Rule:
     """A lower limit that belongs to the machine."""
-    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above)
+    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above, only=only)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -48,9 +48,10 @@ def limits_of(study: Study, table: Table) -> list[Limit]:
         for output in _behind(table, r.output, r.sense)
     ]
     taken = {(limit.output, limit.sense) for limit in own}
+    options = {row.name: study.module.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
     for row in table.outputs:
         for rule in row.rules:
-            if (row.name, rule.sense) not in taken:
+            if (row.name, rule.sense) not in taken and rule.applies(options):
                 own.append(make_limit(table, row.name, rule.sense, rule.value, rule.reason))
     return own
 
