@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import csv
 import io
+import os
+import subprocess
+import sys
 from math import pi
 
 import cadquery as cq
@@ -235,3 +238,22 @@ def test_a_sheet_is_a_pdf_of_its_true_size_with_no_date(module: tuple[Design, So
     again = part_sheet("retainer", solids["retainer"], product(design, "retainer"), design.name)
     assert again.pdf() == data
     assert again.dxf() == sheet.dxf()
+
+
+@pytest.mark.slow
+def test_a_drawing_is_the_same_file_whatever_order_sets_have_in_a_process() -> None:
+    code = """
+import hashlib
+from tvimdesign.cad.sheet import Sheet
+sheet = Sheet(1.0)
+sheet.text("A", (50.0, 50.0))
+print(hashlib.sha256(sheet.dxf()).hexdigest())
+"""
+    # Under 1 and 4 ezdxf took the classes of a drawing in two orders.
+    told = [
+        subprocess.run(
+            [sys.executable, "-c", code], env=os.environ | {"PYTHONHASHSEED": seed}, capture_output=True, check=True
+        )
+        for seed in ("1", "4")
+    ]
+    assert told[0].stdout == told[1].stdout

@@ -128,6 +128,9 @@ class Sheet:
     def dxf(self) -> bytes:
         """The drawing as DXF, the same bytes for the same drawing."""
         stream = io.StringIO()
+        # ezdxf writes the classes of a drawing in the order of a set; those that are there already keep their places.
+        for name in sorted(self.document.entitydb.dxf_types_in_use()):
+            self.document.classes.add_class(name)
         with _no_time():
             self.document.write(stream)
         return stream.getvalue().encode(self.document.output_encoding)
