@@ -79,7 +79,7 @@ def test_a_full_study(read: Read) -> None:
         "hot": {"temperature": 373.15, "frequency": 10.0},
         "warm": {"temperature": 333.15, "frequency": 1.0},
     }
-    assert (study.solver.starts, study.solver.tolerance, study.solver.cells) == (5, 1e-6, 24)
+    assert (study.solver.starts, study.solver.tolerance, study.solver.cells) == (5, 1e-6, 28)
     assert (study.write.plots, study.write.cad) == (True, False)
 
 
