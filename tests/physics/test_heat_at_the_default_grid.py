@@ -2,8 +2,8 @@
 
 A temperature is held as a share of its own rise; that of a back face, which is nothing at first, as a share of the
 heated face's. A front is held three times: at every moment as a share of the layer; its mean on the way as a share of
-itself; and as a share of itself where an enthalpy method knows it, at the middle of a cell that is half molten (Voller and
-Cross, Int. J. Heat Mass Transfer 24 (1981) 545), once it is a quarter through.
+itself; and as a share of itself where an enthalpy method knows it, at the middle of a cell that is half molten (Voller
+and Cross, Int. J. Heat Mass Transfer 24 (1981) 545), once it is a quarter through.
 
 Sources: Carslaw and Jaeger, Conduction of Heat in Solids, 2nd ed., sections 2.14, 3.8 and 11.2 (Neumann's two phases);
 Incropera, Fundamentals of Heat and Mass Transfer, section 5.5 (slab with convection).
@@ -71,7 +71,7 @@ class Front(NamedTuple):
     mean: float
     """Its depth over the exact one, on the mean from a quarter of the millimetre on."""
     wobble: float
-    """How far it is ever off there, as a share of the millimetre: a cell stays at the melting point until it is molten."""
+    """How far it is ever off there, as a share of the millimetre: a cell that melts stays at one temperature."""
     in_cells: float
     """How far it is off, as a share of its depth, when it is in the middle of a cell."""
 

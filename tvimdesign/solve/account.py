@@ -109,7 +109,7 @@ def _held_by_currents(optimizer: Optimizer, run: Run, response: Response | None)
     """The ends of the range of a free current, all its nodes together, and the supply's slew."""
     found = []
     objective = run.start.objective or 1.0
-    for current, place in optimizer.places_of_currents():
+    for current, place in optimizer.vector.places_of_currents():
         multipliers, shares = run.bound_multipliers[place], run.unknowns[place]
         senses: tuple[tuple[Literal["<=", ">="], float, float], ...] = (
             ("<=", current.upper, 1.0), (">=", current.lower, -1.0),

@@ -85,7 +85,7 @@ class Elastic:
         counts = np.isin(np.arange(self.count), list(within)) if within else np.ones(self.count, dtype=bool)
         residuals = np.asarray(self._rows(x, p)).ravel()[self.equations : self.equations + self.count]
         slacks = np.where(counts, np.maximum(np.nan_to_num(residuals), 0.0) + _ROOM, 0.0)
-        lower, upper = optimizer.bounds({})
+        lower, upper = optimizer.vector.bounds({})
         traded, rest = len(problem.traded), problem.slope_count + problem.peak_count
         no_equations = np.zeros(self.equations)
         answer = self._solver(

@@ -88,7 +88,7 @@ class Inspection:
         """Evaluate rows, objective and their exact derivatives there."""
         problem = optimizer.problem
         self.optimizer, self.problem = optimizer, problem
-        self.begin = next(optimizer.begin_points())
+        self.begin = next(optimizer.beginnings.points())
         self._x = optimizer.guess(self.begin)
         self._p = optimizer.parameters(Goal(optimizer.study.minimize))
         whole = problem.function
@@ -132,7 +132,7 @@ class Inspection:
 
     def _widths(self, decided: Sequence[int]) -> Array:
         """How far each decision can go, in unknowns."""
-        lower, upper = self.optimizer.bounds({})
+        lower, upper = self.optimizer.vector.bounds({})
         return np.array([upper[i] - lower[i] for i in decided])
 
     def _along(self) -> tuple[list[int], Array, float]:
@@ -141,7 +141,7 @@ class Inspection:
 
         problem = self.problem
         decided = [*range(len(problem.free))]
-        stay = {i for _, place in self.optimizer.places_of_currents() for i in range(place.start, place.stop)}
+        stay = {i for _, place in self.optimizer.vector.places_of_currents() for i in range(place.start, place.stop)}
         follow = [i for i in range(len(decided), problem.unknown_count) if i not in stay]
         along = np.zeros((problem.unknown_count, len(decided)))
         along[decided, range(len(decided))] = 1.0

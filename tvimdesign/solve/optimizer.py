@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
@@ -13,28 +13,25 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Input, Path, Table
-from tvimdesign.errors import InfeasibleError, SimulationError
+from tvimdesign.device import Input, Table
+from tvimdesign.errors import InfeasibleError
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.drive import Drive, ramp_time
+from tvimdesign.solve.beginnings import Beginnings
+from tvimdesign.solve.drive import ramp_time
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.ipopt import NLP, solver_of
-from tvimdesign.solve.limits import Limit, impossible, limits_of, on_switch, unchangeable
+from tvimdesign.solve.limits import Limit, limits_of, on_switch, unchangeable
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.run import Array, Derivatives, Ends, Progress, Run, Trace
-from tvimdesign.solve.simulate import Simulator, Switch, Trajectory
+from tvimdesign.solve.simulate import Simulator
 from tvimdesign.solve.solution import Start
-from tvimdesign.solve.stage_model import StageModel
-from tvimdesign.solve.starting_points import unit_points
-from tvimdesign.solve.transcription import guess
+from tvimdesign.solve.unknowns import Unknowns
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
 RAMP_ELEMENT = 15.0  # s, the longest element of a ramp: as long as those of a switch of two minutes
-SHORTEST = 0.1  # s; with a slow supply all of a stage may be its ramp, and the pieces after it next to nothing
-MAX_DRAWS = 100
 EXPAND_FROM = 4
 """Runs from which on it pays to expand the problem to scalar operations: slower to build, four times faster to run."""
 
@@ -73,11 +70,9 @@ class Optimizer:
         self.margins: dict[str, float] = {}
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
         self.problem = self._problem(self.kept_limits(limits_of(study, table)), traded)
-        self.simulate_start()
+        self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}
-        self.passed_over = {"switch never ends": 0, "no such module": 0}
-        """Points at which no search began, by the reason."""
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def with_constant_currents(self) -> Optimizer | None:
@@ -122,9 +117,8 @@ class Optimizer:
         other = copy(self)
         other.study, other.model = study, model
         other.seconds = {"set_up": 0.0, "solve": 0.0}
-        other.passed_over = dict.fromkeys(self.passed_over, 0)
         other.kept_limits(limits_of(study, self.table))
-        other.simulate_start()
+        other._begin()
         return other
 
     def _problem(self, kept: list[Limit], traded: Sequence[str]) -> Problem:
@@ -156,10 +150,15 @@ class Optimizer:
         moved = {outputs[row] for row, column in zip(rows, columns, strict=True) if column in places}
         return [limit for limit in limits if limit.output in outputs and limit.output not in moved]
 
-    def simulate_start(self) -> None:
-        """Simulate the study's start as far as the problem needs it."""
-        self.start_switch = self.simulator.run(self.model.start, stages=self.problem.stages)
-        self.start_values = self.model.values(self.model.start, self.start_switch.values)
+    def _begin(self) -> None:
+        """What knows the numbers of the records: where to begin, and how the vector of unknowns is read."""
+        self.beginnings = Beginnings(self.problem, self.model, self.simulator, self.study.solver, self.progress)
+        self.vector = Unknowns(self.problem, self.model)
+        self.start_values = self.model.values(self.model.start, self.beginnings.switch.values)
+
+    def guess(self, inputs: Array) -> Array:
+        """The unknowns at a point, with the switch simulated there; with the start's where that does not end."""
+        return self.vector.at(inputs, self.beginnings.trial(inputs) or self.beginnings.switch)
 
     def _reference(self, name: str) -> float:
         value = self.start_values[name]
@@ -182,93 +181,6 @@ class Optimizer:
             self._solvers[warm] = solver_of(self._compiled, self.study.solver, known, warm=warm)
         return self._solvers[warm]
 
-    # --- starts ---
-
-    def begin_points(self) -> Iterator[Array]:
-        """Inputs to start from: the study's own, then others spread between the bounds, seeded.
-
-        From a point whose switch never ends the solver mostly gets stuck there, so such points are passed over; the
-        study's own is replaced by the first other one.
-        """
-        points = unit_points(self.study.solver.starts, len(self.free), self.study.solver.seed)
-        if self._trial(self.model.start) is not None:
-            yield self.model.start
-        else:
-            self.progress("the switch of the study's own start never ends: starting elsewhere")
-            self.passed_over["switch never ends"] += 1
-            yield self._ending_point(points)
-        for _ in range(self.study.solver.starts - 1):
-            yield self._ending_point(points)
-
-    def _ending_point(self, points: Iterator[Array]) -> Array:
-        for _ in range(MAX_DRAWS):
-            point = self.point_among(points)
-            if self._trial(point) is not None:
-                return point
-            self.passed_over["switch never ends"] += 1
-        return self.model.start
-
-    def point_among(self, points: Iterator[Array]) -> Array:
-        """Inputs at the next of some points of the unit cube, of the logarithm of a free number that is positive.
-
-        Points at which there is no such module, as with a leg that cannot reach its pin, are passed over.
-        """
-        for _ in range(MAX_DRAWS):
-            point = self.model.start.copy()
-            for free, share in zip(self.free, next(points), strict=True):
-                low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
-                point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
-            values = self.model.values(point, self.start_switch.values)
-            numbers = [value for name, value in values.items() if not on_switch(self.table, name)]
-            if not np.any(np.isnan(numbers)) and not impossible(values, self.table):
-                return point
-            self.passed_over["no such module"] += 1
-        return self.model.start
-
-    def _trial(self, inputs: Array) -> Switch | None:
-        """The switch at a point, None where it does not end."""
-        try:
-            known = inputs is self.model.start
-            switch = self.start_switch if known else self.simulator.run(inputs, stages=self.problem.stages)
-        except SimulationError:
-            return None
-        return switch if all(np.isfinite(switch.values[event]) for event in self.problem.events) else None
-
-    def guess(self, inputs: Array) -> Array:
-        """Unknowns at a point: the free numbers, and the switch simulated there (as far as it goes where it stalls)."""
-        switch = self._trial(inputs) or self.start_switch
-        parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.free])]
-        sizes = {c.stage: float(np.clip(inputs[self.model.index[c.row]], c.lower, c.upper)) for c in self.currents}
-        slew = float(inputs[self.model.index["current_slew"]])
-        ramps = {c.stage: (c.ramp_elements, ramp_time(sizes[c.stage], slew)) for c in self.currents}
-        for block in self.problem.blocks:
-            trajectory = switch.trajectories.get(block.stage.stage.name)
-            if trajectory is None:  # a stage that does not begin: as it would stand after the first
-                trajectory = self._standing(block.stage, switch)
-            end = switch.values[block.event]
-            end = end if np.isfinite(end) else trajectory.times[-1]
-            name = block.stage.stage.name
-            points = guess(trajectory, self.problem.elements(name), ramps.get(name, (0, 0.0))).ravel(order="F")
-            parts += [points, np.array([np.log(max(end, 1e-3))])]
-        parts += [np.full(current.nodes, sizes[current.stage] / current.upper) for current in self.currents]
-        for balance in self.problem.balances:
-            begin = switch.balances.get(balance.stage)
-            last = switch.trajectories[balance.stage]
-            parts.append(np.append(last.states[:, -1], last.currents[-1]) if begin is None else begin)
-        for name in self.problem.peaks:
-            row = self.table.row(name)
-            assert isinstance(row, Path)
-            value = switch.values[name]
-            parts.append(np.array([(value if np.isfinite(value) else 1.0) / self.problem.peak_scale(row)]))
-        return np.concatenate(parts)
-
-    def _standing(self, stage: StageModel, switch: Switch) -> Trajectory:
-        last = switch.trajectory
-        state = np.asarray(stage.begin(last.states[:, -1], self.model.start)).ravel()
-        return Trajectory(np.array([0.0, 60.0]), np.column_stack([state, state]), np.zeros(2))
-
-    # --- solving ---
-
     def solve(
         self,
         within: Mapping[str, Ends] | None = None,
@@ -285,7 +197,7 @@ class Optimizer:
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        lower, upper = self.bounds(within or {})
+        lower, upper = self.vector.bounds(within or {})
         solver = self._solver(warm is not None)
         if warm is not None:
             unknowns = warm.unknowns
@@ -312,17 +224,17 @@ class Optimizer:
         if stats["return_status"] == "User_Requested_Stop":
             raise KeyboardInterrupt
         unknowns = np.asarray(answer["x"]).ravel()
-        end = self._inputs_of(unknowns)
+        end = self.vector.inputs(unknowns)
         start = Start(
             number=0, status=stats["return_status"], converged=bool(stats["success"]),
             iterations=int(stats["iter_count"]), objective=float(answer["f"]), seconds=seconds,
-            begin=self.free_values(inputs), end=self.free_values(end),
+            begin=self.vector.free_values(inputs), end=self.vector.free_values(end),
         )  # fmt: skip
-        drives = self._drives_of(unknowns)
+        drives = self.vector.drives(unknowns)
         multipliers, of_bounds, of_parameters = (
             np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p")
         )
-        times = self._times_of(unknowns)
+        times = self.vector.times(unknowns)
         ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
         return Run(start, end, drives, ends, unknowns, multipliers, of_bounds, of_parameters)
 
@@ -353,61 +265,3 @@ class Optimizer:
         # A limit that is to be kept by a margin is held where that is used up.
         found[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
         return Derivatives(found, jacobian, ca.triu2symm(hessian), values, gradients)
-
-    def bounds(self, within: Mapping[str, Ends]) -> tuple[Array, Array]:
-        """Least and largest unknowns, with some free numbers kept within ends of their own."""
-        lower = np.full(self.problem.unknown_count, -np.inf)
-        upper = np.full(self.problem.unknown_count, np.inf)
-        for i, free in enumerate(self.free):
-            low, high = within.get(free.name, (free.lower, free.upper))
-            lower[i], upper[i] = free.to_unknown(low), free.to_unknown(high)
-        for current, place in self.places_of_currents():
-            lower[place], upper[place] = current.lower / current.upper, 1.0
-        last = len(self.free)
-        for block in self.problem.blocks:
-            last += block.unknowns.numel()
-            if block.stage.stage.name in self.study.profile.pieces():
-                lower[last - 1] = np.log(SHORTEST)
-        return lower, upper
-
-    def places_of_currents(self) -> Iterator[tuple[FreeCurrent, slice]]:
-        """Where the free currents stand among the unknowns."""
-        first = len(self.free) + sum(block.unknowns.numel() for block in self.problem.blocks)
-        for current in self.currents:
-            yield current, slice(first, first + current.nodes)
-            first += current.nodes
-
-    def _times_of(self, unknowns: Array) -> dict[str, float]:
-        """Time [s] to each event, after its stage's ramp."""
-        first, times = len(self.free), {}
-        for block in self.problem.blocks:
-            first += block.unknowns.numel()
-            times[block.event] = float(np.exp(unknowns[first - 1]))
-        return times
-
-    def _drives_of(self, unknowns: Array) -> dict[str, Drive]:
-        """The free currents over the time their stage takes."""
-        times = self._times_of(unknowns)
-        sizes = {
-            current.stage: np.clip(unknowns[place] * current.upper, current.lower, current.upper)
-            for current, place in self.places_of_currents()
-        }
-        slew = float(self.model.start[self.model.index["current_slew"]])
-        drives: dict[str, Drive] = {}
-        for name, nodes in sizes.items():
-            stage = self.table.stage(name)
-            signed = [float(stage.sign * size) for size in nodes]
-            drives[name] = Drive.in_pieces(ramp_time(float(nodes[0]), slew), times[stage.ends], signed)
-        return drives
-
-    def _inputs_of(self, unknowns: Array) -> Array:
-        inputs = self.model.start.copy()
-        for i, free in enumerate(self.free):
-            inputs[self.model.index[free.name]] = min(max(free.to_value(unknowns[i]), free.lower), free.upper)
-        for stage, drive in self._drives_of(unknowns).items():  # the row has one number: the mean
-            inputs[self.model.index[self.table.stage(stage).drive]] = abs(drive.mean)
-        return inputs
-
-    def free_values(self, inputs: Array) -> dict[str, float]:
-        """The free numbers among the inputs, by name."""
-        return {free.name: float(inputs[self.model.index[free.name]]) for free in self.free}

@@ -51,7 +51,7 @@ def _extreme(study: Study, catalog: Catalog, table: Table, row: str, sign: float
     run = optimizer.solve()
     if not run.start.converged:
         return None
-    return optimizer.model.values(run.inputs, optimizer.start_switch.values)[row]
+    return optimizer.model.values(run.inputs, optimizer.beginnings.switch.values)[row]
 
 
 def _given(study: Study, table: Table, name: str) -> float:

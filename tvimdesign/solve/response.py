@@ -57,7 +57,7 @@ class Response:
         """Places among the unknowns of what the optimiser decides: free numbers not held to a listed size, currents."""
         held = self._run.start.choices
         free = [i for i, one in enumerate(self._optimizer.free) if one.name not in held]
-        currents = [range(place.start, place.stop) for _, place in self._optimizer.places_of_currents()]
+        currents = [range(place.start, place.stop) for _, place in self._optimizer.vector.places_of_currents()]
         return free + [i for places in currents for i in places]
 
     def _tied_peaks(self, derivatives: Derivatives) -> list[int]:
@@ -95,7 +95,7 @@ class Response:
             if i not in tied and self._presses(run.multipliers[i], -derivatives.rows[i])
         ]
         rows = list((derivatives.jacobian[[i for _, i in places], :] @ ca.DM(along)).full()) if places else []
-        lower, upper = self._optimizer.bounds(run.within)
+        lower, upper = self._optimizer.vector.bounds(run.within)
         for i in np.flatnonzero(np.isfinite(lower) | np.isfinite(upper)):
             multiplier, value = run.bound_multipliers[i], run.unknowns[i]
             if lower[i] == upper[i]:

@@ -49,7 +49,7 @@ class Screen:
         """
         optimizer = self._optimizer
         count = len(optimizer.free)
-        lower, upper = (ends[:count] for ends in optimizer.bounds(within))
+        lower, upper = (ends[:count] for ends in optimizer.vector.bounds(within))
         start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
         found = self._solver(
             x0=np.append(np.clip(start, lower, upper), 0.1), p=optimizer.model.start,

@@ -73,7 +73,7 @@ def optimize(
     keep(tree.optimizer, [one for other, one in recorded if other is tree])
     starts = tuple(one.start for _, one in recorded)
     seconds = {key: sum(tree.optimizer.seconds[key] for tree in trees) for key in trees[0].optimizer.seconds}
-    passed_over = sum((Counter(tree.optimizer.passed_over) for tree in trees), Counter[str]())
+    passed_over = sum((Counter(tree.optimizer.beginnings.passed_over) for tree in trees), Counter[str]())
     solution = replace(
         account(tree.optimizer, run, starts, seconds), constant=tree.stepping_stone.found(), choosing=choosing,
         quarrel=quarrel, passed_over=dict(passed_over),

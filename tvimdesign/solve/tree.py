@@ -48,13 +48,13 @@ class Tree:
         runs: list[Run] = []
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)
-        for number, begin in enumerate(self.optimizer.begin_points()):
+        for number, begin in enumerate(self.optimizer.beginnings.points()):
             self.optimizer.progress(f"start {number + 1} of {count}")
             run = self.optimizer.solve(begin=self.stepping_stone.beyond(begin))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
                 run = second_try.from_peace(run)
             run.start = replace(
-                run.start, begin=self.optimizer.free_values(begin), choices=dict(self.records),
+                run.start, begin=self.optimizer.vector.free_values(begin), choices=dict(self.records),
                 relaxed=bool(self.sizes.names),
             )  # fmt: skip
             runs.append(run)
