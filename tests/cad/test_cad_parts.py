@@ -134,3 +134,12 @@ def test_pockets_and_windows_have_the_corners_the_process_leaves(process: str, r
     # Four arcs, each with a pocket and a window of four corners.
     assert len([found for found in radii if found == pytest.approx(radius, rel=1e-6)]) == 32
     assert not [check for check in size_checks(design, build(design)) if not check.ok]
+
+
+def test_parts_that_cut_each_other_are_told_with_volume_and_place() -> None:
+    block, other = cq.Solid.makeBox(10, 10, 10), cq.Solid.makeBox(10, 10, 10, cq.Vector(8, 6, -4))
+    cut, _ = interference_checks({"housing": block, "rotor": other}, "here")
+    assert not cut.ok
+    assert (cut.part, cut.unit) == ("housing, rotor", "mm³")
+    assert cut.value == pytest.approx(2.0 * 4.0 * 6.0)
+    assert cut.place == pytest.approx((9.0, 8.0, 3.0))

@@ -7,6 +7,7 @@ from itertools import combinations
 from math import nan, sqrt
 
 import cadquery as cq
+import numpy as np
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.BRepGProp import BRepGProp
 from OCP.gp import gp
@@ -27,6 +28,7 @@ ENVELOPE_TOLERANCE = 1e-6
 TOUCHING = 0.01
 """Common volume [mm^3] up to which two parts touch rather than cut each other."""
 _MM3, _MM5 = 1e-9, 1e-15
+Place = tuple[float, float, float]
 
 
 def all_checks(
@@ -116,18 +118,32 @@ def interference_checks(
         if not _overlap(boxes[first], boxes[second]):
             apart += 1
             continue
-        common = _common_volume(placed[first], placed[second])
+        common, place = _common(placed[first], placed[second])
         text = f"{first} and {second} share {common:.4g} mm3 {where}"
-        yield Check(f"{first} | {second} {where}", common, TOUCHING, common < TOUCHING, text)
+        yield Check(
+            f"{first} | {second} {where}", common, TOUCHING, common < TOUCHING, text,
+            part=f"{first}, {second}", place=place or _between(boxes[first], boxes[second]), unit="mm³",
+        )  # fmt: skip
     yield Check(f"pairs apart {where}", apart, 0.0, True, f"{apart} pairs are apart by their boxes {where}")
 
 
-def _common_volume(first: cq.Solid, second: cq.Solid) -> float:
-    """Volume both solids fill [mm^3]; not a number, which fails the check, where the kernel cannot tell."""
+def _common(first: cq.Solid, second: cq.Solid) -> tuple[float, Place | None]:
+    """Volume both solids fill [mm^3], and its centroid; not a number, which fails, where the kernel cannot tell."""
     operation = BRepAlgoAPI_Common(first.wrapped, second.wrapped)
     if not operation.IsDone():
-        return nan
-    return float(cq.Shape.cast(operation.Shape()).Volume())
+        return nan, None
+    common = cq.Shape.cast(operation.Shape())
+    volume = float(common.Volume())
+    return volume, common.Center().toTuple() if volume > 0.0 else None
+
+
+def _between(a: cq.BoundBox, b: cq.BoundBox) -> Place:
+    """The middle of what two boxes share: where two parts would meet."""
+    low, high = (
+        np.array([[getattr(box, f"{axis}{end}") for axis in "xyz"] for box in (a, b)]) for end in ("min", "max")
+    )
+    x, y, z = (0.5 * (low.max(axis=0) + high.min(axis=0))).tolist()
+    return x, y, z
 
 
 def _together(mode: str, first: str, second: str) -> bool:
