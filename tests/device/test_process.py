@@ -96,7 +96,9 @@ def test_a_milled_pocket_is_no_deeper_than_its_corners_and_its_width_allow() -> 
 def test_a_milled_slot_between_pads_is_no_deeper_than_its_corners_and_its_width_allow() -> None:
     inputs = of_process("compression", "machine_6061", floor_thickness="4 mm", block_height="3.5 mm")
     table = table_for("compression")
-    values = table.evaluate(inputs, ["slot_pocket_reserve", "slot_corner_reserve", "slot_opening"])
+    values = table.evaluate(inputs, ["slot_pocket_reserve", "slot_corner_reserve", "slot_opening", "pad_seat"])
     depth = 4 + 3.5 + 0.1 - 2  # floor and vane, less the ledge
     assert values["slot_corner_reserve"] == pytest.approx((3 * 1.5 - depth) * MM)
     assert values["slot_pocket_reserve"] == pytest.approx(4 * values["slot_opening"] - depth * MM)
+    # Corners of 1.5 mm are as wide as the pads: these would stand on nothing beside the slots.
+    assert values["pad_seat"] == pytest.approx(0.0, abs=1e-12)

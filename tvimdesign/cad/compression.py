@@ -25,12 +25,19 @@ def housing(dims: Dimensions) -> cq.Shape:
     vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.housing_vane_angle, 0, dims.vane_height)
     # The pads drop in from above: their pockets are open there, and at both ends.
     end = dims.peltier_thickness
-    pocketed = vane.cut(*_beside_faces(dims, end, (dims.running_clearance, dims.vane_height + end)))
-    floor_bottom, roof = -dims.floor_thickness, dims.vane_height - dims.window_ledge
-    whole = sector(dims.slot_inner_radius, dims.slot_outer_radius, dims.housing_vane_angle, floor_bottom, roof)
-    slot = rounded(whole.cut(*_beside_faces(dims, end, (floor_bottom - end, roof + end))), dims.corner_radius)
+    seat, roof = dims.running_clearance, dims.vane_height - dims.window_ledge
+    pocketed = vane.cut(*_beside_faces(dims, end, end, (seat, dims.vane_height + end)))
+    # Beside the pads a slot's corners open into their pockets. Below, it is wider by its corners: a cutter can come by.
+    foot = rounded(_slot(dims, end - dims.corner_radius, -dims.floor_thickness, seat), dims.corner_radius)
+    slot = foot.fuse(_slot(dims, end, seat, roof))
     azimuths = _housing_vanes(dims)
     return bare_housing(dims, [turned(pocketed, at) for at in azimuths], [turned(slot, at) for at in azimuths])
+
+
+def _slot(dims: Dimensions, seat: float, bottom: float, top: float) -> cq.Shape:
+    """The slot of a housing vane between two levels, so far behind the vane's faces."""
+    whole = sector(dims.slot_inner_radius, dims.slot_outer_radius, dims.housing_vane_angle, bottom, top)
+    return whole.cut(*_beside_faces(dims, seat, dims.peltier_thickness, (bottom, top)))
 
 
 def rotor(dims: Dimensions) -> cq.Shape:
@@ -96,10 +103,16 @@ def _housing_vanes(dims: Dimensions) -> list[float]:
 
 def _pad_place(dims: Dimensions, side: float) -> tuple[float, float]:
     """Azimuth from the middle of a housing vane to the hot face of a pad, and how far the pad's middle is beside it."""
-    return side * 0.5 * dims.housing_vane_angle, -side * 0.5 * dims.peltier_thickness
+    return _behind_face(dims, side, dims.peltier_thickness)
 
 
-def _beside_faces(dims: Dimensions, more: float, levels: tuple[float, float]) -> list[cq.Shape]:
-    """Both pads of a housing vane that is centred on the x axis, longer at either end, between two levels."""
+def _behind_face(dims: Dimensions, side: float, thickness: float) -> tuple[float, float]:
+    """Azimuth of a face of a housing vane, and how far beside it the middle of a plate is that lies behind it."""
+    return side * 0.5 * dims.housing_vane_angle, -side * 0.5 * thickness
+
+
+def _beside_faces(dims: Dimensions, thickness: float, more: float, levels: tuple[float, float]) -> list[cq.Shape]:
+    """Plates behind both faces of a housing vane on the x axis, longer than it at either end, between two levels."""
     longer = (dims.pcl_inner_radius - more, dims.pcl_outer_radius + more)
-    return [turned(block(longer, dims.peltier_thickness, *levels), *_pad_place(dims, side)) for side in _SIDES]
+    plate = block(longer, thickness, *levels)
+    return [turned(plate, *_behind_face(dims, side, thickness)) for side in _SIDES]

@@ -43,13 +43,27 @@ def slot_section(
     slot_inner_radius: Scalar,
     slot_outer_radius: Scalar,
     peltier_thickness: Scalar,
-    corner_radius: Scalar,
 ) -> Scalar:
-    """Area of the slots in plan view [m^2]: sectors of the vanes, less the pads on either side, corners rounded."""
+    """Area of the slots in plan view beside the pads [m^2]: sectors of the vanes, less the pads on either side."""
     whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
     pads = 2.0 * radial_strip(peltier_thickness, slot_inner_radius, slot_outer_radius)
-    rounded = corners(corner_radius, slot_inner_radius, slot_outer_radius, peltier_thickness)
-    return vane_count * (whole - pads - rounded)
+    return vane_count * (whole - pads)
+
+
+@book.helper()
+def slot_foot_section(
+    vane_count: Scalar,
+    housing_vane_angle: Scalar,
+    slot_inner_radius: Scalar,
+    slot_outer_radius: Scalar,
+    pad_seat: Scalar,
+    corner_radius: Scalar,
+) -> Scalar:
+    """Area of the slots in plan view below the pads [m^2]: less what the pads stand on, corners rounded."""
+    whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
+    seats = 2.0 * radial_strip(pad_seat, slot_inner_radius, slot_outer_radius)
+    rounded = corners(corner_radius, slot_inner_radius, slot_outer_radius, pad_seat)
+    return vane_count * (whole - seats - rounded)
 
 
 @book.output("mm^3")
@@ -60,14 +74,16 @@ def housing_vanes_volume(
     pcl_outer_radius: Scalar,
     vane_height: Scalar,
     block_height: Scalar,
-    window_ledge: Scalar,
+    slot_height: Scalar,
     peltier_thickness: Scalar,
     slot_section: Scalar,
+    slot_foot_section: Scalar,
 ) -> Scalar:
     """Volume of the housing's vanes, less the pads let into them and their slots."""
     whole = sector(housing_vane_angle, pcl_inner_radius, pcl_outer_radius).area * vane_height
     pads = 2.0 * radial_strip(peltier_thickness, pcl_inner_radius, pcl_outer_radius) * block_height
-    return vane_count * (whole - pads) - slot_section * (vane_height - window_ledge)
+    slots = slot_section * slot_height + slot_foot_section * (vane_height - block_height)
+    return vane_count * (whole - pads) - slots
 
 
 @book.output("mm^3")
@@ -75,7 +91,7 @@ def floor_volume(
     hub_radius: Scalar,
     housing_outer_radius: Scalar,
     floor_thickness: Scalar,
-    slot_section: Scalar,
+    slot_foot_section: Scalar,
     spring_count: Scalar,
     spring_hole_area: Scalar,
     mount_hole: Scalar,
@@ -83,7 +99,7 @@ def floor_volume(
     """Volume of the housing's floor around the hub, less slots, tang holes and mounting holes."""
     disc = ring(hub_radius, housing_outer_radius).area
     holes = spring_hole_area + np.pi * (0.5 * mount_hole) ** 2
-    return (disc - spring_count * holes - slot_section) * floor_thickness
+    return (disc - spring_count * holes - slot_foot_section) * floor_thickness
 
 
 @book.output("mm^3")

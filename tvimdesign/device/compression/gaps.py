@@ -89,12 +89,6 @@ _NARROW = "the slots are narrower than twice the radius of their corners: choose
 
 
 @book.output("mm", at_least(0.0, _NARROW))
-def slot_opening_reserve(slot_opening: Scalar, corner_radius: Scalar) -> Scalar:
-    """Distance of the two pads of a housing vane, at the inner end of the slot, beyond the slot's corners."""
-    return slot_opening - 2.0 * corner_radius
-
-
-@book.output("mm", at_least(0.0, _NARROW))
 def slot_width_reserve(slot_width: Scalar, corner_radius: Scalar) -> Scalar:
     """Radial width of the slots beyond their corners."""
     return slot_width - 2.0 * corner_radius
@@ -126,3 +120,12 @@ def mount_slot_gap(
 ) -> Scalar:
     """Room between the mounting feet and the slots in the floor beyond the radial clearance."""
     return placement_radius - mount_boss_radius - slot_outer_radius - radial_clearance
+
+
+_FALLS = "slots are wider below the pads, by the radius of their corners, and leave these nothing to stand on"
+
+
+@book.output("mm", at_least(0.2 * MM, _FALLS, 0.0))
+def pad_seat(peltier_thickness: Scalar, corner_radius: Scalar) -> Scalar:
+    """Width of what a pad stands on beside its slot."""
+    return peltier_thickness - corner_radius

@@ -19,9 +19,9 @@ book = Book(shared.group)
 
 
 @book.helper()
-def cold_area(vane_count: Scalar, slot_width: Scalar, corner_radius: Scalar, slot_height: Scalar) -> Scalar:
-    """Open area of the pads' cold sides [m^2]: what of them the slots show between their rounded corners."""
-    return 2.0 * vane_count * (slot_width - 2.0 * corner_radius) * slot_height
+def cold_area(vane_count: Scalar, slot_width: Scalar, slot_height: Scalar) -> Scalar:
+    """Open area of the pads' cold sides [m^2]: what of them the slots show."""
+    return 2.0 * vane_count * slot_width * slot_height
 
 
 @book.helper(instant=True)
