@@ -64,6 +64,8 @@ class Draws:
         self.study = study
         self.table: Table = table_for(study.mode)
         self._known = given(study, Catalog(), self.table)
+        if not study.vary:
+            raise SystemExit(f"{study.name} varies nothing: choose a study with a vary section")
         self._random = np.random.default_rng(seed)
         self._rows = [row for row in self.table.outputs if _is_plain(row, self.table)]
         self._ruled = [row for row in self._rows if row.rules and not row.hidden]
