@@ -56,7 +56,7 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 def job(tmp_path: Path) -> Callable[..., CadReport]:
     """Make the parts of the paper's module with some values changed behind the model's back."""
 
-    def run(timeout_s: float = 60.0, **values: float) -> CadReport:
+    def run(timeout_s: float = 240.0, **values: float) -> CadReport:
         good = design_of("changed", {})
         design = good.model_copy(update={"values": good.values | values})
         write_design(design, tmp_path / "design.json")
