@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterable
 from functools import cache
 from importlib import resources
@@ -205,7 +204,7 @@ def _of_record(record: tuple[str, str]) -> str:
 
 def _summary(function: Callable[..., Any]) -> str:
     """First paragraph of the docstring, on one line."""
-    text = inspect.getdoc(function) or ""
+    text = function.__doc__ or ""
     return " ".join(text.split("\n\n")[0].split()).rstrip(".")
 
 

@@ -274,7 +274,10 @@ class Table:
         `given` holds SI numbers, arrays or symbols by full name, and the chosen records and options. Returns the wanted
         values by name. Raises InputError where a row is missing from `given`.
         """
-        known = dict(given)
+        return self.resolve(dict(given), wanted)
+
+    def resolve(self, known: dict[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
+        """The same from rows that are known, to which all that is computed on the way is added."""
         return {name: self._resolve(name, known) for name in wanted}
 
     def _resolve(self, name: str, known: dict[str, Any]) -> Any:
@@ -328,8 +331,15 @@ class Table:
         per_point = not isinstance(row, Choice) and row.per_point
         return f"{need}@{point}" if per_point and point else need
 
+    @cached_property
+    def _ancestors(self) -> dict[str, frozenset[str]]:
+        """Those that were asked for."""
+        return {}
+
     def ancestors(self, name: str) -> frozenset[str]:
         """Every row, by base name, that the named one depends on."""
+        if name in self._ancestors:
+            return self._ancestors[name]
         seen: set[str] = set()
         todo = [name.partition("@")[0]]
         while todo:
@@ -339,4 +349,5 @@ class Table:
                 if base not in seen and base not in _NO_ROWS:
                     seen.add(base)
                     todo.append(base)
-        return frozenset(seen)
+        found = self._ancestors[name] = frozenset(seen)
+        return found

@@ -197,25 +197,25 @@ def bounds(data: dict[str, Any]) -> Figure:
     begins, ends = ([row[name] for row in reversed(free)] for name in ("start", "share"))
     where.plot(begins, lines, "o", color="white", markeredgecolor="grey", label="start")
     where.plot(ends, lines, "o", color="tab:blue", label="design")
-    names = [f"{row['name']}  {row['text']}" for row in reversed(free)]
-    where.set(yticks=range(len(free)), yticklabels=names, xticks=[0, 1], xticklabels=["lower bound", "upper bound"],
-              title="What varies")  # fmt: skip
+    where.set(xticks=[0, 1], xticklabels=["lower bound", "upper bound"], xlim=(-0.05, 1.05), title="What varies")
     if free:
         where.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2)
-    where.set_xlim(-0.05, 1.05)
-    where.tick_params(axis="y", labelsize=8)
     shown = [max(min(row["margin"], 1.0), -1.0) for row in reversed(limits)]
     colours = [_colour(row["margin"], row["kept"]) for row in reversed(limits)]
     margins.barh(range(len(limits)), [v if abs(v) > 0.01 else 0.01 for v in shown], color=colours)
-    told = [f"{row['name']}   {row['text']}" for row in reversed(limits)]
-    margins.set(yticks=range(len(limits)), yticklabels=told, xlim=(-1.05, 1.05))
-    margins.set(xticks=[0.0], xticklabels=["limit"], title="What must hold (bars end at 100 %)")
-    margins.tick_params(axis="y", labelsize=7)
-    for axes in (where, margins):
-        axes.grid(axis="y", visible=False)
+    margins.set(xticks=[0.0], xticklabels=["limit"], xlim=(-1.05, 1.05), title="What must hold (bars end at 100 %)")
+    _beside(where, [f"{row['name']}  {row['text']}" for row in reversed(free)], 8)
+    _beside(margins, [f"{row['name']}   {row['text']}" for row in reversed(limits)], 7)
     inches = figure.get_figheight()
-    figure.subplots_adjust(left=0.17, right=0.99, bottom=0.75 / inches, top=1.0 - 0.35 / inches, wspace=1.0)
+    figure.subplots_adjust(left=0.17, right=0.99, bottom=0.75 / inches, top=1.0 - 0.5 / inches, wspace=1.0)
     return figure
+
+
+def _beside(axes: Any, names: list[str], size: int) -> None:
+    """Names to the left of lines or bars, from the lowest up: as ticks they would be five things to draw each."""
+    axes.set_yticks([])
+    for i, name in enumerate(names):
+        axes.text(-0.02, i, name, ha="right", va="center", fontsize=size, transform=axes.get_yaxis_transform())
 
 
 def trial(data: dict[str, Any]) -> Figure:

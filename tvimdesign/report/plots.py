@@ -7,6 +7,7 @@ Run as `python -m tvimdesign.report.plots`: reads one JSON object on standard in
 from __future__ import annotations
 
 import contextlib
+import gc
 import io
 import json
 import os
@@ -81,6 +82,7 @@ class PlotProcess:
 def main() -> None:
     """Load matplotlib, wait for the data, draw."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
+    gc.disable()  # a tenth of the time; all there ever is to collect is a few figures
     from tvimdesign.report import figures
 
     figures.warm_up()

@@ -131,7 +131,7 @@ def answer(
     warnings = tuple(check for check in advice if not check.kept)
     return Answer(
         design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, switch),
-        sweep=impedance_sweep(rig, model, switch), solution=solution,
+        sweep=impedance_sweep(rig), solution=solution,
         intervals=open_values,
         constant_current=_at_constant_current(model, inputs, set(drives)),
     )  # fmt: skip

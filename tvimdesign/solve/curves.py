@@ -9,7 +9,7 @@ from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.solve.history import HISTORIES, fractions_at
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.rig import Rig
-from tvimdesign.solve.simulate import Switch, Trajectory
+from tvimdesign.solve.simulate import Trajectory
 
 Array = NDArray[np.float64]
 Curves = dict[str, list[float]]
@@ -34,7 +34,7 @@ def stage_history(model: Model, inputs: Array, trajectory: Trajectory, stage: st
     return {"time": times.tolist(), **history, **more}
 
 
-def impedance_sweep(rig: Rig, model: Model, switch: Switch) -> Curves:
+def impedance_sweep(rig: Rig) -> Curves:
     """Stiffness and damping of layer and joint against the layer's temperature [degC], at the hot point's frequency.
 
     Each with its least and largest value over what history allows, `..._low` and `..._high`; the middle one is the
@@ -42,22 +42,14 @@ def impedance_sweep(rig: Rig, model: Model, switch: Switch) -> Curves:
     """
     celsius = np.linspace(0.0, 120.0, SAMPLES)
     names = ["pcl_stiffness", "pcl_damping", "joint_stiffness", "joint_damping", "solid_fraction"]
-    # The solid fraction at the hot point becomes an input.
-    free = Model(rig.table, {**rig.values, "solid_fraction@hot": 1.0}, rig.points, model.cells)
-    outputs = free.outputs([f"{name}@hot" for name in names]).map(SAMPLES)
-    switches = np.repeat(np.array([[switch.values[name]] for name in free.switch_names]), SAMPLES, axis=1)
-    columns = np.repeat(free.start[:, None], SAMPLES, axis=1)
-    columns[free.index["temperature@hot"]] = celsius + ZERO_CELSIUS
-
-    def swept(shares: Array) -> Array:
-        columns[free.index["solid_fraction@hot"]] = shares
-        return np.array(outputs(columns, switches))
-
     low, nominal, high = np.array([fractions_at(rig, float(at)) for at in celsius + ZERO_CELSIUS]).T
-    middle = swept(nominal)
-    every = np.array([middle, *(swept(low + part * (high - low)) for part in np.linspace(0.0, 1.0, HISTORIES))])
+    shares = np.array([nominal, *(low + part * (high - low) for part in np.linspace(0.0, 1.0, HISTORIES))])
+    # Every sample at once; the solid fraction at the hot point is given.
+    swept = {**rig.values, "temperature@hot": celsius + ZERO_CELSIUS, "solid_fraction@hot": shares}
+    found = rig.table.evaluate(swept, [f"{name}@hot" for name in names])
     curves: Curves = {"temperature": celsius.tolist()}
-    for i, name in enumerate(names):
-        curves |= {name: middle[i].tolist(), f"{name}_low": every[:, i].min(axis=0).tolist(),
-                   f"{name}_high": every[:, i].max(axis=0).tolist()}  # fmt: skip
+    for name in names:
+        every = found[f"{name}@hot"]
+        curves |= {name: every[0].tolist(), f"{name}_low": every.min(axis=0).tolist(),
+                   f"{name}_high": every.max(axis=0).tolist()}  # fmt: skip
     return curves

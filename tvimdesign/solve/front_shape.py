@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import minimum_spanning_tree
 
 from tvimdesign.solve.goal import Bound
 
@@ -84,6 +83,8 @@ def spread(shares: Array) -> float:
 
 def neighbours(shares: Array) -> list[tuple[int, int, float]]:
     """Pairs of points that the shortest tree through all of them joins, and how far apart they are."""
+    from scipy.sparse.csgraph import minimum_spanning_tree
+
     if len(shares) < 2:
         return []
     distances = np.linalg.norm(shares[:, None, :] - shares[None, :, :], axis=2)

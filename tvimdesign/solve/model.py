@@ -49,6 +49,15 @@ class Model:
         return self.table.settled(self._symbols[2])
 
     @cached_property
+    def _known(self) -> dict[str, Any]:
+        """All that is written so far, with the cycle's values as symbols; outputs that are asked for are added."""
+        return {**self._settled, **self._cycle}
+
+    @property
+    def _cycle(self) -> dict[str, Any]:
+        return dict(zip(self.switch_names, as_array(self._symbols[1]), strict=True))
+
+    @cached_property
     def stages(self) -> dict[str, StageModel]:
         """Every stage of the working cycle by name, in the order they are gone through."""
         inputs, known = self._symbols[0], self._settled
@@ -64,13 +73,9 @@ class Model:
 
         `instead` fixes rows, by full name, that would otherwise be computed.
         """
-        inputs, switch, known = self._symbols
-        known = {
-            **(known if instead else self._settled),
-            **dict(zip(self.switch_names, as_array(switch), strict=True)),
-            **(instead or {}),
-        }
-        values = self.table.evaluate(known, wanted)
+        inputs, switch, given = self._symbols
+        known = {**given, **self._cycle, **instead} if instead else self._known
+        values = self.table.resolve(known, wanted)
         return ca.Function("outputs", [inputs, switch], [ca.vertcat(*(values[name] for name in wanted))])
 
     @cached_property

@@ -259,20 +259,20 @@ class Problem:
         peaks: dict[str, Any] = {}
         rows = []
         needed = self._needed()
-        for row in self.model.table.supplied:
-            if not isinstance(row, Path) or row.name not in needed:
+        for stage in self.model.stages.values():
+            paths = [row for row in stage.paths if row.name in needed]
+            if not paths:
                 continue
-            stage = self.model.stages[row.stage]
-            block = by_event[stage.stage.ends]
-            watch = stage.watch([row.name])
-            samples = at_each(stage, watch, block.every, block.currents, self._device_inputs)
-            if row.reduce == "integral":
-                values[row.name] = ca.mtimes(samples[1:], block.weights)
-            else:
-                scale = self.peak_scale(row)
-                peaks[row.name] = ca.MX.sym(row.name)
-                values[row.name] = scale * peaks[row.name]
-                rows.append(ca.vec(samples) / scale - peaks[row.name])
+            block, watch = by_event[stage.stage.ends], stage.watch([row.name for row in paths])
+            samples = ca.vertsplit(at_each(stage, watch, block.every, block.currents, self._device_inputs))
+            for row, sampled in zip(paths, samples, strict=True):
+                if row.reduce == "integral":
+                    values[row.name] = ca.mtimes(sampled[1:], block.weights)
+                else:
+                    scale = self.peak_scale(row)
+                    peaks[row.name] = ca.MX.sym(row.name)
+                    values[row.name] = scale * peaks[row.name]
+                    rows.append(sampled.T / scale - peaks[row.name])
         for balance in self.balances:
             stage = self.model.stages[balance.stage]
             for steady in stage.steadies:

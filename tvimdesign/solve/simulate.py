@@ -156,14 +156,16 @@ class _StageSimulator:
         self._shares = np.linspace(0.0, 1.0, steps + 1)
         self._integrals = [row.name for row in stage.paths if row.reduce == "integral"]
         self._events = [row.name for row in stage.events]
-        self._watched = stage.watch([*self._events, *(row.name for row in stage.paths)])
-        self._of_stretch = self._watched.map(steps + 1)
-        state = ca.SX.sym("state", stage.state_size)
+        state, current = ca.SX.sym("state", stage.state_size), ca.SX.sym("current")
         extra = ca.SX.sym("integrals", len(self._integrals))
         length, first, last, time = (ca.SX.sym(name) for name in ("length", "first", "last", "time"))
         drive = first + (last - first) * time
-        self._constants, varying = stage.per_stage(self._rates)
+        self._constants, varying = stage.per_stage(self._everything)
         constants = ca.SX.sym("constants", self._constants.size1_out(0))
+        size = stage.state_size + len(self._integrals)
+        watched = varying(state, current, constants)[size:]
+        self._watched = ca.Function("watched", [state, current, constants], [watched])
+        self._of_stretch = self._watched.map(steps + 1)
         self._integrator = ca.integrator(
             stage.stage.name,
             "cvodes",
@@ -171,7 +173,7 @@ class _StageSimulator:
                 "x": ca.vertcat(state, extra),
                 "p": ca.vertcat(constants, length, first, last),
                 "t": time,
-                "ode": length * varying(state, drive, constants),
+                "ode": length * varying(state, drive, constants)[:size],
             },
             0.0,
             self._shares[1:],
@@ -185,11 +187,10 @@ class _StageSimulator:
             },
         )
 
-    def _rates(self, state: Any, drive: Any, inputs: Any) -> Any:
-        """Rates of the state and of the integrals."""
-        return ca.vertcat(
-            self.stage.rates(state, drive, inputs), self.stage.watch(self._integrals)(state, drive, inputs)
-        )
+    def _everything(self, state: Any, drive: Any, inputs: Any) -> Any:
+        """Rates of the state and of the integrals, then what is watched: events and paths."""
+        watched = [*self._integrals, *self._events, *(row.name for row in self.stage.paths)]
+        return ca.vertcat(self.stage.rates(state, drive, inputs), self.stage.watch(watched)(state, drive, inputs))
 
     def run(
         self, inputs: Array, drive: Drive, before: Array | None, stretch: float
@@ -204,8 +205,8 @@ class _StageSimulator:
             length = min(length, drive.next_corner(time) - time, horizon - time)
             currents = drive.at(time + length * self._shares)
             states = self._stretch(begin, constants, length, currents)
-            watched = self._watch(states, inputs, currents)
-            self._look(found, (time, length, currents), states, watched, inputs)
+            watched = self._watch(states, constants, currents)
+            self._look(found, (time, length, currents), states, watched, constants)
             pieces.append((time + length * self._shares, states, watched))
             begin, time = states[:, -1], time + length
             rate = np.asarray(self.stage.rates(begin[: self.stage.state_size], currents[-1], inputs)).ravel()
@@ -213,7 +214,7 @@ class _StageSimulator:
             if constant and np.max(np.abs(rate)) * (horizon - time) < STALLED:
                 break
             length = 2.0 * length if length >= FIRST_STRETCH else stretch
-        return self._summary(found, pieces, inputs, drive)
+        return self._summary(found, pieces, constants, drive)
 
     def trace(self, inputs: Array, drive: Drive, before: Array | None, end: float) -> Trajectory:
         """Simulate one stretch of a constant current, whatever happens in it."""
@@ -241,12 +242,12 @@ class _StageSimulator:
             ) from error
         return np.column_stack([begin, after])
 
-    def _watch(self, stretch: Array, inputs: Array, currents: Array) -> Array:
-        columns = np.repeat(inputs[:, None], stretch.shape[1], axis=1)
+    def _watch(self, stretch: Array, constants: Array, currents: Array) -> Array:
+        columns = np.repeat(constants[:, None], stretch.shape[1], axis=1)
         return np.asarray(self._of_stretch(stretch[: self.stage.state_size], currents[None, :], columns))
 
     def _look(
-        self, found: _Found, when: tuple[float, float, Array], stretch: Array, watched: Array, inputs: Array
+        self, found: _Found, when: tuple[float, float, Array], stretch: Array, watched: Array, constants: Array
     ) -> None:
         """Note the events that happen within a stretch. Those that wait for the same thing are looked at once."""
         time = when[0]
@@ -255,14 +256,14 @@ class _StageSimulator:
             if np.isfinite(found.times[name]) or not np.any(watched[i] >= 0.0):
                 continue
             same = [known[1:] for known in seen if np.array_equal(known[0], watched[i])]
-            share, state = same[0] if same else self._crossing(stretch, inputs, when, i, watched[i])
+            share, state = same[0] if same else self._crossing(stretch, constants, when, i, watched[i])
             seen.append((watched[i], share, state))
             found.times[name] = time + share
             if name == self.stage.stage.ends:
                 found.end = state
 
     def _crossing(
-        self, stretch: Array, inputs: Array, when: tuple[float, float, Array], event: int, gap: Array
+        self, stretch: Array, constants: Array, when: tuple[float, float, Array], event: int, gap: Array
     ) -> tuple[float, Array]:
         """Time within a stretch at which a gap passes zero, and the state there: looked at once more, then linear."""
         _, length, currents = when
@@ -271,16 +272,15 @@ class _StageSimulator:
         first = int(np.argmax(gap >= 0.0))
         steps = len(self._shares) - 1
         within = np.linspace(currents[first - 1], currents[first], steps + 1)
-        constants = np.asarray(self._constants(inputs)).ravel()
         close = self._stretch(stretch[:, first - 1], constants, length / steps, within)
-        near = self._watch(close, inputs, within)[event]
+        near = self._watch(close, constants, within)[event]
         last = max(int(np.argmax(near >= 0.0)), 1)
         part = near[last - 1] / (near[last - 1] - near[last])
         share = (first - 1 + (last - 1 + part) / steps) / steps
         return float(share * length), close[:, last - 1] + part * (close[:, last] - close[:, last - 1])
 
     def _summary(
-        self, found: _Found, pieces: list[tuple[Array, Array, Array]], inputs: Array, drive: Drive
+        self, found: _Found, pieces: list[tuple[Array, Array, Array]], constants: Array, drive: Drive
     ) -> tuple[dict[str, float], Trajectory]:
         """Values of the stage's events and paths, and its trajectory up to the event that ends it."""
         # The last sample of a stretch is the first of the next.
@@ -291,7 +291,7 @@ class _StageSimulator:
         if found.end is not None:
             end = found.times[self.stage.stage.ends]
             keep = times < end
-            now = self._watched(found.end[: self.stage.state_size], drive.at(np.array([end])), inputs)
+            now = self._watched(found.end[: self.stage.state_size], drive.at(np.array([end])), constants)
             times = np.append(times[keep], end)
             states = np.column_stack([states[:, keep], found.end])
             watched = np.column_stack([watched[:, keep], np.asarray(now).ravel()])

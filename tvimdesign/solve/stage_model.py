@@ -104,7 +104,9 @@ class StageModel:
         expression = function(state, drive, self._inputs)
         value, symbols, constants = ca.extract_parametric(expression, self._inputs)
         # Inputs that meet the state as they are stay in the expression; they are constants too.
-        bare = [symbol for symbol in ca.symvar(value) if ca.which_depends(symbol, self._inputs, 1, True)[0]]
+        left = ca.symvar(value)
+        moved = ca.which_depends(ca.vertcat(*left), self._inputs, 1, True) if left else []
+        bare = [symbol for symbol, depends in zip(left, moved, strict=True) if depends]
         return (
             ca.Function("constants", [self._inputs], [ca.vertcat(*constants, *bare)]),
             ca.Function("varying", [state, drive, ca.vertcat(*symbols, *bare)], [value], _BY_JACOBIAN),

@@ -104,20 +104,17 @@ def stage_block(
 
     A current that is not there from the start rises from zero to its first node over a `ramp`: elements and seconds.
     """
-    _, derivative, weights = radau()
+    weights = radau()[2]
     log_time = ca.MX.sym(f"log_time_{event}")
     ramp_elements, ramp_time = ramp
     lengths = [ramp_time / ramp_elements] * ramp_elements if ramp_elements else []
     lengths += [ca.exp(log_time) / elements] * elements
     states = ca.MX.sym(f"states_{event}", stage.state_size, len(lengths) * ORDER)
     currents = ca.mtimes(nodes.T, between_nodes(elements, nodes.numel(), ramp_elements))
+    every = ca.horzcat(start, states)
+    slopes = ca.mtimes(every, _differences(len(lengths)))
     rates = at_each(stage, stage.rates, states, currents[:, 1:], inputs)
-    equations = []
-    for element, length in enumerate(lengths):
-        columns = slice(element * ORDER, (element + 1) * ORDER)
-        before = start if element == 0 else states[:, element * ORDER - 1]
-        slopes = ca.mtimes(ca.horzcat(before, states[:, columns]), derivative)
-        equations.append(ca.vec(slopes - length * rates[:, columns]))
+    steps = ca.horzcat(*(ca.repmat(length, 1, ORDER) for length in lengths))
     gap = stage.watch([event])(states[:, -1], currents[:, -1], inputs)
     return Block(
         event=event,
@@ -125,11 +122,20 @@ def stage_block(
         states=states,
         log_time=log_time,
         ramp=ramp_time,
-        equations=ca.vertcat(*equations, gap),
-        every=ca.horzcat(start, states),
+        equations=ca.vertcat(ca.vec(slopes - ca.repmat(steps, stage.state_size, 1) * rates), gap),
+        every=every,
         currents=currents,
         weights=ca.vertcat(*(length * weights for length in lengths)),
     )
+
+
+def _differences(elements: int) -> Any:
+    """Matrix that takes the start and every point to derivatives at every point over an element's length (DM)."""
+    _, derivative, _ = radau()
+    blocks = ca.DM(elements * ORDER + 1, elements * ORDER)
+    for first in range(0, elements * ORDER, ORDER):
+        blocks[first : first + ORDER + 1, first : first + ORDER] = derivative
+    return blocks
 
 
 def at_each(stage: StageModel, function: Any, states: Any, currents: Any, inputs: Any) -> Any:
