@@ -60,7 +60,7 @@ def compare(study: Study, weights: dict[str, float]) -> str:
     table = table_for(study.mode)
     sizes = listed_sizes(asked, table)
     begin = time.process_time()
-    tree = Tree(0, Optimizer(asked, Catalog(), table, sizes.count), {}, sizes, Work())
+    tree = Tree(0, Optimizer(asked, Catalog(), table), {}, sizes, Work())
     tree.starts()
     built = time.process_time() - begin
     results = {how: clocked(tree, how) for how in ("all", "1", "5")}

@@ -62,7 +62,7 @@ class Contender:
 def by_tvimdesign(_: Reference, begin: Array) -> Found:
     """Build and solve, as `tvimdesign run` does for one start."""
     asked = study()
-    optimizer = Optimizer(asked, Catalog(), table_for(asked.mode), 1)
+    optimizer = Optimizer(asked, Catalog(), table_for(asked.mode))
     inputs = optimizer.model.start.copy()
     places = [optimizer.model.index[free.name] for free in optimizer.free]
     inputs[places] = begin

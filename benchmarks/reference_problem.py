@@ -50,7 +50,7 @@ class Reference:
     def __init__(self, asked: Study) -> None:
         """Compile them once; no contender is charged for it but tvimdesign, which builds its own."""
         catalog, table = Catalog(), table_for(asked.mode)
-        self.optimizer = Optimizer(asked, catalog, table, 1)
+        self.optimizer = Optimizer(asked, catalog, table)
         model, problem = self.optimizer.model, self.optimizer.problem
         self.model, self.limits, self.free = model, problem.limits, self.optimizer.free
         self.places = [model.index[free.name] for free in self.free]

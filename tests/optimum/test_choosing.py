@@ -145,8 +145,8 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(found: So
 def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:
     text = LISTED.replace("vary:", "module: {structure_material: STUFF}\nvary:")
     petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))
-    first = Optimizer(petg, Catalog(), TABLE, 1)
-    shared, own = first.with_records(metal), Optimizer(metal, Catalog(), TABLE, 1, first.reference)
+    first = Optimizer(petg, Catalog(), TABLE)
+    shared, own = first.with_records(metal), Optimizer(metal, Catalog(), TABLE, first.reference)
     assert shared is not None
     assert shared.problem is first.problem
     runs = [optimizer.solve(begin=own.model.start) for optimizer in (shared, own)]
@@ -185,7 +185,7 @@ def test_where_no_combination_has_a_design_that_is_said() -> None:
 
 def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:
     study = listed()
-    optimizer = Optimizer(study, Catalog(), TABLE, 1)
+    optimizer = Optimizer(study, Catalog(), TABLE)
     screen, begin = Screen(optimizer), optimizer.model.start
     thin, thick = {"wire_diameter": (1.5e-3, 1.6e-3)}, {"wire_diameter": (1.5e-3, 2.4e-3)}
     assert screen.impossible(thin, begin)

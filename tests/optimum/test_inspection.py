@@ -37,7 +37,7 @@ def _study(text: str) -> Study:
 
 @pytest.fixture(scope="module")
 def inspection() -> Inspection:
-    return Inspection(Optimizer(_study(TIMED), Catalog(), TABLE, 1))
+    return Inspection(Optimizer(_study(TIMED), Catalog(), TABLE))
 
 
 def test_exact_derivatives_agree_with_differences(inspection: Inspection) -> None:
@@ -47,7 +47,7 @@ def test_exact_derivatives_agree_with_differences(inspection: Inspection) -> Non
 
 
 def test_a_wrong_derivative_is_found_and_named() -> None:
-    spoilt = Inspection(Optimizer(_study(TIMED), Catalog(), TABLE, 1))
+    spoilt = Inspection(Optimizer(_study(TIMED), Catalog(), TABLE))
     names = spoilt._rows
     row = names.index("spring_stiffness >=")
     spoilt._jacobian[row, 0] *= 1.001
@@ -86,7 +86,7 @@ require: {envelope_diameter: "<= 400 mm"}
 minimize: envelope_diameter
 solver: {starts: 1}
 """
-    found = Inspection(Optimizer(_study(text), Catalog(), TABLE, 1))
+    found = Inspection(Optimizer(_study(text), Catalog(), TABLE))
     rows = [i for i, name in enumerate(found._rows) if not name.startswith(("envelope", "goal"))]
     found._jacobian[rows, :] = 0.0
     conditioning = found.conditioning()
@@ -104,7 +104,7 @@ def test_what_bounds_prove_to_hold_anywhere_is_told(inspection: Inspection) -> N
 
 def test_no_design_is_below_the_lower_bound_and_a_longer_look_raises_it() -> None:
     text = TIMED.replace("minimize: {module_mass: 1, response_time: 1}", "minimize: module_mass")
-    optimizer = Optimizer(_study(text), Catalog(), TABLE, 1)
+    optimizer = Optimizer(_study(text), Catalog(), TABLE)
     ranges = ranges_of(optimizer.study, Catalog(), TABLE)
     best = optimizer.solve().start.objective
     found = lower_bound(optimizer, ranges, best, 1.0)

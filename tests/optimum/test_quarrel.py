@@ -145,7 +145,7 @@ def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
 
 def test_a_start_begun_again_from_a_design_that_keeps_all_limits_converges() -> None:
     study = _study(STIFF.replace(">= 20 N.m/rad", ">= 8 N.m/rad"))
-    optimizer = Optimizer(study, Catalog(), TABLE, 1)
+    optimizer = Optimizer(study, Catalog(), TABLE)
     run = optimizer.solve()
     again = SecondTry(optimizer).from_peace(run)
     assert again.start.second_try

@@ -42,14 +42,14 @@ def _study() -> Study:
 
 def _optimum(study: Study) -> dict[str, float]:
     """The minimised outputs at a study's optimum, as its collocation has them."""
-    optimizer = Optimizer(study, Catalog(), TABLE, 1)
+    optimizer = Optimizer(study, Catalog(), TABLE)
     run = optimizer.solve()
     assert run.start.converged
     return optimizer.derivatives(run).values
 
 
 def _held(study: Study) -> tuple[Held, ...]:
-    optimizer = Optimizer(study, Catalog(), TABLE, 1)
+    optimizer = Optimizer(study, Catalog(), TABLE)
     run = optimizer.solve()
     return account(optimizer, run, (run.start,), {}).held
 

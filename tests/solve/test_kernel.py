@@ -111,10 +111,10 @@ def test_elimination_solves_what_numpy_solves() -> None:
     assert found == pytest.approx(np.linalg.solve(matrix, right), rel=1e-12)
 
 
-def test_a_run_loads_neither_the_compiler_nor_statistics(tmp_path: Path) -> None:
+def test_a_run_without_a_front_loads_neither_the_compiler_nor_scipy_nor_matplotlib(tmp_path: Path) -> None:
     code = (
-        "import sys; from tvimdesign.report import run; from tvimdesign.solve import answer, search;"
-        "print([m for m in ('numba', 'llvmlite', 'scipy.stats') if m in sys.modules])"
+        "import sys; from tvimdesign.report import front, plots, run; from tvimdesign.solve import answer, search;"
+        "print([m for m in ('numba', 'llvmlite', 'scipy', 'matplotlib') if m in sys.modules])"
     )
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, env={"PYTHONPATH": str(ROOT)},

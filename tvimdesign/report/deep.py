@@ -86,7 +86,7 @@ def inspect_study(study: Study, progress: Progress) -> Deep:
     }
     study = study.model_copy(update={"vary": numbers, "module": {**study.module, **words}})
     progress("building the problem")
-    optimizer = Optimizer(study, catalog, table, 1, progress=progress)
+    optimizer = Optimizer(study, catalog, table, progress=progress)
     inspection = Inspection(optimizer)
     rows, columns = inspection.scaling()
     progress("comparing derivatives with differences")

@@ -9,6 +9,7 @@ import platform
 import shutil
 import subprocess
 from datetime import UTC, datetime
+from functools import cached_property
 from importlib import metadata
 from pathlib import Path
 from types import TracebackType
@@ -56,6 +57,21 @@ class ResultsFolder:
         """Leave a manifest of a run that did not come to its end."""
         if not self._finished:
             self.finish("interrupted" if kind is KeyboardInterrupt else "failed", {}, {})
+
+    def look_up_versions(self) -> None:
+        """Do now what takes time of the manifest: good where a run waits for something else."""
+        _ = self._made_by
+
+    @cached_property
+    def _made_by(self) -> dict[str, Any]:
+        """Versions and commit."""
+        return {
+            "tvimdesign": __version__,
+            "commit": _commit(),
+            "python": platform.python_version(),
+            "platform": platform.platform(),
+            "libraries": {name: _version(name) for name in _LIBRARIES},
+        }
 
     def _claim(self, overwrite: bool, resume: bool) -> None:
         if self.path.exists() and not self.path.is_dir():
@@ -122,11 +138,7 @@ class ResultsFolder:
             MANIFEST,
             {
                 "status": status,
-                "tvimdesign": __version__,
-                "commit": _commit(),
-                "python": platform.python_version(),
-                "platform": platform.platform(),
-                "libraries": {name: _version(name) for name in _LIBRARIES},
+                **self._made_by,
                 "started": self._started.isoformat(timespec="seconds"),
                 "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
                 "timing": timing or {},

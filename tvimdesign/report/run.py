@@ -85,6 +85,7 @@ def run_study(
             _print_rest(told, front)
         if drawing and found.found:
             progress("drawing the plots")
+            folder.look_up_versions()
             with _noting(troubles):
                 drawing.finish()
         if cad and study.write.cad and found.found:

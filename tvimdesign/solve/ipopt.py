@@ -37,7 +37,7 @@ _DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_h
 
 def solver_of(function: Any, asked: SolverOptions, known: Iterable[Any] = (), *, warm: bool = False) -> Any:
     """IPOPT for a problem, a function of `NLP`'s names; solvers of the same problem that are `known` lend their
-    derivatives, which are most of the work of building one. What is expanded to scalars CasADi differentiates itself.
+    derivatives, which are most of the work of building one.
     """
     most = asked.max_iterations
     ipopt: dict[str, Any] = {
@@ -47,6 +47,6 @@ def solver_of(function: Any, asked: SolverOptions, known: Iterable[Any] = (), *,
         "tol": asked.tolerance,
     }
     lent = {option: other.get_function(name) for other in known for option, name in _DERIVATIVES.items()}
-    own = {} if lent or function.is_a("SXFunction") else derivatives_of(function)
+    own = {} if lent else derivatives_of(function)
     settings: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False, **lent, **own}
     return ca.nlpsol("design", "ipopt", function, settings)

@@ -32,8 +32,6 @@ from tvimdesign.study import ProfileOptions, Range, Study, given
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
 RAMP_ELEMENT = 15.0  # s, the longest element of a ramp: as long as those of a switch of two minutes
-EXPAND_FROM = 4
-"""Runs from which on it pays to expand the problem to scalar operations: slower to build, four times faster to run."""
 
 
 class Optimizer:
@@ -44,20 +42,18 @@ class Optimizer:
         study: Study,
         catalog: Catalog,
         table: Table,
-        runs: int,
         reference: dict[str, float] | None = None,
         progress: Progress = lambda _: None,
         simulator: Simulator | None = None,
         traded: Sequence[str] = (),
     ) -> None:
-        """Compile the device, simulate the study's start, and build the problem for about `runs` runs.
+        """Compile the device, simulate the study's start, and build the problem.
 
         `reference` are the values the minimised outputs are divided by: the study's start unless given. A `simulator`
         of the same device saves compiling it again. Outputs that are `traded` can be weighed and bounded by a `Goal`
         whether the study minimises them or not. Raises InfeasibleError where a limit is broken that nothing free
         can mend, InputError from the table.
         """
-        self.many = runs >= EXPAND_FROM
         self.study, self.catalog, self.table, self.progress = study, catalog, table, progress
         began = time.perf_counter()
         points = tuple(study.operating_points)
@@ -80,8 +76,7 @@ class Optimizer:
         if not self.currents:
             return None
         study = self.study.model_copy(update={"profile": ProfileOptions()})
-        runs = EXPAND_FROM if self.many else 1
-        return Optimizer(study, self.catalog, self.table, runs, self.reference, self.progress, self.simulator)
+        return Optimizer(study, self.catalog, self.table, self.reference, self.progress, self.simulator)
 
     def _free(self, name: str) -> Free:
         vary = self.study.vary[name]
@@ -170,10 +165,9 @@ class Optimizer:
 
     @cached_property
     def _compiled(self) -> Any:
-        """The problem as one function; expanded to scalar operations where it is run many times."""
+        """The problem as one function."""
         written = self.problem.function
-        function = ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
-        return function.expand() if self.many else function
+        return ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
 
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:

@@ -45,7 +45,7 @@ def _extreme(study: Study, catalog: Catalog, table: Table, row: str, sign: float
         }
     )
     try:
-        optimizer = Optimizer(asked, catalog, table, 1)
+        optimizer = Optimizer(asked, catalog, table)
     except InfeasibleError:
         return None
     run = optimizer.solve()

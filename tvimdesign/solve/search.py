@@ -14,7 +14,7 @@ from tvimdesign.solve.branch import BranchAndBound
 from tvimdesign.solve.contradiction import at_a_glance, refuse_contradiction
 from tvimdesign.solve.enumeration import enumerate_all
 from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
-from tvimdesign.solve.optimizer import EXPAND_FROM, Optimizer
+from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.quarrel import make_peace
 from tvimdesign.solve.reach import refuse_unreachable
 from tvimdesign.solve.run import Progress, Run
@@ -128,8 +128,7 @@ def _trees(
         asked = with_records(study, choice)
         try:
             optimizer = next(filter(None, (tree.optimizer.with_records(asked) for tree in trees)), None)
-            runs = study.solver.starts + (sizes.count if sizes.names else 0) + (EXPAND_FROM if traded else 0)
-            optimizer = optimizer or Optimizer(asked, catalog, table, runs, reference, progress, traded=traded)
+            optimizer = optimizer or Optimizer(asked, catalog, table, reference, progress, traded=traded)
         except InfeasibleError as error:  # a limit that nothing free can mend, with these records
             refused.append(error)
             continue
