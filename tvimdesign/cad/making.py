@@ -31,7 +31,7 @@ MAKING = {
     ),
     "link": Making(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
     "retainer": Making(down="bottom", drawn=True, why="flat: no support"),
-    "pcl_arc": Making(down="bottom", why="flat; print it of PCL, or cut it from sheet"),
+    "pcl_arc": Making(down="bottom", why="flat, keys upwards; print it of PCL, or without keys cut it from sheet"),
     "pcl_block": Making(down="bottom", why="flat; print it of PCL, or cut it from sheet"),
     "peltier_pad": Making(down="bought", why="a Peltier module of the catalogue, cut or chosen to this size"),
     "adjuster": Making(

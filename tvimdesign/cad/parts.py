@@ -84,8 +84,11 @@ def notches(dims: Dimensions) -> list[cq.Shape]:
     return [turned(opening, azimuth) for azimuth in dims.azimuths("spring_count")]
 
 
-def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = ()) -> cq.Shape:
-    """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds."""
+def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Iterable[cq.Shape] = ()) -> cq.Shape:
+    """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds.
+
+    Less the screws' holes and the mode's openings.
+    """
     core_bottom = dims.core_bottom_level
     plate = cylinder(dims.rotor_radius, dims.rotor_bottom_level, dims.rotor_top_level)
     core = [
@@ -102,7 +105,7 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = ()) -> cq.Shape:
     pilot_bottom = core_top - dims.link_screw_depth
     pilots = [cylinder(0.5 * dims.link_screw_pilot, pilot_bottom, core_top, at) for at in link_screws(dims)]
     retainer_pilot = cylinder(0.5 * dims.retainer_screw_pilot, core_bottom, core_bottom + dims.retainer_screw_depth)
-    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots)
+    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots, *openings)
 
 
 def link(dims: Dimensions) -> cq.Shape:
