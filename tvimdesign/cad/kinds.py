@@ -44,6 +44,8 @@ KINDS = {
     "bearing_outer": _kind((0.52, 0.54, 0.60), "bearing", "bearing_density", "bearing_outer_volume"),
     "adjuster": _kind((0.78, 0.45, 0.58), *_STRUCTURE, "adjuster_volume"),
     "adjuster_screw": _kind(_STEEL, "adjuster_screw", "adjuster_screw_density", "adjuster_screw_volume"),
+    "cover": _kind((0.50, 0.56, 0.62), *_STRUCTURE, "cover_volume"),
+    "cover_screw": _kind(_STEEL, "cover_screw", "cover_screw_density", "cover_screw_volume"),
     "spring_right": _kind((0.15, 0.48, 0.38), *_SPRING),
     "spring_left": _kind((0.45, 0.70, 0.30), *_SPRING),
 }

@@ -37,9 +37,11 @@ MAKING = {
     "adjuster": Making(
         down="bottom", drawn=True, why="flange on the bed: post and slot grow upwards, the screw's hole stands upright",
     ),
+    "cover": Making(down="bottom", drawn=True, why="flat: no support"),
     "link_screw": Making(down="bought", why="a screw of the catalogue"),
     "retainer_screw": Making(down="bought", why="a screw of the catalogue"),
     "adjuster_screw": Making(down="bought", why="a screw of the catalogue"),
+    "cover_screw": Making(down="bought", why="a screw of the catalogue"),
     "bearing_inner": Making(down="bought", why="the half of a ball bearing of the catalogue that turns"),
     "bearing_outer": Making(down="bought", why="the half of a ball bearing of the catalogue that stands"),
     "spring_right": Making(down="bought", why="wound to the spring maker's sheet"),

@@ -63,9 +63,9 @@ def link_reserve(link_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
 
 
 @book.output("mm", at_least(0.0, f"the core's wall outside the link screws {_WALL}: it would split"))
-def link_screw_wall_reserve(link_screw_wall: Scalar, minimum_wall: Scalar) -> Scalar:
-    """Wall of the core outside the link screws beyond the process's least."""
-    return link_screw_wall - minimum_wall
+def link_screw_wall_reserve(link_screw_wall: Scalar, link_hole_wall: Scalar) -> Scalar:
+    """Wall of the core outside the link screws' holes beyond the least around them."""
+    return link_screw_wall - link_hole_wall
 
 
 @book.output("mm", at_least(0.0, "the rotor's pins are thinner than the process can make them"))

@@ -107,6 +107,7 @@ _ONLY_WITH = {
             "driver_slot_depth",
         ),
     ),
+    "cover": ("plate", ("cover_thickness", "cover_screw_length")),
     "impedance_targets": ("stated", ("soft_impedance", "stiff_impedance")),
 }
 """Inputs that count only where an option is chosen: option, its word, the inputs."""
