@@ -89,7 +89,13 @@ def test_cover_and_bosses_have_the_volume_of_their_points(bare: dict[str, float]
         ("cover_depth_reserve", {"cover_screw_length": 16.0 * MM}),
         (
             "cover_spring_gap",
-            {"spring_pairs": 6.0, "placement_radius": 20.0 * MM, "core_radius": 2.0 * MM, "stroke": 0.01},
+            {
+                "spring_pairs": 6.0,
+                "pin_radius_ratio": 0.2,
+                "placement_radius": 20.0 * MM,
+                "core_radius": 2.0 * MM,
+                "stroke": 0.01,
+            },
         ),
         ("cover_mount_gap", {"mount_boss_radius": 12.3 * MM}),
         ("cover_link_gap", {"core_radius": 46.0 * MM}),
