@@ -51,7 +51,7 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
 def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
     """What stands on the floor for the springs, and what is cut from it: posts and tang holes, or pockets."""
     floor_bottom = -dims.floor_thickness
-    axes = [polar(dims.placement_radius, azimuth) for azimuth in dims.azimuths("spring_count")]
+    axes = spring_axes(dims)
     if not dims.adjuster_radius:
         hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
         holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
@@ -69,6 +69,11 @@ def bores(dims: Dimensions) -> list[cq.Shape]:
         return [between]
     lower = cylinder(dims.seat_radius, bottom, bottom + dims.bearing_width)
     return [between, lower, cylinder(dims.seat_radius, top - dims.bearing_width, top)]
+
+
+def spring_axes(dims: Dimensions) -> list[tuple[float, float]]:
+    """Axes of the springs, in their order."""
+    return [polar(dims.placement_radius, azimuth) for azimuth in dims.azimuths("spring_count")]
 
 
 def mounts(dims: Dimensions) -> list[tuple[float, float]]:

@@ -11,7 +11,10 @@ from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.parts import bare_housing, bare_rotor, link, retainer
 from tvimdesign.cad.shapes import cylinder, join, polar, rounded, sector, turned
 
-FIXED = ("housing", "peltier_pad", "pcl_arc", "bearing_outer", "adjuster", "adjuster_screw", "cover", "cover_screw")
+FIXED = (
+    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "adjuster", "adjuster_screw", "adjuster_insert", "cover",
+    "cover_screw", "cover_insert",
+)  # fmt: skip
 
 
 def housing(dims: Dimensions) -> cq.Shape:

@@ -219,10 +219,11 @@ def module_mass(
     bearings_mass: Scalar,
     adjusters_mass: Scalar,
     cover_mass: Scalar,
+    inserts_mass: Scalar,
 ) -> Scalar:
     """Mass of the module, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + cover_mass + pcl_mass
-    return made + springs_mass + peltier_mass + screws_mass + bearings_mass + adjusters_mass
+    return made + springs_mass + peltier_mass + screws_mass + inserts_mass + bearings_mass + adjusters_mass
 
 
 @book.output("kg*mm^2")
@@ -245,8 +246,9 @@ def parts_inertia(
     retainer_thickness: Scalar,
     structure_density: Scalar,
     screws_inertia: Scalar,
+    inserts_inertia: Scalar,
     bearings_inertia: Scalar,
 ) -> Scalar:
-    """Moment of inertia of everything in the module that turns: rotor, link, retainer, screws and inner rings."""
+    """Moment of inertia of all that turns in the module: rotor, link, retainer, screws, inserts and inner rings."""
     retainer = retainer_section.polar * retainer_thickness * structure_density
-    return rotor_inertia + link_inertia + retainer + screws_inertia + bearings_inertia
+    return rotor_inertia + link_inertia + retainer + screws_inertia + inserts_inertia + bearings_inertia

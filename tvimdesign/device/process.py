@@ -34,6 +34,11 @@ limits.option(
     record=("process", "method"),
 )  # fmt: skip
 
+limits.option(
+    "thread_insert", ("none", "heat_set"), "Whether screws cut their thread in the part, or brass inserts are melted in",
+    record=("process", "insert"),
+)  # fmt: skip
+
 
 _WALL = "is thinner than the process can make it"
 

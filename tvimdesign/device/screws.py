@@ -12,7 +12,7 @@ from tvimdesign.device.fastening import Joint, length_misfit, screwed_joint
 from tvimdesign.device.gaps import MM
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
-from tvimdesign.device.rows import Rule, Scalar
+from tvimdesign.device.rows import Rule, Scalar, at_least
 from tvimdesign.physics.shapes import Section
 
 LINK = Joint("link", "iso_7380_m3", "the link screws", "link screws", "the core")
@@ -83,6 +83,43 @@ def screws_inertia(
 ) -> Scalar:
     """Moment of inertia of the screws that turn about the axis: those of link and retainer."""
     return link_screw_moments.polar * link_screw_density + retainer_screw_moments.polar * retainer_screw_density
+
+
+@weights.output("g")
+def inserts_mass(
+    link_insert_volume: Scalar,
+    link_insert_density: Scalar,
+    retainer_insert_volume: Scalar,
+    retainer_insert_density: Scalar,
+    adjuster_insert_volume: Scalar,
+    adjuster_insert_density: Scalar,
+    cover_insert_volume: Scalar,
+    cover_insert_density: Scalar,
+) -> Scalar:
+    """Mass of all heat-set inserts; zero without."""
+    core = link_insert_volume * link_insert_density + retainer_insert_volume * retainer_insert_density
+    posts = adjuster_insert_volume * adjuster_insert_density
+    return core + posts + cover_insert_volume * cover_insert_density
+
+
+@weights.output("kg*mm^2")
+def inserts_inertia(
+    link_insert_moments: Section,
+    link_insert_density: Scalar,
+    retainer_insert_moments: Section,
+    retainer_insert_density: Scalar,
+) -> Scalar:
+    """Moment of inertia of the inserts that turn about the axis: those in the core."""
+    return link_insert_moments.polar * link_insert_density + retainer_insert_moments.polar * retainer_insert_density
+
+
+_MELT = "heat-set inserts are melted into plastic, and this process mills: `thread_insert: none`, or print it"
+
+
+@rules.output("1", at_least(1.0, _MELT, only=("thread_insert", "heat_set")))
+def insert_ground(making_method: str) -> Scalar:
+    """One where inserts can be melted in, as the process prints plastic; else zero."""
+    return 1.0 if making_method == "printed" else 0.0
 
 
 @rules.output(
