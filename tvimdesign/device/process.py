@@ -35,7 +35,7 @@ limits.option(
 )  # fmt: skip
 
 limits.option(
-    "thread_insert", ("none", "heat_set"), "Whether screws cut their thread in the part, or brass inserts are melted in",
+    "thread_insert", ("none", "heat_set"), "Whether screws cut their thread in the part, or in brass inserts melted in",
     record=("process", "insert"),
 )  # fmt: skip
 
