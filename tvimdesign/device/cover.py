@@ -28,9 +28,15 @@ books = (places, *screwed_joint(JOINT), weights, rules)
 
 
 @places.helper()
-def cover_screw_count(cover: str, spring_count: Scalar) -> Scalar:
+def has_cover(cover: str) -> Scalar:
+    """One with a cover, zero without."""
+    return 1.0 if cover == PLATE else 0.0
+
+
+@places.helper()
+def cover_screw_count(has_cover: Scalar, spring_count: Scalar) -> Scalar:
     """Screws of the cover: one between each two springs; none without a cover."""
-    return spring_count if cover == PLATE else 0.0
+    return has_cover * spring_count
 
 
 @places.helper()
@@ -46,15 +52,15 @@ def cover_clamped(cover_thickness: Scalar) -> Scalar:
 
 
 @places.output("mm")
-def rim_level(cover: str, pin_top_level: Scalar, running_clearance: Scalar) -> Scalar:
+def rim_level(has_cover: Scalar, pin_top_level: Scalar, running_clearance: Scalar) -> Scalar:
     """Upper end of the housing's wall: that of the pins, and a running clearance more under a cover."""
-    return pin_top_level + running_clearance if cover == PLATE else pin_top_level
+    return pin_top_level + has_cover * running_clearance
 
 
 @places.output("mm")
-def cover_height(cover: str, cover_thickness: Scalar) -> Scalar:
-    """What the cover adds to the height of the module; zero without."""
-    return cover_thickness if cover == PLATE else 0.0
+def cover_height(has_cover: Scalar, cover_thickness: Scalar) -> Scalar:
+    """Thickness that the cover adds to the height of the module; zero without."""
+    return has_cover * cover_thickness
 
 
 @places.output("mm")
@@ -123,25 +129,26 @@ def _room(reason: str) -> Rule:
 
 
 @rules.output("mm", _room("the cover is thinner than the process can make it"))
-def cover_reserve(cover_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
-    """Cover beyond the process's least wall."""
-    return cover_thickness - minimum_wall
+def cover_reserve(has_cover: Scalar, cover_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Cover beyond the process's least wall; zero without a cover."""
+    return has_cover * (cover_thickness - minimum_wall)
 
 
 @rules.output("mm", _room("the cover's screws would break out of the housing: a thicker wall, or smaller screws"))
-def cover_wall_reserve(wall_thickness: Scalar, cover_boss_radius: Scalar) -> Scalar:
-    """Housing wall beyond the cover's bosses, which stand on its inner face."""
-    return wall_thickness - cover_boss_radius
+def cover_wall_reserve(has_cover: Scalar, wall_thickness: Scalar, cover_boss_radius: Scalar) -> Scalar:
+    """Housing wall beyond the cover's bosses, which stand on its inner face; zero without a cover."""
+    return has_cover * (wall_thickness - cover_boss_radius)
 
 
 @rules.output("mm", _room("the holes of the cover's screws would go through the floor: choose shorter screws"))
-def cover_depth_reserve(rim_level: Scalar, cover_screw_depth: Scalar) -> Scalar:
-    """Bosses below the holes of the cover's screws."""
-    return rim_level - cover_screw_depth
+def cover_depth_reserve(has_cover: Scalar, rim_level: Scalar, cover_screw_depth: Scalar) -> Scalar:
+    """Bosses below the holes of the cover's screws; zero without a cover."""
+    return has_cover * (rim_level - cover_screw_depth)
 
 
 @rules.output("mm", _room("the cover's bosses must clear the springs, and their adjusters"))
 def cover_spring_gap(
+    has_cover: Scalar,
     placement_radius: Scalar,
     housing_inner_radius: Scalar,
     spring_count: Scalar,
@@ -151,24 +158,29 @@ def cover_spring_gap(
     adjuster_radius: Scalar,
     slip_clearance: Scalar,
 ) -> Scalar:
-    """Room between the cover's bosses and the springs or their adjusters, beyond the clearance of either."""
+    """Room between the cover's bosses and springs or adjusters, beyond the clearance; zero without a cover."""
     half_pitch = np.pi / spring_count
     ahead = housing_inner_radius - placement_radius * np.cos(half_pitch)
     apart = np.sqrt(ahead**2 + (placement_radius * np.sin(half_pitch)) ** 2)
     taken = np.fmax(spring_reach + radial_clearance, adjuster_radius + slip_clearance)
-    return apart - cover_boss_radius - taken
+    return has_cover * (apart - cover_boss_radius - taken)
 
 
 @rules.output("mm", _room("the cover's bosses stand in the way to the screws that fix the housing"))
 def cover_mount_gap(
-    housing_inner_radius: Scalar, cover_boss_radius: Scalar, placement_radius: Scalar, mount_boss_radius: Scalar
+    has_cover: Scalar,
+    housing_inner_radius: Scalar,
+    cover_boss_radius: Scalar,
+    placement_radius: Scalar,
+    mount_boss_radius: Scalar,
 ) -> Scalar:
-    """Room between the cover's bosses and the holes above the feet."""
-    return housing_inner_radius - cover_boss_radius - placement_radius - mount_boss_radius
+    """Room between the cover's bosses and the holes above the feet; zero without a cover."""
+    return has_cover * (housing_inner_radius - cover_boss_radius - placement_radius - mount_boss_radius)
 
 
 @rules.output("mm", _room("the link would meet the heads of the cover's screws within the stroke"))
 def cover_link_gap(
+    has_cover: Scalar,
     housing_inner_radius: Scalar,
     spring_count: Scalar,
     stroke: Scalar,
@@ -176,6 +188,6 @@ def cover_link_gap(
     link_half_width: Scalar,
     radial_clearance: Scalar,
 ) -> Scalar:
-    """Room between the link at full stroke and the heads of the cover's screws beside it, beyond the clearance."""
+    """Room between the link at full stroke and the screws' heads, beyond the clearance; zero without a cover."""
     beside = housing_inner_radius * np.sin(np.pi / spring_count - stroke)
-    return beside - 0.5 * cover_screw_head - link_half_width - radial_clearance
+    return has_cover * (beside - 0.5 * cover_screw_head - link_half_width - radial_clearance)

@@ -165,18 +165,20 @@ def its_insert_volume(its_insert_moments: Section) -> Scalar:
     return its_insert_moments.area
 
 
-def its_insert_density(its_insert: Record | str, its_screw_pilot: Scalar) -> Scalar:
-    """Mass of an insert for the {it} over its volume as a ring that fills its hole."""
-    if isinstance(its_insert, str):
+def its_insert_density(thread_insert: str, its_insert: Record | str, its_screw_pilot: Scalar) -> Scalar:
+    """Mass of an insert for the {it} over its volume as a ring that fills its hole; zero without."""
+    if thread_insert == NO_INSERT or isinstance(its_insert, str):
         return 0.0
     value = its_insert.value
     section = ring(0.5 * its_screw_pilot, 0.5 * value("hole_diameter"))
     return value("mass") / (section.area * value("length"))
 
 
-def its_insert_misfit(its_screw_count: Scalar, its_insert: Record | str, its_screw_diameter: Scalar) -> Scalar:
+def its_insert_misfit(
+    thread_insert: str, its_screw_count: Scalar, its_insert: Record | str, its_screw_diameter: Scalar
+) -> Scalar:
     """How far the thread of the inserts for the {it} is from that of the screws; zero where there are none."""
-    if isinstance(its_insert, str):
+    if thread_insert == NO_INSERT or isinstance(its_insert, str):
         return 0.0
     return np.fmin(its_screw_count, 1.0) * np.fabs(its_insert.value("nominal_diameter") - its_screw_diameter)
 
