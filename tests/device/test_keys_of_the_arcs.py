@@ -40,10 +40,10 @@ def test_keys_hold_their_section_times_the_shear_yield_of_frozen_pcl() -> None:
 
 
 def test_the_safety_of_keys_is_what_they_hold_over_the_layers_part_of_the_load() -> None:
-    rows = ["key_safety@cold", "layer_torque@cold", "bond_traction@cold", "hold_torque", "layer_polar_moment",
+    rows = ["key_safety", "layer_torque@cold", "bond_traction@cold", "hold_torque", "layer_polar_moment",
             "key_holding_torque"]  # fmt: skip
     values = TABLE.evaluate(inputs_of(), rows)
-    assert values["key_safety@cold"] == pytest.approx(values["key_holding_torque"] / values["layer_torque@cold"])
+    assert values["key_safety"] == pytest.approx(values["key_holding_torque"] / values["layer_torque@cold"])
     assert 0.9 * values["hold_torque"] < values["layer_torque@cold"] < values["hold_torque"]  # the springs are soft
     at_rim = values["layer_torque@cold"] * 40e-3 / values["layer_polar_moment"]
     assert values["bond_traction@cold"] == pytest.approx(at_rim)

@@ -78,13 +78,13 @@ def key_holding_torque(
     return arc_count * key_count * np.fmin(shear, bearing) * key_circle_radius
 
 
-@strengths.output("1", per_point=True)
-def key_safety(key_holding_torque: Scalar, layer_torque: Scalar) -> Scalar:
-    """What the frozen keys alone hold over what the layer bears in a hold; zero without keys.
+@strengths.output("1")
+def key_safety(key_holding_torque: Scalar, layer_torque_at_cold: Scalar) -> Scalar:
+    """What the frozen keys alone hold over what the layer bears in a hold at the cold point; zero without keys.
 
-    The strength is that of frozen PCL at room temperature, so this says nothing about a warm or molten layer.
+    Of no other point: the strength is that of frozen PCL at room temperature.
     """
-    return key_holding_torque / layer_torque
+    return key_holding_torque / layer_torque_at_cold
 
 
 # --- rules -----------------------------------------------------------------------------------------------------------
