@@ -18,12 +18,12 @@ JOINTS = ("link", "retainer", "adjuster", "cover")
 
 def insert_length(dims: Dimensions, joint: str) -> float:
     """Length of the inserts of a joint [mm]; zero where it has none."""
-    return dims.by_name[f"{joint}_insert_length"]
+    return dims.of(joint, "insert_length")
 
 
 def insert(joint: str, dims: Dimensions) -> cq.Shape:
     """One insert of a joint, upright on the module's axis: it fills its hole up to the screw's shank."""
-    shank, hole = dims.by_name[f"{joint}_screw_pilot"], dims.by_name[f"{joint}_screw_hole"]
+    shank, hole = dims.of(joint, "screw_pilot"), dims.of(joint, "screw_hole")
     return ring(0.5 * shank, 0.5 * hole, 0, insert_length(dims, joint))
 
 

@@ -87,7 +87,7 @@ def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[C
     ):
         if f"{joint}_screw" not in drawn:
             continue
-        screw, diameter = drawn[f"{joint}_screw"].BoundingBox(), dims.by_name[f"{joint}_screw_diameter"]
+        screw, diameter = drawn[f"{joint}_screw"].BoundingBox(), dims.of(joint, "screw_diameter")
         engaged = sum(
             max(0.0, min(top, screw.zmax) - max(bottom, screw.zmin))
             for bottom, top in _threads(dims, drawn, joint, host, at)
