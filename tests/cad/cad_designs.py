@@ -41,13 +41,15 @@ WRIST_BLOCKS = {name: value for name, value in WRIST.items() if name not in {"ar
 ODD_BLOCKS = WRIST_BLOCKS | {"spring_pairs": 3, "vane_count": 3, "coil_count": 6.7, "preload_angle": 0.21,
                              "slot_share": 0.6}  # fmt: skip
 # Bearings on either side of a lip, in a hub that reaches below the floor, and in one that is as high as the blocks; one
-# with posts that turn.
+# with posts that turn; both under a cover, one with inserts for its screws.
 BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 * MM, "core_radius": 7.5 * MM,
-            "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM}  # fmt: skip
+            "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate", "thread_insert": "heat_set",
+            "link_screw": "iso_4762_m2", "link_screw_length": 10.0 * MM, "link_bolt_ratio": 0.58,
+            "retainer_screw": "iso_7380_m3"}  # fmt: skip
 BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "corner_radius": 0.5 * MM,
                            "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "pcl_inner_radius": 17.0 * MM,
                            "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 4.3 * MM,
-                           "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM}  # fmt: skip
+                           "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate"}  # fmt: skip
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
@@ -82,6 +84,7 @@ def broken_rules(design: Design) -> list[str]:
         row.name for row in table_for(design.mode).outputs
         if row.group == "Gaps" and row.name in design.values
         for rule in row.rules
+        if rule.applies(design.choices)
         if (design.values[row.name] - rule.value) * (1 if rule.sense == ">=" else -1) < -1e-12
     ]  # fmt: skip
 

@@ -24,6 +24,7 @@ from tvimdesign.cad.bom import bill, bill_csv
 from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.drawings import _apart, part_sheet
 from tvimdesign.cad.export import product
+from tvimdesign.cad.figures import around
 from tvimdesign.cad.kinds import KINDS
 from tvimdesign.cad.projection import from_above, section
 from tvimdesign.cad.spring_sheet import Line, spring_csv, spring_lines, spring_sheet
@@ -257,3 +258,19 @@ print(hashlib.sha256(sheet.dxf()).hexdigest())
         for seed in ("1", "4")
     ]
     assert told[0].stdout == told[1].stdout
+
+
+@pytest.mark.parametrize(
+    ("azimuths", "words"),
+    [
+        ([45.0, 135.0, 225.0, 315.0], "from 45°"),
+        ([28.68, 45.0, 61.32, 118.68, 135.0, 151.32, 208.68, 225.0, 241.32, 298.68, 315.0, 331.32],
+         "at 28.68°, 45°, 61.32°, 4 times around"),
+        ([*range(10, 70, 10), *range(190, 250, 10)], "from 10° every 10° to 60°, 2 times around"),
+        # Two beside x in each of three groups: the widest gap is within, the pattern starts behind it.
+        ([10.0, 110.0, 130.0, 230.0, 250.0, 350.0], "at 110°, 130°, 3 times around"),
+        ([10.0, 20.0, 50.0, 70.0], "at 10°, 20°, 50°, 70°"),
+    ],
+)  # fmt: skip
+def test_azimuths_are_written_as_short_as_their_pattern(azimuths: list[float], words: str) -> None:
+    assert around(azimuths) == words

@@ -27,6 +27,7 @@ def test_every_shelf_has_its_records() -> None:
         "structure_materials": 5,
         "processes": 5,
         "screws": 8,
+        "inserts": 4,
         "bearings": 18,
         "polymers": 2,
         "peltiers": 4,
@@ -177,3 +178,20 @@ def test_no_name_leaves_the_shelf(name: str) -> None:
 
 def test_a_record_is_read_once() -> None:
     assert CATALOG.record("wires", "metric") is CATALOG.record("wires", "metric")
+
+
+@pytest.mark.parametrize("name", CATALOG.names("inserts"))
+def test_an_insert_weighs_no_more_than_brass_between_its_thread_and_its_knurls(name: str) -> None:
+    value = CATALOG.record("inserts", name).value
+    ring = 0.25 * math.pi * (value("outer_diameter") ** 2 - value("nominal_diameter") ** 2) * value("length")
+    assert 0.6 < value("mass") / (8500.0 * ring) < 1.0
+
+
+@pytest.mark.parametrize("name", CATALOG.names("screws"))
+def test_a_screw_names_the_insert_of_its_own_thread(name: str) -> None:
+    screw = CATALOG.record("screws", name)
+    if screw.word("insert") == "none":
+        assert screw.value("nominal_diameter") > 4.5e-3  # the shelf ends at M4
+    else:
+        insert = CATALOG.record("inserts", screw.word("insert"))
+        assert insert.value("nominal_diameter") == pytest.approx(screw.value("nominal_diameter"))

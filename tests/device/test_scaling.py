@@ -51,8 +51,9 @@ def test_outputs_scale_with_the_length_as_their_units_say(
         and not any(isinstance(table.row(base), Supplied) for base in (name, *table.ancestors(name)))
     ]
     assert len(wanted) > 70
-    # Where tangs are fixed the rules of adjusters have a constant room, of no size.
-    module = {**(inputs if mode == "shear" else squeezed), "transmission": transmission, "preload_adjuster": "rotary"}
+    # Where there are no adjusters and no cover their rules have a constant room, of no size.
+    has = {"preload_adjuster": "rotary", "cover": "plate"}
+    module = {**(inputs if mode == "shear" else squeezed), "transmission": transmission, **has}
     one, other = table.evaluate(module, wanted), table.evaluate(_scaled(table, module, factor), wanted)
     for name in wanted:
         expected = one[name] * factor ** _power(table, name)

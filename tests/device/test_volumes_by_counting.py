@@ -16,6 +16,7 @@ SHAPES = {
     "as it is": {},
     "three arcs, other sizes": {
         "arc_count": 3, "arc_span": 1.3, "spring_pairs": 3, "wire_diameter": 1.8e-3, "coil_diameter": 17e-3,
+        "key_count": 5, "key_diameter": 4e-3,
         "pcl_inner_radius": 24e-3, "pcl_outer_radius": 41e-3, "floor_thickness": 5e-3, "core_radius": 8e-3,
         "link_thickness": 6e-3, "preload_angle": 0.4, "pcl_thickness": 1.6e-3,
     },
@@ -72,6 +73,16 @@ def in_arcs(x: Array, y: Array, p: dict[str, Any], margin: float) -> NDArray[np.
     return (off < half) & (r > p["pcl_inner_radius"] + margin) & (r < p["pcl_outer_radius"] - margin)
 
 
+def in_keys(x: Array, y: Array, p: dict[str, Any]) -> NDArray[np.bool_]:
+    """Inside a key: each arc is divided evenly, and its keys stand in the middles on its mean radius."""
+    hit = np.zeros(x.shape, dtype=bool)
+    share, middle = p["arc_span"] / p["key_count"], 0.5 * (p["pcl_inner_radius"] + p["pcl_outer_radius"])
+    for i in range(int(p["key_count"])):
+        turn = share * (i + 0.5) - 0.5 * p["arc_span"]
+        hit |= near(x, y, 0.5 * p["key_diameter"], middle, int(p["arc_count"]), turn)
+    return hit
+
+
 def stack_up(slabs: list[tuple[float, Inside]], outer: float, rims: list[float]) -> tuple[float, float]:
     """Volume and its polar moment of slabs, each a height and what lies inside it."""
     counted = [(height, *count(inside, outer, rims)) for height, inside in slabs]
@@ -81,7 +92,9 @@ def stack_up(slabs: list[tuple[float, Inside]], outer: float, rims: list[float])
 def test_pads_cover_their_arcs(part: dict[str, Any]) -> None:
     area, _ = count(lambda x, y: in_arcs(x, y, part, 0.0), part["pcl_outer_radius"], [part["pcl_inner_radius"]])
     assert part["pcl_area"] == pytest.approx(area, rel=3e-3)
-    assert part["pcl_volume"] == pytest.approx(area * part["pcl_thickness"], rel=3e-3)
+    keys, _ = count(lambda x, y: in_keys(x, y, part), part["pcl_outer_radius"], [part["pcl_inner_radius"]])
+    deep = part["rotor_thickness"] - 1.2e-3  # a printed wall is left above them
+    assert part["pcl_volume"] == pytest.approx(area * part["pcl_thickness"] + keys * deep, rel=3e-3)
     assert part["peltier_volume"] == pytest.approx(area * part["peltier_thickness"], rel=3e-3)
 
 
@@ -152,7 +165,8 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
     low = p["floor_thickness"] + p["running_clearance"]  # the core's end below the floor's upper face
     slabs = [
         (low + p["pcl_thickness"], core),
-        (p["rotor_thickness"], lambda x, y: np.hypot(x, y) < p["rotor_radius"]),
+        (p["rotor_thickness"] - 1.2e-3, lambda x, y: (np.hypot(x, y) < p["rotor_radius"]) & ~in_keys(x, y, p)),
+        (1.2e-3, lambda x, y: np.hypot(x, y) < p["rotor_radius"]),
         (p["pin_top_level"] - p["rotor_top_level"], lambda x, y: core(x, y) | pins(x, y)),
         (p["link_bottom_level"] - p["pin_top_level"], core),
         (-p["link_screw_depth"], screws),

@@ -97,3 +97,12 @@ def test_a_slot_across_a_disc_is_its_strips() -> None:
     half, radius = 0.6e-3, 2.7e-3
     expected = integrate(lambda y: 2.0 * np.sqrt(radius**2 - y**2), -half, half)
     assert shapes.bar_across(half, radius) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("radius", [2.4e-3, 20e-3])
+def test_a_disc_centred_on_a_circle_has_the_strips_of_it_that_lie_inside(radius: float) -> None:
+    circle = 30e-3
+    meet = circle - 0.5 * radius**2 / circle  # x of the points where both rims cross
+    disc = integrate(lambda x: 2.0 * np.sqrt(radius**2 - (x - circle) ** 2), circle - radius, meet)
+    rest = integrate(lambda x: 2.0 * np.sqrt(circle**2 - x**2), meet, circle)
+    assert shapes.lens(radius, circle) == pytest.approx(disc + rest, rel=1e-8)

@@ -18,7 +18,7 @@ def adjuster(dims: Dimensions) -> cq.Shape:
     bottom, top = -dims.adjuster_thickness, dims.post_height
     body = join(cylinder(dims.adjuster_radius, bottom, 0), [cylinder(dims.post_radius, bottom, top)])
     tang = cylinder(0.5 * dims.wire_diameter + dims.tang_clearance, bottom, 0, installed_coil(dims).tang_position)
-    pilot = cylinder(0.5 * dims.adjuster_screw_pilot, bottom, bottom + dims.adjuster_screw_depth)
+    pilot = cylinder(0.5 * dims.adjuster_screw_hole, bottom, bottom + dims.adjuster_screw_depth)
     across = (-dims.adjuster_radius, dims.adjuster_radius)
     slot = block(across, dims.driver_slot_width, top - dims.driver_slot_depth, top)
     return body.cut(tang, pilot, slot)

@@ -15,7 +15,10 @@ from tvimdesign.cad.parts import bare_housing, bare_rotor, link, retainer
 from tvimdesign.cad.shapes import block, rounded, sector, turned
 from tvimdesign.errors import GeometryError
 
-FIXED = ("housing", "peltier_pad", "bearing_outer", "adjuster", "adjuster_screw")
+FIXED = (
+    "housing", "peltier_pad", "bearing_outer", "adjuster", "adjuster_screw", "adjuster_insert", "cover", "cover_screw",
+    "cover_insert",
+)  # fmt: skip
 """Not the blocks: they change their shape as the rotor turns, and each is held against all that stands and turns."""
 _SIDES = (1.0, -1.0)
 

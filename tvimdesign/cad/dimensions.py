@@ -41,6 +41,11 @@ class Dimensions:
             raise GeometryError(f"{name} is {value}: no part can be drawn to that; see which rules the design breaks")
         return value
 
+    def of(self, thing: str, row: str) -> float:
+        """Value of a row that several things have alike: `screw_pilot` of `link` is `link_screw_pilot`."""
+        value: float = getattr(self, f"{thing}_{row}")
+        return value
+
     def count(self, name: str) -> int:
         """Value of a row that counts something; raises GeometryError where it is no whole number above zero."""
         value: float = getattr(self, name)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from math import atan2, cos, degrees, hypot, pi, sin
 
 import cadquery as cq
@@ -12,6 +11,7 @@ import cadquery as cq
 from tvimdesign import __version__
 from tvimdesign.cad import names
 from tvimdesign.cad.features import Cylinder, levels, upright_cylinders
+from tvimdesign.cad.figures import around, figure
 from tvimdesign.cad.making import MAKING
 from tvimdesign.cad.projection import View, from_above, section
 from tvimdesign.cad.sheet import SIZE, Field, Sheet, ratio
@@ -234,15 +234,13 @@ def _said_of(group: Sequence[Cylinder], bottom: float, top: float) -> str:
     """What a call-out says: how many, how large, where, and between which heights."""
     one = group[0]
     if _is_corner(one):
-        return f"{len(group)}× R{_figure(one.radius)} inner corners"
+        return f"{len(group)}× R{figure(one.radius)} inner corners"
     size = (
-        f"⌀{_figure(2.0 * one.radius)}"
-        if one.is_round
-        else f"R{_figure(one.radius)} over {_figure(degrees(one.span))}°"
+        f"⌀{figure(2.0 * one.radius)}" if one.is_round else f"R{figure(one.radius)} over {figure(degrees(one.span))}°"
     )
     what = ("hole" if one.concave else "boss") if one.is_round else ("inside" if one.concave else "outside")
     through = one.concave and one.is_round and abs(one.bottom - bottom) < 1e-3 and abs(one.top - top) < 1e-3
-    deep = "through" if through else f"h {_figure(one.bottom - bottom)} to {_figure(one.top - bottom)}"
+    deep = "through" if through else f"h {figure(one.bottom - bottom)} to {figure(one.top - bottom)}"
     many = f"{len(group)}× " if len(group) > 1 else ""
     return ", ".join(filter(None, (f"{many}{size} {what}", _where(group), deep)))
 
@@ -259,17 +257,9 @@ def _where(group: Sequence[Cylinder]) -> str:
     if pitch < 1e-3:
         return ""
     if len(group) == 1:
-        return f"x {_figure(one.x)}, y {_figure(one.y)}"
+        return f"x {figure(one.x)}, y {figure(one.y)}"
     azimuths = sorted(round(degrees(atan2(other.y, other.x)) % 360.0, 3) % 360.0 for other in group)
-    steps = [later - earlier for earlier, later in pairwise([*azimuths, azimuths[0] + 360.0])]
-    if max(steps) - min(steps) < 0.01:
-        return f"on ⌀{_figure(pitch)} from {_figure(azimuths[0])}°"
-    return f"on ⌀{_figure(pitch)} at {', '.join(f'{_figure(azimuth)}°' for azimuth in azimuths)}"
-
-
-def _figure(value: float) -> str:
-    """A length or an angle with at most two decimals."""
-    return f"{value:.2f}".rstrip("0").rstrip(".") if abs(value) >= 5e-3 else "0"
+    return f"on ⌀{figure(pitch)} {around(azimuths)}"
 
 
 def _words(sheet: Sheet, kind: str, solid: cq.Solid, what: Product, module: str) -> None:

@@ -30,6 +30,7 @@ def _kind(colour: Rgb, material: str, density: str, volume: str) -> Kind:
 
 _SPRING = ("spring_material", "spring_density", "spring_volume")
 _STEEL: Rgb = (0.30, 0.31, 0.33)
+_BRASS: Rgb = (0.80, 0.66, 0.25)
 KINDS = {
     "housing": _kind((0.62, 0.68, 0.74), *_STRUCTURE, "housing_volume"),
     "rotor": _kind((0.92, 0.62, 0.20), *_STRUCTURE, "rotor_volume"),
@@ -39,16 +40,24 @@ KINDS = {
     "pcl_block": _kind((0.95, 0.93, 0.82), "pcl_grade", "pcl_density", "pcl_volume"),
     "peltier_pad": _kind((0.72, 0.20, 0.18), "peltier_module", "peltier_density", "peltier_volume"),
     "link_screw": _kind(_STEEL, "link_screw", "link_screw_density", "link_screw_volume"),
+    "link_insert": _kind(_BRASS, "link_insert", "link_insert_density", "link_insert_volume"),
     "retainer_screw": _kind(_STEEL, "retainer_screw", "retainer_screw_density", "retainer_screw_volume"),
+    "retainer_insert": _kind(_BRASS, "retainer_insert", "retainer_insert_density", "retainer_insert_volume"),
     "bearing_inner": _kind((0.80, 0.80, 0.84), "bearing", "bearing_density", "bearing_inner_volume"),
     "bearing_outer": _kind((0.52, 0.54, 0.60), "bearing", "bearing_density", "bearing_outer_volume"),
     "adjuster": _kind((0.78, 0.45, 0.58), *_STRUCTURE, "adjuster_volume"),
     "adjuster_screw": _kind(_STEEL, "adjuster_screw", "adjuster_screw_density", "adjuster_screw_volume"),
+    "adjuster_insert": _kind(_BRASS, "adjuster_insert", "adjuster_insert_density", "adjuster_insert_volume"),
+    "cover": _kind((0.50, 0.56, 0.62), *_STRUCTURE, "cover_volume"),
+    "cover_screw": _kind(_STEEL, "cover_screw", "cover_screw_density", "cover_screw_volume"),
+    "cover_insert": _kind(_BRASS, "cover_insert", "cover_insert_density", "cover_insert_volume"),
     "spring_right": _kind((0.15, 0.48, 0.38), *_SPRING),
     "spring_left": _kind((0.45, 0.70, 0.30), *_SPRING),
 }
 """Of all modes, by name; a placed part is named after its kind, with a number where there are several."""
-TURNING = ("rotor", "link", "retainer", "link_screw", "retainer_screw", "bearing_inner")
+TURNING = (
+    "rotor", "link", "retainer", "link_screw", "retainer_screw", "link_insert", "retainer_insert", "bearing_inner",
+)  # fmt: skip
 """The kinds that turn together."""
 MADE_TURNING = TURNING[:3]
 """Those of them of which there is one, drawn where it stands."""

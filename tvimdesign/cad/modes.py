@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import cadquery as cq
 
-from tvimdesign.cad import adjuster, bought, compression, shear
+from tvimdesign.cad import adjuster, bought, compression, cover, inserts, shear
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import SPRINGS
 
@@ -26,7 +26,14 @@ class Module:
     def drawn(self, dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
         """How one of each kind is drawn but the springs, of what a design has."""
         adjusters = {"adjuster": adjuster.adjuster, "adjuster_screw": adjuster.adjuster_screw}
-        return {**self.made, **bought.drawn(dims), **(adjusters if dims.adjuster_radius else {})}
+        covers = cover.DRAWN if dims.cover_height else {}
+        return {
+            **self.made,
+            **bought.drawn(dims),
+            **(adjusters if dims.adjuster_radius else {}),
+            **covers,
+            **inserts.drawn(dims),
+        }
 
     def kinds(self, dims: Dimensions) -> tuple[str, ...]:
         """All kinds of part a design has, springs and all."""

@@ -31,26 +31,27 @@ def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
 
 
 def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable[cq.Shape]) -> cq.Shape:
-    """Floor, hub, wall, skirt, spring posts, feet and what the mode adds.
+    """Floor, hub, wall, skirt, spring posts, bosses for a cover, feet and what the mode adds.
 
     Less bore, the mode's openings, tang and screw holes, and notches.
     """
     floor_bottom = -dims.floor_thickness
     floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
-    ground, rim = floor_bottom - dims.foot_height, dims.pin_top_level
+    ground, rim = floor_bottom - dims.foot_height, dims.rim_level
     wall = ring(dims.housing_inner_radius, dims.housing_outer_radius, ground, rim)
     hub = cylinder(dims.hub_radius, dims.hub_bottom_level, dims.hub_top_level)
     posts, holes = spring_places(dims)
+    bosses, cover_holes = cover_places(dims)
     feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
     mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
-    body = join(floor, [wall, hub, *posts, *feet, *added])
-    return body.cut(*bores(dims), *openings, *holes, *mount_holes, *notches(dims))
+    body = join(floor, [wall, hub, *posts, *bosses, *feet, *added])
+    return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims))
 
 
 def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
     """What stands on the floor for the springs, and what is cut from it: posts and tang holes, or pockets."""
     floor_bottom = -dims.floor_thickness
-    axes = [polar(dims.placement_radius, azimuth) for azimuth in dims.azimuths("spring_count")]
+    axes = spring_axes(dims)
     if not dims.adjuster_radius:
         hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
         holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
@@ -70,10 +71,29 @@ def bores(dims: Dimensions) -> list[cq.Shape]:
     return [between, lower, cylinder(dims.seat_radius, top - dims.bearing_width, top)]
 
 
+def spring_axes(dims: Dimensions) -> list[tuple[float, float]]:
+    """Axes of the springs, in their order."""
+    return [polar(dims.placement_radius, azimuth) for azimuth in dims.azimuths("spring_count")]
+
+
 def mounts(dims: Dimensions) -> list[tuple[float, float]]:
     """Axes of the screws that fix the housing: midway between the springs."""
+    return between_springs(dims, dims.placement_radius)
+
+
+def between_springs(dims: Dimensions, radius: float) -> list[tuple[float, float]]:
+    """Places midway between the springs at a radius."""
     half_pitch = pi / dims.count("spring_count")
-    return [polar(dims.placement_radius, azimuth + half_pitch) for azimuth in dims.azimuths("spring_count")]
+    return [polar(radius, azimuth + half_pitch) for azimuth in dims.azimuths("spring_count")]
+
+
+def cover_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
+    """What stands inside the wall for a cover's screws, and their holes; nothing without a cover."""
+    if not dims.cover_height:
+        return [], []
+    rim, axes = dims.rim_level, between_springs(dims, dims.housing_inner_radius)
+    holes = [cylinder(0.5 * dims.cover_screw_hole, rim - dims.cover_screw_depth, rim, at) for at in axes]
+    return [cylinder(dims.cover_boss_radius, 0, rim, at) for at in axes], holes
 
 
 def notches(dims: Dimensions) -> list[cq.Shape]:
@@ -84,8 +104,11 @@ def notches(dims: Dimensions) -> list[cq.Shape]:
     return [turned(opening, azimuth) for azimuth in dims.azimuths("spring_count")]
 
 
-def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = ()) -> cq.Shape:
-    """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds."""
+def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Iterable[cq.Shape] = ()) -> cq.Shape:
+    """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds.
+
+    Less the screws' holes and the mode's openings.
+    """
     core_bottom = dims.core_bottom_level
     plate = cylinder(dims.rotor_radius, dims.rotor_bottom_level, dims.rotor_top_level)
     core = [
@@ -100,9 +123,9 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = ()) -> cq.Shape:
     ]
     core_top = dims.link_bottom_level
     pilot_bottom = core_top - dims.link_screw_depth
-    pilots = [cylinder(0.5 * dims.link_screw_pilot, pilot_bottom, core_top, at) for at in link_screws(dims)]
-    retainer_pilot = cylinder(0.5 * dims.retainer_screw_pilot, core_bottom, core_bottom + dims.retainer_screw_depth)
-    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots)
+    pilots = [cylinder(0.5 * dims.link_screw_hole, pilot_bottom, core_top, at) for at in link_screws(dims)]
+    retainer_pilot = cylinder(0.5 * dims.retainer_screw_hole, core_bottom, core_bottom + dims.retainer_screw_depth)
+    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots, *openings)
 
 
 def link(dims: Dimensions) -> cq.Shape:

@@ -16,10 +16,13 @@ from tvimdesign.cad.mesh import Array, Instance
 from tvimdesign.cad.render import actors, legend, legend_height, lit, poly_data, surface_actors, write_png
 
 _ORDER = (
-    "retainer_screw", "retainer", "adjuster_screw", "housing", "bearing_outer", "bearing_inner", "adjuster",
-    "peltier_pad", "pcl_arc", "pcl_block", "rotor", "spring_right", "spring_left", "link", "link_screw",
+    "retainer_screw", "retainer", "retainer_insert", "adjuster_screw", "housing", "cover_insert", "bearing_outer",
+    "bearing_inner", "adjuster_insert", "adjuster", "peltier_pad", "pcl_arc", "pcl_block", "rotor", "link_insert",
+    "spring_right", "spring_left", "cover", "cover_screw", "link", "link_screw",
 )  # fmt: skip
 """Along the axis from below; kinds that are not named come last."""
+_LIDS = ("cover",)
+"""Closed plates, which are lifted until all of what lies below them is seen."""
 _TOGETHER = ({"spring_right", "spring_left"},)
 _EXPLODED, _SECTION = (1000, 1300), (1500, 750)
 _ROOM = 1.03
@@ -54,7 +57,8 @@ def lifts(placed: Mapping[str, Instance]) -> dict[str, float]:
         high = max(float(points[name][:, 2].max()) for name in group)
         reach = max(float(np.hypot(points[name][:, 0], points[name][:, 1]).max()) for name in group)
         # What is wider than the kind below it would hide it from a camera that looks down.
-        floor += max(reach - below, 0.0) * _DOWN if below else 0.0
+        hidden = reach + below if kind_of(group[0]) in _LIDS else max(reach - below, 0.0)
+        floor += hidden * _DOWN if below else 0.0
         lifted |= dict.fromkeys(group, floor - low)
         floor += high - low + _APART * width
         below = reach

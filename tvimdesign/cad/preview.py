@@ -17,12 +17,12 @@ from tvimdesign.cad.render import actors, legend, legend_height, lit, write_png
 
 _SIZE = (1800, 800)
 _CUT = ("housing", "rotor")
-_HIDDEN = ("link",)
+_HIDDEN = ("link", "cover", "cover_screw")
 
 
 def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, Instance]) -> None:
     """Write the picture as PNG, whole or not at all."""
-    opened = {name: instance for name, instance in placed.items() if name not in _HIDDEN}
+    opened = {name: instance for name, instance in placed.items() if kind_of(name) not in _HIDDEN}
     for name in _CUT:
         opened[name] = Instance(solid_mesh(_without_quarter(drawn[name], dims)), np.eye(4))
     kinds = MODULES[dims.mode].kinds(dims)

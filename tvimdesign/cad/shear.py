@@ -9,9 +9,12 @@ import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.parts import bare_housing, bare_rotor, link, retainer
-from tvimdesign.cad.shapes import rounded, sector, turned
+from tvimdesign.cad.shapes import cylinder, join, polar, rounded, sector, turned
 
-FIXED = ("housing", "peltier_pad", "pcl_arc", "bearing_outer", "adjuster", "adjuster_screw")
+FIXED = (
+    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "adjuster", "adjuster_screw", "adjuster_insert", "cover",
+    "cover_screw", "cover_insert",
+)  # fmt: skip
 
 
 def housing(dims: Dimensions) -> cq.Shape:
@@ -28,9 +31,26 @@ def housing(dims: Dimensions) -> cq.Shape:
     return bare_housing(dims, (), openings)
 
 
-def pcl_arc(dims: Dimensions) -> cq.Shape:
-    """One arc of PCL between floor and rotor, centred on the x axis."""
-    return sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, 0, dims.pcl_thickness)
+def rotor(dims: Dimensions) -> cq.Shape:
+    """Rotor with pockets in its plate for the keys of the arcs."""
+    return bare_rotor(dims, openings=[turned(key, azimuth) for azimuth in _azimuths(dims) for key in _keys(dims)])
+
+
+def pcl_arc(dims: Dimensions, sheared: float = 0.0) -> cq.Shape:
+    """One arc of PCL between floor and rotor, centred on the x axis, its keys turned with the rotor by an angle [rad].
+
+    The layer itself is drawn unsheared.
+    """
+    layer = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, 0, dims.pcl_thickness)
+    keys = [turned(key, sheared) for key in _keys(dims)]
+    return join(layer, keys) if keys else layer
+
+
+def _keys(dims: Dimensions) -> list[cq.Shape]:
+    """The keys of an arc that is centred on the x axis; none where it has none."""
+    count, bottom = round(dims.key_count), dims.rotor_bottom_level
+    at = [polar(dims.key_circle_radius, dims.arc_span * ((index + 0.5) / count - 0.5)) for index in range(count)]
+    return [cylinder(0.5 * dims.key_diameter, bottom, bottom + dims.key_depth, place) for place in at]
 
 
 def peltier_pad(dims: Dimensions) -> cq.Shape:
@@ -41,7 +61,7 @@ def peltier_pad(dims: Dimensions) -> cq.Shape:
 
 DRAWN = {
     "housing": housing,
-    "rotor": bare_rotor,
+    "rotor": rotor,
     "link": link,
     "retainer": retainer,
     "pcl_arc": pcl_arc,
@@ -49,11 +69,16 @@ DRAWN = {
 }
 
 
-def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], _rotor_angle: float) -> dict[str, cq.Shape]:
-    """Place pads and arcs, by name. The arcs are drawn unsheared; the floor holds their lower face."""
+def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
+    """Place pads and arcs, the keys of these with the rotor at an angle [rad], by name.
+
+    The arcs are drawn unsheared: the floor holds their lower face, the keys go with the rotor.
+    """
+    keyed = rotor_angle != 0.0 and dims.key_count > 0.0
+    shapes = {"peltier_pad": drawn["peltier_pad"], "pcl_arc": pcl_arc(dims, rotor_angle) if keyed else drawn["pcl_arc"]}
     return {
-        f"{kind}_{index + 1}": turned(drawn[kind], azimuth)
-        for kind in ("peltier_pad", "pcl_arc")
+        f"{kind}_{index + 1}": turned(shape, azimuth)
+        for kind, shape in shapes.items()
         for index, azimuth in enumerate(_azimuths(dims))
     }
 

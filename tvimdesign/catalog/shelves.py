@@ -77,7 +77,12 @@ SHELVES: Mapping[str, Shelf] = {
             "bed_width": "mm",
             "bed_height": "mm",
         },
-        words={"method": ("printed", "milled"), "structure_material": (), "thread": ("self_tapping", "tapped")},
+        words={
+            "method": ("printed", "milled"),
+            "structure_material": (),
+            "thread": ("self_tapping", "tapped"),
+            "insert": ("none", "heat_set"),
+        },
         rising=(("minimum_running_clearance", "running_clearance"), ("thinnest_wall", "minimum_wall")),
     ),
     "screws": Shelf(
@@ -90,7 +95,19 @@ SHELVES: Mapping[str, Shelf] = {
             "density": "kg/m^3",
         },
         tables={"lengths": Columns({"length": "mm"})},
+        words={"insert": ()},
         rising=(("tap_drill", "nominal_diameter", "clearance_hole", "head_diameter"),),
+    ),
+    "inserts": Shelf(
+        values={
+            "nominal_diameter": "mm",
+            "hole_diameter": "mm",
+            "outer_diameter": "mm",
+            "length": "mm",
+            "minimum_wall": "mm",
+            "mass": "g",
+        },
+        rising=(("nominal_diameter", "hole_diameter", "outer_diameter"),),
     ),
     "bearings": Shelf(
         values={

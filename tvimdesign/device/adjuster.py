@@ -12,6 +12,7 @@ import numpy as np
 
 from tvimdesign.device.bodies import book as bodies
 from tvimdesign.device.book import Book
+from tvimdesign.device.fastening import Joint, screwed_joint
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
 from tvimdesign.device.rows import Rule, Scalar, at_least
@@ -19,25 +20,15 @@ from tvimdesign.physics.friction import disc_torque
 from tvimdesign.physics.shapes import bar_across
 
 FIXED = "fixed"
+ONLY = ("preload_adjuster", "rotary")
+JOINT = Joint("adjuster", "iso_7380_m3", "that of a rotary adjuster", "adjusters' screws", "the posts", ONLY)
 
 places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
-books = (places, weights, rules)
+books = (places, *screwed_joint(JOINT), weights, rules)
 
 places.option(
     "preload_adjuster", (FIXED, "rotary"), "Whether a spring's tang is held by the floor, or by a post that turns"
 )
-places.record("adjuster_screw", "screws", "iso_7380_m3", "Screw that clamps a rotary adjuster")
-for name, unit, field, description in (
-    ("diameter", "mm", "nominal_diameter", "Nominal diameter"),
-    ("pilot", "mm", "tap_drill", "Hole for the thread"),
-    ("clearance", "mm", "clearance_hole", "Clearance hole"),
-    ("head", "mm", "head_diameter", "Head diameter"),
-    ("head_height", "mm", "head_height", "Head height"),
-    ("density", "kg/m^3", "density", "Density"),
-):
-    places.property(
-        f"adjuster_screw_{name}", unit, ("adjuster_screw", field), f"{description} of the adjusters' screws"
-    )
 
 
 @places.output("deg")
@@ -74,12 +65,22 @@ def tang_length(
     return (floor_thickness if preload_adjuster == FIXED else adjuster_thickness) - tang_end_gap
 
 
-@places.output("mm")
-def adjuster_screw_depth(
-    adjuster_screw_length: Scalar, floor_thickness: Scalar, adjuster_thickness: Scalar, screw_tip_room: Scalar
-) -> Scalar:
-    """Depth of the screws' holes in the adjusters."""
-    return adjuster_screw_length - (floor_thickness - adjuster_thickness) + screw_tip_room
+@places.helper()
+def adjuster_clamped(floor_thickness: Scalar, adjuster_thickness: Scalar) -> Scalar:
+    """What the adjusters' screws go through [m]: the floor below the flange."""
+    return floor_thickness - adjuster_thickness
+
+
+@places.helper()
+def adjuster_screw_count(preload_adjuster: str, spring_count: Scalar) -> Scalar:
+    """Screws of the adjusters, one each; none where the tangs are fixed."""
+    return 0.0 if preload_adjuster == FIXED else spring_count
+
+
+@places.helper()
+def adjuster_screw_circle(placement_radius: Scalar) -> Scalar:
+    """Radius of the circle of the adjusters' screws [m]."""
+    return placement_radius
 
 
 # --- weights ---------------------------------------------------------------------------------------------------------
@@ -120,7 +121,7 @@ def adjuster_volume(
     post_height: Scalar,
     wire_diameter: Scalar,
     tang_clearance: Scalar,
-    adjuster_screw_pilot: Scalar,
+    adjuster_screw_hole: Scalar,
     adjuster_screw_depth: Scalar,
     driver_slot_width: Scalar,
     driver_slot_depth: Scalar,
@@ -130,25 +131,9 @@ def adjuster_volume(
         return 0.0
     flange = np.pi * (adjuster_radius**2 - (0.5 * wire_diameter + tang_clearance) ** 2) * adjuster_thickness
     post = np.pi * post_radius**2 * post_height
-    hole = 0.25 * np.pi * adjuster_screw_pilot**2 * adjuster_screw_depth
+    hole = 0.25 * np.pi * adjuster_screw_hole**2 * adjuster_screw_depth
     slot = bar_across(0.5 * driver_slot_width, post_radius) * driver_slot_depth
     return spring_count * (flange + post - hole - slot)
-
-
-@weights.output("mm^3")
-def adjuster_screw_volume(
-    preload_adjuster: str,
-    spring_count: Scalar,
-    adjuster_screw_pilot: Scalar,
-    adjuster_screw_length: Scalar,
-    adjuster_screw_head: Scalar,
-    adjuster_screw_head_height: Scalar,
-) -> Scalar:
-    """Volume of the adjusters' screws together."""
-    if preload_adjuster == FIXED:
-        return 0.0
-    shank, head = adjuster_screw_pilot**2 * adjuster_screw_length, adjuster_screw_head**2 * adjuster_screw_head_height
-    return spring_count * 0.25 * np.pi * (shank + head)
 
 
 @weights.output("g")
@@ -164,7 +149,7 @@ def adjusters_mass(
 
 def _room(reason: str) -> Rule:
     """There must be room, where there are adjusters at all."""
-    return at_least(0.0, reason, only=("preload_adjuster", "rotary"))
+    return at_least(0.0, reason, only=ONLY)
 
 
 @rules.output(
@@ -224,23 +209,10 @@ def adjuster_mount_gap(
     _room("an adjuster's post would split around its screw: a thicker post, or a smaller screw"),
 )
 def adjuster_post_reserve(
-    preload_adjuster: str, post_radius: Scalar, adjuster_screw_pilot: Scalar, minimum_wall: Scalar
+    preload_adjuster: str, post_radius: Scalar, adjuster_screw_hole: Scalar, adjuster_hole_wall: Scalar
 ) -> Scalar:
-    """Wall of an adjuster's post around its screw beyond the process's least; zero where tangs are fixed."""
-    return 0.0 if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_pilot - minimum_wall
-
-
-@rules.output("mm", _room("the adjusters' screws are too short to hold"))
-def adjuster_thread_reserve(
-    preload_adjuster: str,
-    adjuster_screw_depth: Scalar,
-    screw_tip_room: Scalar,
-    thread_engagement: Scalar,
-    adjuster_screw_diameter: Scalar,
-) -> Scalar:
-    """Thread in the adjusters beyond what the process wants; zero where tangs are fixed."""
-    thread = adjuster_screw_depth - screw_tip_room
-    return 0.0 if preload_adjuster == FIXED else thread - thread_engagement * adjuster_screw_diameter
+    """Wall of an adjuster's post around its screw's hole beyond the least; zero where tangs are fixed."""
+    return 0.0 if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_hole - adjuster_hole_wall
 
 
 @rules.output("mm", _room("the screw's hole would reach the driver's slot: choose a shorter screw"))

@@ -206,9 +206,9 @@ def bearing_lip_reserve(
 
 
 @rules.output("mm", at_least(0.0, "the core would split around the retainer's screw"))
-def journal_wall_reserve(journal_radius: Scalar, retainer_screw_pilot: Scalar, minimum_wall: Scalar) -> Scalar:
-    """Wall of the core around the retainer's screw beyond the process's least."""
-    return journal_radius - 0.5 * retainer_screw_pilot - minimum_wall
+def journal_wall_reserve(journal_radius: Scalar, retainer_screw_hole: Scalar, retainer_hole_wall: Scalar) -> Scalar:
+    """Wall of the core around the hole of the retainer's screw beyond the least."""
+    return journal_radius - 0.5 * retainer_screw_hole - retainer_hole_wall
 
 
 @rules.output("N")

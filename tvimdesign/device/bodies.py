@@ -74,12 +74,13 @@ def bare_housing_volume(
     housing_inner_radius: Scalar,
     housing_outer_radius: Scalar,
     hub_volume: Scalar,
-    pin_top_level: Scalar,
+    rim_level: Scalar,
     fixed_posts_volume: Scalar,
+    cover_bosses_volume: Scalar,
 ) -> Scalar:
-    """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub and spring posts."""
-    wall = ring(housing_inner_radius, housing_outer_radius).area * pin_top_level
-    return skirt_volume + floor_volume + wall + hub_volume + fixed_posts_volume
+    """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub, posts and bosses."""
+    wall = ring(housing_inner_radius, housing_outer_radius).area * rim_level
+    return skirt_volume + floor_volume + wall + hub_volume + fixed_posts_volume + cover_bosses_volume
 
 
 @book.helper()
@@ -98,10 +99,10 @@ def bare_rotor_moments(
     pin_radius: Scalar,
     pin_top_level: Scalar,
     rotor_top_level: Scalar,
-    link_screw_pilot: Scalar,
+    link_screw_hole: Scalar,
     link_screw_depth: Scalar,
     link_bolt_circle_radius: Scalar,
-    retainer_screw_pilot: Scalar,
+    retainer_screw_hole: Scalar,
     retainer_screw_depth: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of plate, core and pins less the screw holes."""
@@ -111,8 +112,8 @@ def bare_rotor_moments(
         (ring(0.0, collar_radius), rotor_bottom_level - hub_top_level),
         (ring(0.0, journal_radius), hub_top_level - core_bottom_level),
         (disc_at(0.5 * pin_diameter, pin_radius).times(spring_count), pin_top_level - rotor_top_level),
-        (disc_at(0.5 * link_screw_pilot, link_bolt_circle_radius).times(LINK_SCREWS), -link_screw_depth),
-        (ring(0.0, 0.5 * retainer_screw_pilot), -retainer_screw_depth),
+        (disc_at(0.5 * link_screw_hole, link_bolt_circle_radius).times(LINK_SCREWS), -link_screw_depth),
+        (ring(0.0, 0.5 * retainer_screw_hole), -retainer_screw_depth),
     )
     return Section(
         area=sum(section.area * height for section, height in prisms),
@@ -217,10 +218,12 @@ def module_mass(
     screws_mass: Scalar,
     bearings_mass: Scalar,
     adjusters_mass: Scalar,
+    cover_mass: Scalar,
+    inserts_mass: Scalar,
 ) -> Scalar:
     """Mass of the module, without wires and the screws that fix it."""
-    made = housing_mass + rotor_mass + link_mass + retainer_mass + pcl_mass
-    return made + springs_mass + peltier_mass + screws_mass + bearings_mass + adjusters_mass
+    made = housing_mass + rotor_mass + link_mass + retainer_mass + cover_mass + pcl_mass
+    return made + springs_mass + peltier_mass + screws_mass + inserts_mass + bearings_mass + adjusters_mass
 
 
 @book.output("kg*mm^2")
@@ -243,8 +246,9 @@ def parts_inertia(
     retainer_thickness: Scalar,
     structure_density: Scalar,
     screws_inertia: Scalar,
+    inserts_inertia: Scalar,
     bearings_inertia: Scalar,
 ) -> Scalar:
-    """Moment of inertia of everything in the module that turns: rotor, link, retainer, screws and inner rings."""
+    """Moment of inertia of all that turns in the module: rotor, link, retainer, screws, inserts and inner rings."""
     retainer = retainer_section.polar * retainer_thickness * structure_density
-    return rotor_inertia + link_inertia + retainer + screws_inertia + bearings_inertia
+    return rotor_inertia + link_inertia + retainer + screws_inertia + inserts_inertia + bearings_inertia

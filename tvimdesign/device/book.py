@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeVar
 
 import yaml
 
-from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Row, Rule, Stage, Steady, Swing
+from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Row, Rule, Stage, Steady, Swing, its_name
 from tvimdesign.units import to_si
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -138,6 +138,23 @@ class Book:
             return function
 
         return add
+
+    def alike(self, of: str, words: str, function: Callable[..., Any], unit: str = "", *rules: Rule) -> None:
+        """Add a row that several things have alike, for one of them; without a unit it is an intermediate result.
+
+        The function is written with `its_` for the thing in its name and in its parameters, and {it} for `words`.
+        """
+        row = Output(
+            name=its_name(function.__name__, of),
+            unit=unit or "1",
+            description=_summary(function).format(it=words),
+            group=self.group,
+            function=function,
+            hidden=not unit,
+            rules=rules,
+            of=of,
+        )
+        self.rows.append(row)
 
     def helper(self, *, per_point: bool = False, instant: bool = False) -> Callable[[F], F]:
         """Add an intermediate result that other rows use and nobody asks for."""

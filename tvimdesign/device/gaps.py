@@ -118,10 +118,10 @@ def retainer_gap(
 
 @book.output("mm")
 def link_screw_wall(
-    core_radius: Scalar, journal_radius: Scalar, link_bolt_circle_radius: Scalar, link_screw_pilot: Scalar
+    core_radius: Scalar, journal_radius: Scalar, link_bolt_circle_radius: Scalar, link_screw_hole: Scalar
 ) -> Scalar:
     """Wall outside the link screws' holes of the core, and of its journal, into which they may reach."""
-    return np.fmin(core_radius, journal_radius) - link_bolt_circle_radius - 0.5 * link_screw_pilot
+    return np.fmin(core_radius, journal_radius) - link_bolt_circle_radius - 0.5 * link_screw_hole
 
 
 @book.output("mm", at_least(0.3 * MM, "the heads of the link screws must clear each other"))

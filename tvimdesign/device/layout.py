@@ -133,14 +133,14 @@ def rotor_top_level(rotor_bottom_level: Scalar, rotor_thickness: Scalar) -> Scal
 
 @book.output("mm")
 def pin_top_level(leg_top_level: Scalar, axial_clearance: Scalar) -> Scalar:
-    """Upper end of the rotor pins and of the housing wall."""
+    """Upper end of the rotor pins."""
     return leg_top_level + axial_clearance
 
 
 @book.output("mm")
-def link_bottom_level(pin_top_level: Scalar, axial_clearance: Scalar) -> Scalar:
+def link_bottom_level(rim_level: Scalar, cover_height: Scalar, axial_clearance: Scalar) -> Scalar:
     """Lower face of the output link and upper end of the core."""
-    return pin_top_level + axial_clearance
+    return rim_level + cover_height + axial_clearance
 
 
 @book.output("mm")

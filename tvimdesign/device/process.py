@@ -34,6 +34,11 @@ limits.option(
     record=("process", "method"),
 )  # fmt: skip
 
+limits.option(
+    "thread_insert", ("none", "heat_set"), "Whether screws cut their thread in the part, or in brass inserts melted in",
+    record=("process", "insert"),
+)  # fmt: skip
+
 
 _WALL = "is thinner than the process can make it"
 
@@ -63,9 +68,9 @@ def link_reserve(link_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
 
 
 @book.output("mm", at_least(0.0, f"the core's wall outside the link screws {_WALL}: it would split"))
-def link_screw_wall_reserve(link_screw_wall: Scalar, minimum_wall: Scalar) -> Scalar:
-    """Wall of the core outside the link screws beyond the process's least."""
-    return link_screw_wall - minimum_wall
+def link_screw_wall_reserve(link_screw_wall: Scalar, link_hole_wall: Scalar) -> Scalar:
+    """Wall of the core outside the link screws' holes beyond the least around them."""
+    return link_screw_wall - link_hole_wall
 
 
 @book.output("mm", at_least(0.0, "the rotor's pins are thinner than the process can make them"))

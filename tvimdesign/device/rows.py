@@ -88,6 +88,11 @@ class Choice:
     """(word, value, reason): a record fits only if its word has that value."""
 
 
+def its_name(name: str, of: str) -> str:
+    """Name of a row that several things have alike, of one of them: `its_screw` of `link` is `link_screw`."""
+    return f"{of}_{name.removeprefix('its_')}" if of and name.startswith("its_") else name
+
+
 @dataclass(frozen=True, kw_only=True)
 class Output:
     """A named result. `function` takes the rows it names as parameters and returns SI."""
@@ -111,11 +116,15 @@ class Output:
     """Limits that are reported where they are broken, and enforced only where a study requires them."""
     better: Literal["less", "more"] | None = None
     """Which way it is better whatever the module is for; None where that depends."""
+    of: str = ""
+    """What has the row, where several things have it alike: `its_` in the parameters' names stands for that."""
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
         """The rows this one is computed from, `name@point` where the parameter says `name_at_point`."""
-        return tuple(name.replace("_at_", "@") for name in inspect.signature(self.function).parameters)
+        return tuple(
+            its_name(name, self.of).replace("_at_", "@") for name in inspect.signature(self.function).parameters
+        )
 
     def call(self, arguments: Iterable[Any]) -> Scalar:
         """Apply the function to the values of `needs`, in order."""

@@ -38,6 +38,17 @@ def disc_at(radius: Any, distance: Any) -> Section:
     return Section(area, area * (0.5 * radius**2 + distance**2))
 
 
+def lens(radius: Any, circle_radius: Any) -> Any:
+    """Area [m^2] that a disc whose centre lies on a circle has inside that circle.
+
+    b^2 (pi/2 - a) + 2 R^2 a - (b/2) sqrt(4R^2 - b^2), sin a = b/2R: two circles a distance R apart (Weisstein,
+    MathWorld, circle-circle intersection; acos(b/2R) is pi/2 - a and acos(1 - b^2/2R^2) is 2 a).
+    """
+    b, r = radius, circle_radius
+    half = np.arcsin(0.5 * b / r)
+    return b**2 * (0.5 * np.pi - half) + 2.0 * r**2 * half - 0.5 * b * np.sqrt(4.0 * r**2 - b**2)
+
+
 def ring_notch(half_width: Any, inner_radius: Any, outer_radius: Any) -> Any:
     """Area [m^2] that a straight opening of the given half width takes from one side of a ring about the axis."""
 

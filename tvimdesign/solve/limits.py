@@ -107,6 +107,8 @@ _ONLY_WITH = {
             "driver_slot_depth",
         ),
     ),
+    "thread_insert": ("heat_set", ("link_insert", "retainer_insert", "adjuster_insert", "cover_insert")),
+    "cover": ("plate", ("cover_thickness", "cover_screw_length")),
     "impedance_targets": ("stated", ("soft_impedance", "stiff_impedance")),
 }
 """Inputs that count only where an option is chosen: option, its word, the inputs."""

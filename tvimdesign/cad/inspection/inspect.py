@@ -10,6 +10,8 @@ from tvimdesign.cad.assembly import place
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.export import instances
 from tvimdesign.cad.features import holes
+from tvimdesign.cad.inserts import insert_length
+from tvimdesign.cad.inserts import places as insert_places
 from tvimdesign.cad.inspection.coils import coil_checks
 from tvimdesign.cad.inspection.corners import corner_checks, hole_check
 from tvimdesign.cad.inspection.finding import at_least, finding
@@ -21,7 +23,7 @@ from tvimdesign.cad.inspection.walls import wall_checks
 from tvimdesign.cad.making import MAKING
 from tvimdesign.cad.mesh import solid_mesh
 from tvimdesign.cad.outcome import Check
-from tvimdesign.cad.parts import link_screws
+from tvimdesign.cad.parts import between_springs, link_screws
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si
@@ -74,19 +76,36 @@ def rule_checks(design: Design) -> Iterator[Check]:
 
 
 def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[Check]:
-    """How much of each kind of screw is in its hole in the core, over its diameter; read off both solids."""
+    """How much of each kind of screw is in its thread, over its diameter; read off the solids."""
     x, y = link_screws(dims)[0]
-    for kind, at, diameter in (
-        ("link_screw", (x, y), dims.link_screw_diameter),
-        ("retainer_screw", (0.0, 0.0), dims.retainer_screw_diameter),
+    bosses = between_springs(dims, dims.housing_inner_radius)
+    for joint, host, at in (
+        ("link", "rotor", (x, y)),
+        ("retainer", "rotor", (0.0, 0.0)),
+        ("adjuster", "adjuster", (0.0, 0.0)),
+        ("cover", "housing", bosses[0]),
     ):
-        screw = drawn[kind].BoundingBox()
-        pilots = [
-            hole for hole in holes(drawn["rotor"])
-            if abs(hole.x - at[0]) < 1e-4 and abs(hole.y - at[1]) < 1e-4
-        ]  # fmt: skip
-        engaged = sum(max(0.0, min(hole.top, screw.zmax) - max(hole.bottom, screw.zmin)) for hole in pilots)
+        if f"{joint}_screw" not in drawn:
+            continue
+        screw, diameter = drawn[f"{joint}_screw"].BoundingBox(), dims.of(joint, "screw_diameter")
+        engaged = sum(
+            max(0.0, min(top, screw.zmax) - max(bottom, screw.zmin))
+            for bottom, top in _threads(dims, drawn, joint, host, at)
+        )
+        length = insert_length(dims, joint)
+        wanted, into = (length / diameter, "its insert") if length else (dims.thread_engagement, f"the {host}")
         ratio = engaged / diameter
-        text = f"{engaged:.3g} mm of thread in the core, {ratio:.3g} diameters; {dims.thread_engagement:.3g} are wanted"
-        level = at_least(ratio, dims.thread_engagement - 1e-6, 1.0)
-        yield finding(kind, "thread", ratio, dims.thread_engagement, "", level, text)
+        text = f"{engaged:.3g} mm of thread in {into}, {ratio:.3g} diameters; {wanted:.3g} are wanted"
+        level = at_least(ratio, wanted - 1e-6, 1.0)
+        yield finding(f"{joint}_screw", "thread", ratio, wanted, "", level, text)
+
+
+def _threads(
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], joint: str, host: str, at: tuple[float, float]
+) -> list[tuple[float, float]]:
+    """Lower and upper ends of what the screws of a joint find thread in: an insert, or their hole in a part."""
+    if insert_length(dims, joint):
+        box, (_, _, bottom) = drawn[f"{joint}_insert"].BoundingBox(), insert_places(dims, joint)[0]
+        return [(bottom + box.zmin, bottom + box.zmax)]
+    found = holes(drawn[host])
+    return [(one.bottom, one.top) for one in found if abs(one.x - at[0]) < 1e-4 and abs(one.y - at[1]) < 1e-4]

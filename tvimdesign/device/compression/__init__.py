@@ -21,7 +21,9 @@ radius, so a block is strained alike from its inner to its outer end and K = n E
   rounded corners, so that a cutter of that radius comes by, and the pads stand on the `pad_seat` that is left.
 - Rotor vanes hang at azimuths 0, 360/N, ... degrees, housing vanes stand half a pitch further.
 
-The blocks touch both faces at rest and are bonded to at most one of them. They do not slip there while pressed.
+The blocks touch both faces at rest and are bonded to at most one of them. They do not slip there while pressed. They
+have no keys, as the arcs of the shear module have: the face a block may be bonded to is its pad, which is bought and
+covers the vane, and a block that is keyed to the rotor's vane would pull as well as push.
 
 Turned by an angle, the solids stand like this: each block stays on its pad. The one ahead of a rotor vane is drawn as
 the sector that the vane leaves of it, so block and vane touch in one radial face; the one behind keeps its shape, and

@@ -20,9 +20,9 @@ def pcl_area(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_
 
 
 @book.output("mm^3")
-def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar) -> Scalar:
-    """Volume of all PCL arcs together."""
-    return pcl_area * pcl_thickness
+def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar, key_moments: Section) -> Scalar:
+    """Volume of all PCL arcs together, keys included."""
+    return pcl_area * pcl_thickness + key_moments.area
 
 
 @book.output("mm^3")
@@ -79,6 +79,6 @@ def housing_volume(bare_housing_volume: Scalar) -> Scalar:
 
 
 @book.helper()
-def rotor_moments(bare_rotor_moments: Section) -> Section:
-    """Volume and its polar moment about the axis, of the rotor."""
-    return bare_rotor_moments
+def rotor_moments(bare_rotor_moments: Section, key_moments: Section) -> Section:
+    """Volume and its polar moment about the axis, of the rotor less the pockets for the keys."""
+    return bare_rotor_moments - key_moments

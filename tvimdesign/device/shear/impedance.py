@@ -103,15 +103,16 @@ def parting_share() -> Scalar:
     return 0.0
 
 
-@book.output("MPa", per_point=True)
-def bond_traction(
-    hold_torque: Scalar,
-    spring_stiffness: Scalar,
-    structure_stiffness: Scalar,
-    pcl_modes: Modes,
-    layer_polar_moment: Scalar,
-    pcl_outer_radius: Scalar,
+@book.output("N*m", per_point=True)
+def layer_torque(
+    hold_torque: Scalar, spring_stiffness: Scalar, structure_stiffness: Scalar, pcl_modes: Modes
 ) -> Scalar:
-    """Highest traction on the layer's bond in a hold: at its outer rim, when the load has just come on."""
+    """What the layer bears in a hold when the load has just come on: the springs bear the rest."""
     first = hold.first_angle(hold_torque, spring_stiffness, structure_stiffness, pcl_modes)
-    return layer.traction(hold_torque - spring_stiffness * first, layer_polar_moment, pcl_outer_radius)
+    return hold_torque - spring_stiffness * first
+
+
+@book.output("MPa", per_point=True)
+def bond_traction(layer_torque: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Highest traction on the layer's bond in a hold: at its outer rim, when the load has just come on."""
+    return layer.traction(layer_torque, layer_polar_moment, pcl_outer_radius)

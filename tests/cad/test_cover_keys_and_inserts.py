@@ -1,0 +1,101 @@
+"""Solids of keys, cover and inserts: they fit where the rows say, and what is wrong with them on purpose is found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import pi
+
+import cadquery as cq
+import pytest
+from cad_designs import broken_rules, design_of
+
+from tvimdesign.cad import cover, inserts, shear
+from tvimdesign.cad.assembly import drawn_part
+from tvimdesign.cad.assembly_note import steps_of
+from tvimdesign.cad.checks import interference_checks, size_checks
+from tvimdesign.cad.dimensions import Dimensions, dimensions
+from tvimdesign.cad.inspection.inspect import thread_checks
+from tvimdesign.cad.kinds import kind_of
+from tvimdesign.cad.shapes import turned
+from tvimdesign.study.design import Design
+
+MM = 1e-3
+
+
+@pytest.fixture(scope="module")
+def design() -> Design:
+    """Printed, with keys, a cover and inserts everywhere but in posts."""
+    return design_of(
+        "covered",
+        {"cover": "plate", "thread_insert": "heat_set", "retainer_screw_length": 12.0 * MM, "core_radius": 10.5 * MM},
+    )
+
+
+@pytest.fixture(scope="module")
+def dims(design: Design) -> Dimensions:
+    return dimensions(design)
+
+
+@pytest.fixture(scope="module")
+def drawn(dims: Dimensions) -> dict[str, cq.Solid]:
+    kinds = ("housing", "rotor", "pcl_arc", "peltier_pad", "cover", "cover_screw", "cover_insert", "link_insert",
+             "retainer_insert", "link_screw", "retainer_screw")  # fmt: skip
+    return {kind: drawn_part(dims, kind) for kind in kinds}
+
+
+def shared(placed: Mapping[str, cq.Shape], *kinds: str) -> dict[str, float]:
+    """Common volume of the pairs of parts of some kinds that share one [mm^3]."""
+    solids = {name: shape.Solids()[0] for name, shape in placed.items()}
+
+    def wanted(one: str, other: str) -> bool:
+        return kind_of(one) in kinds or kind_of(other) in kinds
+
+    return {check.name: check.value for check in interference_checks(solids, "here", wanted) if not check.ok}
+
+
+def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
+    design: Design, dims: Dimensions, drawn: dict[str, cq.Solid]
+) -> None:
+    assert broken_rules(design) == []
+    placed = {**cover.stand(dims, drawn), **inserts.stand(dims, drawn, 0.0)}
+    assert sum(name.startswith("cover_insert") for name in placed) == 4
+    whole = {**placed, "housing": drawn["housing"], "rotor": drawn["rotor"]}
+    assert shared(whole, "cover", "cover_screw", "cover_insert", "link_insert", "retainer_insert") == {}
+    solids = {name: shape.Solids()[0] for name, shape in placed.items()}
+    sizes = {check.name: check for check in size_checks(design, solids) if check.name.endswith("_volume")}
+    assert set(sizes) == {f"{kind_of(name)}_volume" for name in placed}
+    assert max(abs(check.value) for check in sizes.values()) < 1e-9
+
+
+def test_a_cover_that_is_too_tight_or_too_low_is_found(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
+    for row, value in (("cover_hole_radius", dims.core_radius - 0.5), ("rim_level", dims.pin_top_level - 0.5)):
+        wrong = Dimensions("shear", {**dims.by_name, row: value})
+        plate = {"cover": cover.cover(wrong), "rotor": drawn["rotor"]}
+        assert list(shared(plate, "cover")) == ["cover | rotor here"]
+
+
+def test_keys_turn_with_the_rotor_and_would_be_cut_if_they_stood(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
+    angle = dims.stroke
+    rotor = turned(drawn["rotor"], angle)
+    placed = {**shear.stand(dims, drawn, angle), "rotor": rotor}
+    assert shared(placed, "rotor") == {}
+    standing = {"pcl_arc_1": turned(drawn["pcl_arc"], 0.25 * pi), "rotor": rotor}
+    (cut,) = shared(standing, "rotor").values()
+    # Three keys of 2.5 mm, moved by 33 mm x 0.104: further than they are thick, so all of each is in the plate.
+    assert cut == pytest.approx(3 * 0.25 * pi * 2.5**2 * 2.8, rel=1e-3)
+
+
+def test_a_screw_that_is_too_short_for_its_insert_is_found(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
+    assert {check.part: check.level for check in thread_checks(dims, drawn)} == {
+        "link_screw": "pass", "retainer_screw": "pass", "cover_screw": "pass",
+    }  # fmt: skip
+    short = Dimensions("shear", {**dims.by_name, "cover_screw_length": 4.0})
+    screw = drawn_part(short, "cover_screw")
+    found = {check.part: check for check in thread_checks(dims, {**drawn, "cover_screw": screw})}["cover_screw"]
+    assert (found.level, found.value) == ("warning", pytest.approx(2.5 / 2.0))  # 4 mm less a cover of 1.5 mm
+    assert found.limit == pytest.approx(2.0)
+
+
+def test_steps_of_keys_are_written_where_there_are_keys() -> None:
+    (step,) = [step for step in steps_of({"pcl_arc", "rotor"}) if "where" in step]
+    assert step["where"] == "key_count"

@@ -1,0 +1,84 @@
+"""Keys of the PCL arcs: what they hold, what they take of the plate, and when there is no room for them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.limits import limits_of
+from tvimdesign.study import given, read_study_text
+
+MM = 1e-3
+TABLE = table_for("shear")
+RULES = ("key_reserve", "key_depth_reserve", "key_width_reserve", "key_pitch_reserve")
+
+
+def inputs_of(**module: Any) -> dict[str, Any]:
+    """Inputs of the default shear module but for what is said (SI)."""
+    return {**given(read_study_text("mode: shear\n", "a test"), Catalog(), TABLE), **module}
+
+
+def values_of(rows: str, **module: Any) -> dict[str, float]:
+    found: dict[str, float] = TABLE.evaluate(inputs_of(**module), rows.split())
+    return found
+
+
+def test_keys_hold_their_section_times_the_shear_yield_of_frozen_pcl() -> None:
+    values = values_of("key_holding_torque key_depth", key_count=3, key_diameter=2.5 * MM)
+    yielding = Catalog().record("polymers", "pcl_80k").value("tensile_yield")
+    # Twelve of 2.5 mm on a radius of 33 mm.
+    expected = 12 * yielding / np.sqrt(3.0) * 0.25 * np.pi * 2.5e-3**2 * 33e-3
+    assert values["key_holding_torque"] == pytest.approx(expected, rel=1e-9)
+    assert values["key_depth"] == pytest.approx(2.8 * MM)
+    shallow = values_of("key_holding_torque", rotor_thickness=2.0 * MM, key_diameter=2.5 * MM)
+    # 0.8 mm deep they press into their pockets before they shear off.
+    assert shallow["key_holding_torque"] == pytest.approx(12 * yielding * 2.5e-3 * 0.8e-3 * 33e-3, rel=1e-9)
+
+
+def test_the_safety_of_keys_is_what_they_hold_over_the_layers_part_of_the_load() -> None:
+    rows = ["key_safety", "layer_torque@cold", "bond_traction@cold", "hold_torque", "layer_polar_moment",
+            "key_holding_torque"]  # fmt: skip
+    values = TABLE.evaluate(inputs_of(), rows)
+    assert values["key_safety"] == pytest.approx(values["key_holding_torque"] / values["layer_torque@cold"])
+    assert 0.9 * values["hold_torque"] < values["layer_torque@cold"] < values["hold_torque"]  # the springs are soft
+    at_rim = values["layer_torque@cold"] * 40e-3 / values["layer_polar_moment"]
+    assert values["bond_traction@cold"] == pytest.approx(at_rim)
+
+
+def test_no_keys_weigh_hold_and_forbid_nothing() -> None:
+    rows = "pcl_volume pcl_area key_depth key_holding_torque rotor_volume rotor_inertia " + " ".join(RULES)
+    # Arcs no key would fit in, and a plate as thin as can be printed.
+    none = values_of(rows, key_count=0, key_diameter=8 * MM, rotor_thickness=1.2 * MM)
+    assert none["pcl_volume"] == pytest.approx(none["pcl_area"] * 1e-3, rel=1e-12)
+    assert none["key_depth"] == none["key_holding_torque"] == 0.0
+    assert min(none[name] for name in RULES) > 0.0
+    full = values_of(rows, key_count=0)
+    keyed = values_of(rows)
+    one = np.pi * 1.25e-3**2
+    assert full["rotor_volume"] - keyed["rotor_volume"] == pytest.approx(12 * one * 2.8e-3, rel=1e-9)
+    about_axis = 12 * one * 2.8e-3 * 1270.0 * (33e-3**2 + 0.5 * 1.25e-3**2)
+    assert full["rotor_inertia"] - keyed["rotor_inertia"] == pytest.approx(about_axis, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("rule", "module"),
+    [
+        ("key_reserve", {"key_diameter": 1.9 * MM}),
+        ("key_depth_reserve", {"rotor_thickness": 1.8 * MM}),
+        ("key_width_reserve", {"key_diameter": 12.9 * MM, "key_count": 1, "rotor_thickness": 6 * MM}),
+        ("key_pitch_reserve", {"key_count": 8}),
+    ],
+)
+def test_keys_that_do_not_fit_are_refused(rule: str, module: dict[str, Any]) -> None:
+    broken = values_of(" ".join(RULES), **module)
+    assert [name for name in RULES if broken[name] < 0.0] == [rule]
+
+
+def test_the_rules_of_keys_are_limits_of_every_shear_study_and_of_no_compression_study() -> None:
+    for mode, held in (("shear", set(RULES)), ("compression", set())):
+        study = read_study_text(f"mode: {mode}\n", "a test")
+        assert {limit.output for limit in limits_of(study, table_for(mode))} & set(RULES) == held

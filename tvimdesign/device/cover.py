@@ -1,0 +1,193 @@
+"""The cover: a plate on the housing's rim that closes the module around the core, or none.
+
+It is screwed to bosses that stand inside the housing's wall between the springs, where the feet are below. Above each
+foot it has a hole as wide as the foot, so that a driver comes to the screws that fix the housing. With a cover the rim
+is a running clearance higher than the pins, and the link goes on top of it. What air between layer and cover does to
+the heat is not in the model.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.bodies import book as bodies
+from tvimdesign.device.book import Book
+from tvimdesign.device.fastening import Joint, screwed_joint
+from tvimdesign.device.gaps import book as gaps
+from tvimdesign.device.layout import book as layout
+from tvimdesign.device.rows import Rule, Scalar, at_least
+from tvimdesign.physics.shapes import Section, disc_at, lens, ring
+
+PLATE = "plate"
+ONLY = ("cover", PLATE)
+JOINT = Joint("cover", "iso_4762_m2", "the cover's screws", "cover's screws", "the housing", ONLY)
+
+places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
+places.option("cover", ("none", PLATE), "Whether a plate on the housing's rim closes the module around the core")
+books = (places, *screwed_joint(JOINT), weights, rules)
+
+
+@places.helper()
+def has_cover(cover: str) -> Scalar:
+    """One with a cover, zero without."""
+    return 1.0 if cover == PLATE else 0.0
+
+
+@places.helper()
+def cover_screw_count(has_cover: Scalar, spring_count: Scalar) -> Scalar:
+    """Screws of the cover: one between each two springs; none without a cover."""
+    return has_cover * spring_count
+
+
+@places.helper()
+def cover_screw_circle(housing_inner_radius: Scalar) -> Scalar:
+    """Radius of the circle of the cover's screws [m]."""
+    return housing_inner_radius
+
+
+@places.helper()
+def cover_clamped(cover_thickness: Scalar) -> Scalar:
+    """What the cover's screws go through [m]."""
+    return cover_thickness
+
+
+@places.output("mm")
+def rim_level(has_cover: Scalar, pin_top_level: Scalar, running_clearance: Scalar) -> Scalar:
+    """Upper end of the housing's wall: that of the pins, and a running clearance more under a cover."""
+    return pin_top_level + has_cover * running_clearance
+
+
+@places.output("mm")
+def cover_height(has_cover: Scalar, cover_thickness: Scalar) -> Scalar:
+    """Thickness that the cover adds to the height of the module; zero without."""
+    return has_cover * cover_thickness
+
+
+@places.output("mm")
+def cover_hole_radius(core_radius: Scalar, running_clearance: Scalar) -> Scalar:
+    """Radius of the cover's hole for the core, which turns in it."""
+    return core_radius + running_clearance
+
+
+@places.output("mm")
+def cover_boss_radius(cover_screw_hole: Scalar, cover_screw_clearance: Scalar, cover_hole_wall: Scalar) -> Scalar:
+    """Radius of the bosses for the cover's screws: a wall around the wider of the holes of boss and cover."""
+    return 0.5 * np.fmax(cover_screw_hole, cover_screw_clearance) + cover_hole_wall
+
+
+# --- weights ---------------------------------------------------------------------------------------------------------
+
+
+@weights.helper()
+def cover_bosses_volume(
+    cover_screw_count: Scalar,
+    cover_boss_radius: Scalar,
+    housing_inner_radius: Scalar,
+    rim_level: Scalar,
+    cover_screw_hole: Scalar,
+    cover_screw_depth: Scalar,
+) -> Scalar:
+    """What the housing gains by the cover's bosses [m^3]: what stands inside its wall, less the screws' holes."""
+    inside = lens(cover_boss_radius, housing_inner_radius) * rim_level
+    return cover_screw_count * (inside - 0.25 * np.pi * cover_screw_hole**2 * cover_screw_depth)
+
+
+@weights.helper()
+def cover_section(
+    cover_hole_radius: Scalar,
+    housing_outer_radius: Scalar,
+    spring_count: Scalar,
+    cover_screw_clearance: Scalar,
+    cover_screw_circle: Scalar,
+    mount_boss_radius: Scalar,
+    placement_radius: Scalar,
+) -> Section:
+    """Plan view of the cover: a ring around the core, less the holes of its screws and those above the feet."""
+    screws = disc_at(0.5 * cover_screw_clearance, cover_screw_circle).times(spring_count)
+    feet = disc_at(mount_boss_radius, placement_radius).times(spring_count)
+    return ring(cover_hole_radius, housing_outer_radius) - screws - feet
+
+
+@weights.output("mm^3")
+def cover_volume(cover_section: Section, cover_height: Scalar) -> Scalar:
+    """Volume of the cover; zero without."""
+    return cover_section.area * cover_height
+
+
+@weights.output("g")
+def cover_mass(cover_volume: Scalar, structure_density: Scalar) -> Scalar:
+    """Mass of the cover, without its screws."""
+    return cover_volume * structure_density
+
+
+# --- rules -----------------------------------------------------------------------------------------------------------
+
+
+def _room(reason: str) -> Rule:
+    """There must be room, where there is a cover at all."""
+    return at_least(0.0, reason, only=ONLY)
+
+
+@rules.output("mm", _room("the cover is thinner than the process can make it"))
+def cover_reserve(has_cover: Scalar, cover_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Cover beyond the process's least wall; zero without a cover."""
+    return has_cover * (cover_thickness - minimum_wall)
+
+
+@rules.output("mm", _room("the cover's screws would break out of the housing: a thicker wall, or smaller screws"))
+def cover_wall_reserve(has_cover: Scalar, wall_thickness: Scalar, cover_boss_radius: Scalar) -> Scalar:
+    """Housing wall beyond the cover's bosses, which stand on its inner face; zero without a cover."""
+    return has_cover * (wall_thickness - cover_boss_radius)
+
+
+@rules.output("mm", _room("the holes of the cover's screws would go through the floor: choose shorter screws"))
+def cover_depth_reserve(has_cover: Scalar, rim_level: Scalar, cover_screw_depth: Scalar) -> Scalar:
+    """Bosses below the holes of the cover's screws; zero without a cover."""
+    return has_cover * (rim_level - cover_screw_depth)
+
+
+@rules.output("mm", _room("the cover's bosses must clear the springs, and their adjusters"))
+def cover_spring_gap(
+    has_cover: Scalar,
+    placement_radius: Scalar,
+    housing_inner_radius: Scalar,
+    spring_count: Scalar,
+    cover_boss_radius: Scalar,
+    spring_reach: Scalar,
+    radial_clearance: Scalar,
+    adjuster_radius: Scalar,
+    slip_clearance: Scalar,
+) -> Scalar:
+    """Room between the cover's bosses and springs or adjusters, beyond the clearance; zero without a cover."""
+    half_pitch = np.pi / spring_count
+    ahead = housing_inner_radius - placement_radius * np.cos(half_pitch)
+    apart = np.sqrt(ahead**2 + (placement_radius * np.sin(half_pitch)) ** 2)
+    taken = np.fmax(spring_reach + radial_clearance, adjuster_radius + slip_clearance)
+    return has_cover * (apart - cover_boss_radius - taken)
+
+
+@rules.output("mm", _room("the cover's bosses stand in the way to the screws that fix the housing"))
+def cover_mount_gap(
+    has_cover: Scalar,
+    housing_inner_radius: Scalar,
+    cover_boss_radius: Scalar,
+    placement_radius: Scalar,
+    mount_boss_radius: Scalar,
+) -> Scalar:
+    """Room between the cover's bosses and the holes above the feet; zero without a cover."""
+    return has_cover * (housing_inner_radius - cover_boss_radius - placement_radius - mount_boss_radius)
+
+
+@rules.output("mm", _room("the link would meet the heads of the cover's screws within the stroke"))
+def cover_link_gap(
+    has_cover: Scalar,
+    housing_inner_radius: Scalar,
+    spring_count: Scalar,
+    stroke: Scalar,
+    cover_screw_head: Scalar,
+    link_half_width: Scalar,
+    radial_clearance: Scalar,
+) -> Scalar:
+    """Room between the link at full stroke and the screws' heads, beyond the clearance; zero without a cover."""
+    beside = housing_inner_radius * np.sin(np.pi / spring_count - stroke)
+    return has_cover * (beside - 0.5 * cover_screw_head - link_half_width - radial_clearance)
