@@ -30,6 +30,7 @@ def test_every_shelf_has_its_records() -> None:
         "bearings": 18,
         "polymers": 2,
         "peltiers": 4,
+        "sensor_flanges": 4,
         "wires": 2,
     }
 

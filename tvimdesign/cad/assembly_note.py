@@ -49,11 +49,18 @@ def _printing(kind: str) -> str:
 
 def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]:
     """Steps for the kinds this module has, and one for each kind that no step takes."""
-    wanted = steps_of({one.kind for one in items})
+    wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, dims)]
     known = _Figures(design, dims, {f"number_of_{one.kind}": one.quantity for one in items})
     texts = [str(step["text"]).format_map(known) for step in wanted]
     taken = {kind for step in wanted for kind in step["kinds"]}
     return texts + [f"Fit the {_words(one.kind)} ({one.quantity})." for one in items if one.kind not in taken]
+
+
+def _is_for(step: Mapping[str, Any], dims: Dimensions) -> bool:
+    """Whether a step is for a module with these dimensions, beside its kinds of part."""
+    return all(
+        bool(getattr(dims, step[key])) is wanted for key, wanted in (("where", True), ("unless", False)) if key in step
+    )
 
 
 def steps_of(kinds: set[str]) -> list[dict[str, Any]]:

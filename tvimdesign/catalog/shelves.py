@@ -104,6 +104,19 @@ SHELVES: Mapping[str, Shelf] = {
         },
         rising=(("bore", "inner_shoulder", "outer_shoulder", "outer_diameter"),),
     ),
+    "sensor_flanges": Shelf(
+        values={
+            "pitch_diameter": "mm",
+            "screw_count": "1",
+            "thread_diameter": "mm",
+            "tap_drill": "mm",
+            "centring_diameter": "mm",
+            "centring_depth": "mm",
+            "pin_diameter": "mm",
+            "pin_depth": "mm",
+        },
+        rising=(("tap_drill", "thread_diameter"), ("centring_diameter", "pitch_diameter")),
+    ),
     "polymers": Shelf(
         values={
             "density_solid": "kg/m^3",

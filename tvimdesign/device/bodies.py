@@ -76,10 +76,11 @@ def bare_housing_volume(
     hub_volume: Scalar,
     pin_top_level: Scalar,
     fixed_posts_volume: Scalar,
+    flange_volume: Scalar,
 ) -> Scalar:
-    """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub and spring posts."""
+    """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub, posts and flange."""
     wall = ring(housing_inner_radius, housing_outer_radius).area * pin_top_level
-    return skirt_volume + floor_volume + wall + hub_volume + fixed_posts_volume
+    return skirt_volume + floor_volume + wall + hub_volume + fixed_posts_volume + flange_volume
 
 
 @book.helper()

@@ -6,6 +6,7 @@ from tvimdesign.device import (
     adjuster,
     bearing,
     bodies,
+    flange,
     gaps,
     hold,
     impedance,
@@ -27,4 +28,5 @@ BOOKS = (
     *screws.books,
     *bearing.books,
     *adjuster.books,
+    *flange.books,
 )

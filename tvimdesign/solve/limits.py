@@ -110,6 +110,8 @@ _ONLY_WITH = {
     "impedance_targets": ("stated", ("soft_impedance", "stiff_impedance")),
 }
 """Inputs that count only where an option is chosen: option, its word, the inputs."""
+_IDLE_WITHOUT = {"sensor_flange": ("none", ("flange_wall", "flange_screw_reach", "flange_azimuth"))}
+"""Inputs that count only where a record is chosen: choice, the word for no record, the inputs."""
 
 
 def _refuse_idle(study: Study, start: Mapping[str, Any]) -> None:
@@ -119,6 +121,12 @@ def _refuse_idle(study: Study, start: Mapping[str, Any]) -> None:
         if idle and option in start and start[option] != word and option not in study.vary:
             raise InputError(
                 f"{', '.join(idle)}: no effect, as {option} is {start[option]}; add `{option}: {word}` under `module`"
+            )
+    for choice, (word, names) in _IDLE_WITHOUT.items():
+        idle = [name for name in names if name in study.module or name in study.vary]
+        if idle and start[choice] == word and choice not in study.vary:
+            raise InputError(
+                f"{', '.join(idle)}: no effect, as {choice} is {word}; name one of its records under `module`"
             )
 
 
