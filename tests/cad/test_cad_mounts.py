@@ -22,7 +22,8 @@ def test_the_pattern_stands_at_its_azimuth_with_the_pin_midway_between_two_screw
     screws = [one for one in found if one.radius == pytest.approx(2.5)]
     turned = sorted(degrees(atan2(one.y, one.x)) % 360.0 for one in screws)
     assert turned == pytest.approx([degrees(0.3) + 90.0 * index for index in range(4)], abs=1e-3)
-    assert {(one.bottom, one.top) for one in screws} == {(pytest.approx(ground), pytest.approx(ground + 11.0))}
+    assert [one.bottom for one in screws] == pytest.approx(4 * [ground])
+    assert [one.top for one in screws] == pytest.approx(4 * [ground + 11.0])
     (pin,) = [one for one in found if one.radius == pytest.approx(3.0)]
     assert degrees(atan2(pin.y, pin.x)) == pytest.approx(degrees(0.3) + 45.0, abs=1e-3)
     assert (pin.bottom, pin.top) == pytest.approx((ground, ground + 6.0))

@@ -97,3 +97,14 @@ def test_a_slot_across_a_disc_is_its_strips() -> None:
     half, radius = 0.6e-3, 2.7e-3
     expected = integrate(lambda y: 2.0 * np.sqrt(radius**2 - y**2), -half, half)
     assert shapes.bar_across(half, radius) == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_spoke_is_what_an_obround_adds_to_a_disc() -> None:
+    b, rim, length = 3.5, 6.0, 20.0
+    start = np.sqrt(rim**2 - b**2)  # where the strip leaves the disc
+    strip = by_strips(lambda _: b, start, length)
+    end = by_strips(lambda x: np.sqrt(b**2 - (x - length) ** 2), length, length + b)
+    disc = by_strips(lambda x: np.sqrt(rim**2 - x**2), start, rim)
+    found = shapes.spoke(b, rim, length)
+    assert found.area == pytest.approx(strip.area + end.area - disc.area, rel=1e-9)
+    assert found.polar == pytest.approx(strip.polar + end.polar - disc.polar, rel=1e-9)

@@ -8,7 +8,7 @@ from math import pi
 
 import cadquery as cq
 
-from tvimdesign.cad import adjuster, bought, parts
+from tvimdesign.cad import adjuster, bought, drive, parts
 from tvimdesign.cad.dimensions import Dimensions, dimensions
 from tvimdesign.cad.kinds import MADE_TURNING
 from tvimdesign.cad.modes import MODULES
@@ -85,6 +85,7 @@ def place(
     placed |= bought.stand(dims, drawn, rotor_angle)
     if dims.adjuster_radius:
         placed |= adjuster.stand(dims, drawn)
+    placed |= drive.stand(dims, drawn)
     placed |= MODULES[dims.mode].stand(dims, drawn, rotor_angle)
     return placed | installed_springs(dims, rotor_angle, progress)
 

@@ -58,9 +58,9 @@ def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]
 
 def _is_for(step: Mapping[str, Any], dims: Dimensions) -> bool:
     """Whether a step is for a module with these dimensions, beside its kinds of part."""
-    return all(
-        bool(getattr(dims, step[key])) is wanted for key, wanted in (("where", True), ("unless", False)) if key in step
-    )
+    wanted = [getattr(dims, row) > 0.0 for row in step.get("where", ())]
+    unwanted = [getattr(dims, row) > 0.0 for row in step.get("unless", ())]
+    return all(wanted) and not any(unwanted)
 
 
 def steps_of(kinds: set[str]) -> list[dict[str, Any]]:

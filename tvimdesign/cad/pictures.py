@@ -16,8 +16,10 @@ from tvimdesign.cad.mesh import Array, Instance
 from tvimdesign.cad.render import actors, legend, legend_height, lit, poly_data, surface_actors, write_png
 
 _ORDER = (
-    "retainer_screw", "retainer", "adjuster_screw", "housing", "bearing_outer", "bearing_inner", "adjuster",
-    "peltier_pad", "pcl_arc", "pcl_block", "rotor", "spring_right", "spring_left", "link", "link_screw",
+    "encoder_board", "encoder_magnet", "motor_screw", "motor_retainer", "motor_housing", "motor_stator",
+    "motor_bearing", "motor_rotor", "motor_hub", "retainer_screw", "retainer", "adjuster_screw", "housing",
+    "bearing_outer", "bearing_inner", "adjuster", "peltier_pad", "pcl_arc", "pcl_block", "rotor", "spring_right",
+    "spring_left", "mount_screw", "link", "link_screw",
 )  # fmt: skip
 """Along the axis from below; kinds that are not named come last."""
 _TOGETHER = ({"spring_right", "spring_left"},)

@@ -218,10 +218,11 @@ def module_mass(
     screws_mass: Scalar,
     bearings_mass: Scalar,
     adjusters_mass: Scalar,
+    drive_mass: Scalar,
 ) -> Scalar:
-    """Mass of the module, without wires and the screws that fix it."""
+    """Mass of the module with its motor, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + pcl_mass
-    return made + springs_mass + peltier_mass + screws_mass + bearings_mass + adjusters_mass
+    return made + springs_mass + peltier_mass + screws_mass + bearings_mass + adjusters_mass + drive_mass
 
 
 @book.output("kg*mm^2")

@@ -38,6 +38,20 @@ def disc_at(radius: Any, distance: Any) -> Section:
     return Section(area, area * (0.5 * radius**2 + distance**2))
 
 
+def spoke(half_width: Any, disc_radius: Any, length: Any) -> Section:
+    """What an obround from the axis to `length` adds to a disc about the axis: strip and far half disc beyond its rim.
+
+    Of the half strip up to the rim, cut by the angle p = arcsin(b/R) into a sector and two triangles of height
+    c = sqrt(R^2 - b^2): area R^2 p + b c, polar moment R^4 p/2 + (b^3 c + b c^3/3)/2 (integrals in polar coordinates).
+    """
+    b, rim = half_width, disc_radius
+    reach = np.sqrt(rim**2 - b**2)
+    angle = np.arcsin(b / rim)
+    inside = Section(rim**2 * angle + b * reach, 0.5 * rim**4 * angle + 0.5 * (b**3 * reach + b * reach**3 / 3.0))
+    near_end = Section(0.5 * np.pi * b**2, 0.25 * np.pi * b**4)
+    return slot(b, length) - near_end - inside
+
+
 def ring_notch(half_width: Any, inner_radius: Any, outer_radius: Any) -> Any:
     """Area [m^2] that a straight opening of the given half width takes from one side of a ring about the axis."""
 

@@ -110,7 +110,28 @@ _ONLY_WITH = {
     "impedance_targets": ("stated", ("soft_impedance", "stiff_impedance")),
 }
 """Inputs that count only where an option is chosen: option, its word, the inputs."""
-_IDLE_WITHOUT = {"sensor_flange": ("none", ("flange_wall", "flange_screw_reach", "flange_azimuth"))}
+_IDLE_WITHOUT = {
+    "sensor_flange": ("none", ("flange_wall", "flange_screw_reach", "flange_azimuth")),
+    "motor": (
+        "none",
+        (
+            "encoder",
+            "motor_bearing",
+            "motor_screw",
+            "motor_screw_length",
+            "mount_screw_length",
+            "motor_plate_thickness",
+            "motor_hub_wall",
+            "motor_wall",
+            "motor_base_thickness",
+            "motor_retainer_floor",
+            "motor_sink_clearance",
+            "motor_wire_width",
+            "motor_wire_depth",
+        ),
+    ),
+    "encoder": ("none", ("encoder_magnet_spacing",)),
+}
 """Inputs that count only where a record is chosen: choice, the word for no record, the inputs."""
 
 
