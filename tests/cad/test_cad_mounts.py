@@ -1,18 +1,19 @@
-"""What a module stands on or is driven by: the solids of a torque sensor's flange."""
+"""What a module stands on or is driven by: the solids of a torque sensor's flange, and of a motor below the feet."""
 
 from __future__ import annotations
 
 from math import atan2, degrees, hypot
 
 import pytest
-from cad_designs import CASES, FLANGE, design_of
+from cad_designs import CASES, DRIVEN, FLANGE, design_of
 
-from tvimdesign.cad.assembly import drawn_part
+from tvimdesign.cad.assembly import build, drawn_part, drawn_parts
 from tvimdesign.cad.assembly_note import assembly_note
 from tvimdesign.cad.bom import Item
+from tvimdesign.cad.checks import interference_checks
 from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.features import holes
-from tvimdesign.cad.inspection.inspect import part_checks
+from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 
 
 def test_the_pattern_stands_at_its_azimuth_with_the_pin_midway_between_two_screws() -> None:
@@ -50,3 +51,35 @@ def test_the_note_says_what_bears_the_module(flange: bool, words: str) -> None:
     note = assembly_note(design, dimensions(design), [housing]).decode()
     (step,) = [line for line in note.splitlines() if line[:1].isdigit()]
     assert words in step
+
+
+def test_hub_and_housing_of_the_motor_are_one_sound_solid_each_and_as_heavy_as_their_rows() -> None:
+    design = design_of("driven", DRIVEN)
+    dims = dimensions(design)
+    for kind in ("motor_hub", "motor_housing", "motor_retainer"):
+        solid = drawn_part(dims, kind)
+        assert solid.Volume() * 1e-9 == pytest.approx(design.values[f"{kind}_volume"], rel=1e-9), kind
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["driven", "driven blocks"])
+def test_a_motor_goes_together_in_the_order_of_the_note_and_its_screws_are_reached_and_hold(case: str) -> None:
+    mode, overrides = CASES[case]
+    design = design_of(case, overrides, mode)
+    dims = dimensions(design)
+    drawn = drawn_parts(dims)
+    found = {check.name: check for check in module_checks(design, dims, drawn)}
+    assert [check.text for check in found.values() if check.level != "pass"] == []
+    drivers = [f"mount_screw_{index + 1}: driver" for index in range(int(dims.spring_count))]
+    assert {"motor_screw: driver", "motor_screw: thread", "mount_screw: thread", *drivers} <= set(found)
+    for kind in ("motor_hub", "motor_housing", "motor_retainer"):
+        failed = [check.text for check in part_checks(design, dims, kind, drawn[kind]) if check.level == "failure"]
+        assert failed == [], kind
+
+
+@pytest.mark.slow
+def test_a_rotor_that_does_not_clear_its_stator_is_found() -> None:
+    design = design_of("driven", DRIVEN)
+    wide = design.model_copy(update={"values": design.values | {"motor_rotor_radius": 23.2e-3}})
+    found = [check.name for check in interference_checks(build(wide), "at rest") if not check.ok]
+    assert found == ["motor_rotor | motor_stator at rest"]

@@ -16,7 +16,7 @@ from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 RULES = {
-    "motor_retainer_gap", "motor_spoke_gap", "motor_spoke_wall_reserve", "mount_thread_reserve", "mount_tip_reserve",
+    "motor_retainer_gap", "motor_foot_gap", "motor_spoke_gap", "motor_spoke_wall_reserve", "mount_thread_reserve", "mount_tip_reserve",
     "motor_tube_gap", "motor_hub_wall_reserve", "motor_wall_reserve", "motor_barrel_gap", "motor_lip_reserve",
     "motor_journal_wall_reserve", "motor_thread_reserve", "motor_disc_reserve", "motor_retainer_wall_reserve",
     "motor_base_thread_reserve", "motor_base_hole_gap",
@@ -119,6 +119,7 @@ def test_a_good_motor_mount_keeps_its_rules_and_each_is_broken_by_what_its_name_
     assert min(values_of(" ".join(RULES | ENCODER_RULES), **DRIVEN).values()) > -1e-12
     for rule, module in {
         "motor_retainer_gap": {"foot_height": "5.4 mm"},
+        "motor_foot_gap": {"placement_radius": "17.7 mm", "pin_radius_ratio": "0.2"},
         "motor_spoke_gap": {"mount_boss_radius": "13 mm"},
         "motor_spoke_wall_reserve": {"mount_boss_radius": "2.4 mm"},
         "mount_thread_reserve": {"mount_screw_length": "15 mm"},
@@ -132,7 +133,7 @@ def test_a_good_motor_mount_keeps_its_rules_and_each_is_broken_by_what_its_name_
         "motor_disc_reserve": {"motor_screw_length": "26 mm"},
         "motor_retainer_wall_reserve": {"motor_sink_clearance": "4.5 mm"},
         "motor_base_thread_reserve": {"motor_base_thickness": "6.9 mm"},
-        "motor_base_hole_gap": {"minimum_wall": "13 mm"},
+        "motor_base_hole_gap": {"minimum_wall": "14 mm"},
         "encoder_ledge_reserve": {"encoder": "on_axis_22"},
         "encoder_floor_reserve": {"motor_base_thickness": "4.1 mm"},
     }.items():

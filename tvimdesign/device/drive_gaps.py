@@ -39,6 +39,12 @@ def motor_retainer_gap(drive: Motor | None, retainer_gap: Scalar, running_cleara
     return 0.0 if drive is None else retainer_gap - running_clearance
 
 
+@book.output("mm", _with_a_motor("the motor's hub is wider than the circle of the housing's feet: a smaller motor"))
+def motor_foot_gap(drive: Motor | None, placement_radius: Scalar, motor_disc_radius: Scalar) -> Scalar:
+    """Length of the motor hub's spokes from its disc to the middle of the feet; zero without a motor."""
+    return 0.0 if drive is None else placement_radius - motor_disc_radius
+
+
 @book.output("mm", _with_a_motor("the spokes of the motor's hub would meet outside its disc: a larger motor"))
 def motor_spoke_gap(
     drive: Motor | None, motor_disc_radius: Scalar, spring_count: Scalar, mount_boss_radius: Scalar

@@ -21,7 +21,7 @@ from tvimdesign.cad.inspection.walls import wall_checks
 from tvimdesign.cad.making import MAKING
 from tvimdesign.cad.mesh import solid_mesh
 from tvimdesign.cad.outcome import Check
-from tvimdesign.cad.parts import link_screws
+from tvimdesign.cad.parts import link_screws, mounts
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si
@@ -74,19 +74,24 @@ def rule_checks(design: Design) -> Iterator[Check]:
 
 
 def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[Check]:
-    """How much of each kind of screw is in its hole in the core, over its diameter; read off both solids."""
-    x, y = link_screws(dims)[0]
-    for kind, at, diameter in (
-        ("link_screw", (x, y), dims.link_screw_diameter),
-        ("retainer_screw", (0.0, 0.0), dims.retainer_screw_diameter),
-    ):
+    """How much of each kind of screw is in its hole in core or motor hub, over its diameter; read off both solids."""
+    screws = [
+        ("link_screw", "rotor", link_screws(dims)[0], dims.link_screw_diameter),
+        ("retainer_screw", "rotor", (0.0, 0.0), dims.retainer_screw_diameter),
+        ("motor_screw", "motor_hub", (0.0, 0.0), dims.motor_screw_diameter),
+        ("mount_screw", "motor_hub", mounts(dims)[0], dims.mount_screw_diameter),
+    ]
+    for kind, into, at, diameter in screws:
+        if kind not in drawn:
+            continue
         screw = drawn[kind].BoundingBox()
         pilots = [
-            hole for hole in holes(drawn["rotor"])
+            hole for hole in holes(drawn[into])
             if abs(hole.x - at[0]) < 1e-4 and abs(hole.y - at[1]) < 1e-4
         ]  # fmt: skip
         engaged = sum(max(0.0, min(hole.top, screw.zmax) - max(hole.bottom, screw.zmin)) for hole in pilots)
         ratio = engaged / diameter
-        text = f"{engaged:.3g} mm of thread in the core, {ratio:.3g} diameters; {dims.thread_engagement:.3g} are wanted"
+        where = "the core" if into == "rotor" else "the motor's hub"
+        text = f"{engaged:.3g} mm of thread in {where}, {ratio:.3g} diameters; {dims.thread_engagement:.3g} are wanted"
         level = at_least(ratio, dims.thread_engagement - 1e-6, 1.0)
         yield finding(kind, "thread", ratio, dims.thread_engagement, "", level, text)
