@@ -10,10 +10,11 @@ from cad_designs import CASES, DRIVEN, FLANGE, design_of
 from tvimdesign.cad.assembly import build, drawn_part, drawn_parts
 from tvimdesign.cad.assembly_note import assembly_note
 from tvimdesign.cad.bom import Item
-from tvimdesign.cad.checks import interference_checks
+from tvimdesign.cad.checks import _polar_moment, interference_checks
 from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.features import holes
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
+from tvimdesign.cad.kinds import KINDS, TURNING, kind_of
 
 
 def test_the_pattern_stands_at_its_azimuth_with_the_pin_midway_between_two_screws() -> None:
@@ -83,3 +84,17 @@ def test_a_rotor_that_does_not_clear_its_stator_is_found() -> None:
     wide = design.model_copy(update={"values": design.values | {"motor_rotor_radius": 23.2e-3}})
     found = [check.name for check in interference_checks(build(wide), "at rest") if not check.ok]
     assert found == ["motor_rotor | motor_stator at rest"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["driven", "driven blocks"])
+def test_what_the_motor_turns_has_the_inertia_of_its_solids(case: str) -> None:
+    mode, overrides = CASES[case]
+    design = design_of(case, overrides, mode)
+    stands = {*TURNING, "motor_stator", "motor_housing", "encoder_board"}
+    driven = {name: solid for name, solid in build(design).items() if kind_of(name) not in stands}
+    about_axis = sum(
+        design.values[KINDS[kind_of(name)].density] * _polar_moment(solid) * 1e-15 for name, solid in driven.items()
+    )
+    # Legs of springs reach in from their rings, and half of each bearing stands.
+    assert design.values["driven_inertia"] == pytest.approx(about_axis, rel=0.01)

@@ -16,7 +16,8 @@ from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 RULES = {
-    "motor_retainer_gap", "motor_foot_gap", "motor_spoke_gap", "motor_spoke_wall_reserve", "mount_thread_reserve", "mount_tip_reserve",
+    "motor_retainer_gap", "motor_foot_gap", "motor_spoke_gap", "motor_spoke_wall_reserve", "mount_thread_reserve",
+    "mount_tip_reserve",
     "motor_tube_gap", "motor_hub_wall_reserve", "motor_wall_reserve", "motor_barrel_gap", "motor_lip_reserve",
     "motor_journal_wall_reserve", "motor_thread_reserve", "motor_disc_reserve", "motor_retainer_wall_reserve",
     "motor_base_thread_reserve", "motor_base_hole_gap",
@@ -103,6 +104,17 @@ def test_the_motor_is_in_the_mass_of_the_module_and_turns_on_its_own_side_of_the
     # Rotor 24 kg mm2 by its record, and what is far from the axis: four M3 screws of 1.2 g at 57 mm.
     screws = 4 * 7850.0 * 0.25 * np.pi * (2.5**2 * 16.0 + 5.5**2 * 3.0) * 1e-9 * (57.0 * MM) ** 2
     assert driven["drive_inertia"] - driven["motor_hub_inertia"] == pytest.approx(24e-6 + screws, rel=0.03)
+
+
+def test_the_motor_turns_the_whole_housing_with_what_it_carries() -> None:
+    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass motor_acceleration"
+    found = values_of(rows, **DRIVEN)
+    springs = found["springs_mass"] * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
+    between = (found["pcl_mass"] + found["peltier_mass"]) * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
+    whole = found["drive_inertia"] + found["housing_inertia"] + springs + between
+    assert found["driven_inertia"] == pytest.approx(whole)
+    assert found["motor_acceleration"] == pytest.approx(1.2 / whole)
+    assert values_of("driven_inertia motor_acceleration") == {"driven_inertia": 0.0, "motor_acceleration": 0.0}
 
 
 def test_a_motor_s_torque_is_held_against_the_springs() -> None:

@@ -63,6 +63,10 @@ def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
     half_width, inner, outer = 6e-3, 71e-3, 74e-3
     expected = integrate(lambda y: np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), -half_width, half_width)
     assert shapes.ring_notch(half_width, inner, outer) == pytest.approx(expected, rel=1e-9)
+    # Along y the strip from R_i to R_o has the polar moment x^3/3 + x y^2 between its ends.
+    ends = [lambda y, r=radius: np.sqrt(r**2 - y**2) for radius in (outer, inner)]
+    polar = [integrate(lambda y, x=x: x(y) ** 3 / 3.0 + x(y) * y**2, -half_width, half_width) for x in ends]
+    assert shapes.notch(half_width, inner, outer).polar == pytest.approx(polar[0] - polar[1], rel=1e-9)
 
 
 @pytest.mark.parametrize("offset", [0.0, 1.5e-3])

@@ -12,6 +12,7 @@ from tvimdesign.device import (
     flange,
     gaps,
     hold,
+    housing_inertia,
     impedance,
     layout,
     materials,
@@ -37,4 +38,5 @@ BOOKS = (
     drive.book,
     drive_bodies.book,
     *drive_gaps.books,
+    housing_inertia.book,
 )
