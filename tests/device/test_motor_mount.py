@@ -179,6 +179,7 @@ def test_a_torque_sensor_and_a_motor_cannot_both_stand_under_the_floor() -> None
     both = DRIVEN | {"sensor_flange": "iso_9409_40_4_m6"}
     assert values_of("flange_motor_gap", **both)["flange_motor_gap"] == pytest.approx(-6.0 * MM)
     assert values_of("flange_motor_gap", **DRIVEN)["flange_motor_gap"] == 0.0
+    assert values_of("flange_motor_gap", sensor_flange="iso_9409_40_4_m6")["flange_motor_gap"] > 0.0
     text = "mode: shear\nmodule: {motor: frameless_70x10, sensor_flange: iso_9409_40_4_m6}\n"
     told = {limit.output for limit in limits_of(read_study_text(text, "a test"), table_for("shear"))}
     assert "flange_motor_gap" in told

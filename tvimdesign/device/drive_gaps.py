@@ -29,8 +29,10 @@ def _with_an_encoder(reason: str) -> Rule:
 @book.output("mm", at_least(0.0, "a flange for a torque sensor and the motor's hub cannot both stand under the floor",
                             unless=("sensor_flange", WITHOUT)))  # fmt: skip
 def flange_motor_gap(drive: Motor | None, sensor_flange: Record | str, foot_height: Scalar) -> Scalar:
-    """Height left for a torque sensor below its flange: less than none where a motor's hub stands there."""
-    return 0.0 if drive is None or isinstance(sensor_flange, str) else -foot_height
+    """Height of a torque sensor's flange, negative where a motor's hub stands below it; zero without a flange."""
+    if isinstance(sensor_flange, str):
+        return 0.0
+    return foot_height if drive is None else -foot_height
 
 
 @book.output("mm", _with_a_motor("the module's retainer would rub on the motor's hub: more foot_height"))
