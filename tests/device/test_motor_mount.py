@@ -127,6 +127,17 @@ def test_a_motor_s_torque_is_held_against_the_springs() -> None:
     assert weak["motor_torque_reserve"] < 0.0  # 0.45 N m against the paper's springs
 
 
+def test_the_upper_bearing_of_the_motor_bears_the_tilt_of_a_force_at_the_link() -> None:
+    rows = "motor_bearing_load motor_bearing_reserve holding_torque link_length link_bottom_level motor_retainer_level"
+    found = values_of(rows, **DRIVEN)
+    # Moments about the lower bearing, 5 mm wide above the retainer; the upper one is below -17 mm, the link 4 mm thick.
+    lower, upper = found["motor_retainer_level"] + 2.5 * MM, (-17.0 - 2.5) * MM
+    middle = found["link_bottom_level"] + 2.0 * MM
+    force = found["holding_torque"] / found["link_length"]
+    assert found["motor_bearing_load"] == pytest.approx(force * (middle - lower) / (upper - lower))
+    assert found["motor_bearing_reserve"] == pytest.approx(1260.0 - found["motor_bearing_load"])
+
+
 def test_a_good_motor_mount_keeps_its_rules_and_each_is_broken_by_what_its_name_says() -> None:
     assert min(values_of(" ".join(RULES | ENCODER_RULES), **DRIVEN).values()) > -1e-12
     for rule, module in {

@@ -11,6 +11,7 @@ from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.hold import book as hold
 from tvimdesign.device.motor import WITHOUT, Encoder, Motor
 from tvimdesign.device.rows import Rule, Scalar, at_least
+from tvimdesign.physics import structure
 
 book, torques = Book(gaps.group), Book(hold.group)
 books = (book, torques)
@@ -209,6 +210,33 @@ def encoder_ledge_reserve(angle_sensor: Encoder | None, motor_seat_radius: Scala
 def encoder_floor_reserve(angle_sensor: Encoder | None, motor_base_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
     """Base above the encoder's board beyond the process's least wall; zero without an encoder."""
     return 0.0 if angle_sensor is None else motor_base_thickness - angle_sensor.board_height - minimum_wall
+
+
+@book.output("N")
+def motor_bearing_load(
+    drive: Motor | None,
+    holding_torque: Scalar,
+    link_length: Scalar,
+    link_bottom_level: Scalar,
+    link_thickness: Scalar,
+    stator_top_level: Scalar,
+    motor_retainer_level: Scalar,
+) -> Scalar:
+    """Force on the motor's upper bearing of a force at the link's end that the joint just holds; zero without one."""
+    if drive is None:
+        return 0.0
+    spread = stator_top_level - motor_retainer_level - drive.bearing_width
+    height = link_bottom_level + 0.5 * link_thickness - (stator_top_level - 0.5 * drive.bearing_width)
+    return structure.overhung_load(holding_torque / link_length, height, spread)
+
+
+_DENTS = "a force at the link's end that the joint just holds would dent the races of the motor's bearings"
+
+
+@book.output("N", advice=(Rule(sense=">=", value=0.0, reason=_DENTS),))
+def motor_bearing_reserve(drive: Motor | None, motor_bearing_load: Scalar) -> Scalar:
+    """Static rating of one of the motor's bearings less the force on it; zero without a motor."""
+    return 0.0 if drive is None else drive.bearing_rating - motor_bearing_load
 
 
 # --- what the motor must bear ----------------------------------------------------------------------------------------

@@ -48,6 +48,8 @@ class Motor(NamedTuple):
     bearing_width: float
     inner_shoulder: float
     outer_shoulder: float
+    bearing_rating: float
+    """Static rating of one bearing [N]."""
 
 
 class Encoder(NamedTuple):
@@ -83,6 +85,7 @@ def motor_of(motor: Record, bearing: Record) -> Motor:
         bearing_width=bearing.value("width"),
         inner_shoulder=0.5 * bearing.value("inner_shoulder"),
         outer_shoulder=0.5 * bearing.value("outer_shoulder"),
+        bearing_rating=bearing.value("static_load_rating"),
     )
 
 
