@@ -19,7 +19,7 @@ TRANSFORMED = {"hold_angle", "set_angle", "backlash", "relaxation_loss"}
 
 USED_BY_PARTS = {
     "hole_compensation", "making_method", "thinnest_wall", "overhang_angle", "bridge_span", "hole_depth_ratio",
-    "bed_length", "bed_width", "bed_height",
+    "bed_length", "bed_width", "bed_height", "flange_azimuth",
 }  # fmt: skip
 """Rows that print files and checks on the solids read alone."""
 

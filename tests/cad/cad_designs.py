@@ -50,11 +50,23 @@ BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "c
                            "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "pcl_inner_radius": 17.0 * MM,
                            "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 4.3 * MM,
                            "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate"}  # fmt: skip
+# A flange for a torque sensor between hub and windows, and one between a hub with bearings and slots.
+FLANGE = {"sensor_flange": "iso_9409_40_4_m6", "core_radius": 9.0 * MM, "foot_height": 12.0 * MM,
+          "flange_screw_reach": 10.5 * MM}  # fmt: skip
+FLANGE_BLOCKS = BEARING_BLOCKS | {"sensor_flange": "iso_9409_50_4_m6", "pcl_inner_radius": 27.0 * MM,
+                                  "pcl_outer_radius": 38.0 * MM, "rotor_rim": 2.0 * MM, "foot_height": 12.0 * MM,
+                                  "flange_azimuth": 0.2, "flange_wall": 1.2 * MM, "hub_depth": 1.0 * MM}  # fmt: skip
+# A motor below the feet: with an encoder and printed, and the larger one without, milled, below blocks.
+DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
+DRIVEN_BLOCKS = BLOCKS | {"motor": "frameless_85x13", "process": "machine_6061", "corner_radius": 0.5 * MM,
+                          "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "spring_pairs": 3}  # fmt: skip
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
     "odd blocks": ("compression", ODD_BLOCKS),
     "bearings": ("shear", BEARINGS), "bearings among blocks": ("compression", BEARING_BLOCKS),
+    "flange": ("shear", FLANGE), "flange among blocks": ("compression", FLANGE_BLOCKS),
+    "driven": ("shear", DRIVEN), "driven blocks": ("compression", DRIVEN_BLOCKS),
 }  # fmt: skip
 
 

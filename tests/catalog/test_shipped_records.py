@@ -31,6 +31,9 @@ def test_every_shelf_has_its_records() -> None:
         "bearings": 18,
         "polymers": 2,
         "peltiers": 4,
+        "sensor_flanges": 4,
+        "motors": 3,
+        "encoders": 2,
         "wires": 2,
     }
 

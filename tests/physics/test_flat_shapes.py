@@ -63,6 +63,10 @@ def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
     half_width, inner, outer = 6e-3, 71e-3, 74e-3
     expected = integrate(lambda y: np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), -half_width, half_width)
     assert shapes.ring_notch(half_width, inner, outer) == pytest.approx(expected, rel=1e-9)
+    # Along y the strip from R_i to R_o has the polar moment x^3/3 + x y^2 between its ends.
+    ends = [lambda y, r=radius: np.sqrt(r**2 - y**2) for radius in (outer, inner)]
+    polar = [integrate(lambda y, x=x: x(y) ** 3 / 3.0 + x(y) * y**2, -half_width, half_width) for x in ends]
+    assert shapes.notch(half_width, inner, outer).polar == pytest.approx(polar[0] - polar[1], rel=1e-9)
 
 
 @pytest.mark.parametrize("offset", [0.0, 1.5e-3])
@@ -106,3 +110,14 @@ def test_a_disc_centred_on_a_circle_has_the_strips_of_it_that_lie_inside(radius:
     disc = integrate(lambda x: 2.0 * np.sqrt(radius**2 - (x - circle) ** 2), circle - radius, meet)
     rest = integrate(lambda x: 2.0 * np.sqrt(circle**2 - x**2), meet, circle)
     assert shapes.lens(radius, circle) == pytest.approx(disc + rest, rel=1e-8)
+
+
+def test_a_spoke_is_what_an_obround_adds_to_a_disc() -> None:
+    b, rim, length = 3.5, 6.0, 20.0
+    start = np.sqrt(rim**2 - b**2)  # where the strip leaves the disc
+    strip = by_strips(lambda _: b, start, length)
+    end = by_strips(lambda x: np.sqrt(b**2 - (x - length) ** 2), length, length + b)
+    disc = by_strips(lambda x: np.sqrt(rim**2 - x**2), start, rim)
+    found = shapes.spoke(b, rim, length)
+    assert found.area == pytest.approx(strip.area + end.area - disc.area, rel=1e-9)
+    assert found.polar == pytest.approx(strip.polar + end.polar - disc.polar, rel=1e-9)

@@ -8,7 +8,7 @@ from math import pi
 
 import cadquery as cq
 
-from tvimdesign.cad import adjuster, bought, cover, inserts, parts
+from tvimdesign.cad import adjuster, bought, cover, drive, inserts, parts
 from tvimdesign.cad.dimensions import Dimensions, dimensions
 from tvimdesign.cad.kinds import MADE_TURNING
 from tvimdesign.cad.modes import MODULES
@@ -88,6 +88,7 @@ def place(
     if dims.cover_height:
         placed |= cover.stand(dims, drawn)
     placed |= inserts.stand(dims, drawn, rotor_angle)
+    placed |= drive.stand(dims, drawn)
     placed |= MODULES[dims.mode].stand(dims, drawn, rotor_angle)
     return placed | installed_springs(dims, rotor_angle, progress)
 

@@ -49,23 +49,24 @@ def _printing(kind: str) -> str:
 
 def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]:
     """Steps for the kinds this module has, and one for each kind that no step takes."""
-    wanted = [step for step in steps_of({one.kind for one in items}) if _is_so(dims, step)]
+    wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, dims)]
     known = _Figures(design, dims, {f"number_of_{one.kind}": one.quantity for one in items})
     texts = [str(step["text"]).format_map(known) for step in wanted]
     taken = {kind for step in wanted for kind in step["kinds"]}
     return texts + [f"Fit the {_words(one.kind)} ({one.quantity})." for one in items if one.kind not in taken]
 
 
+def _is_for(step: Mapping[str, Any], dims: Dimensions) -> bool:
+    """Whether a step is for a module with these dimensions, beside its kinds of part."""
+    wanted = [getattr(dims, row) > 0.0 for row in step.get("where", ())]
+    unwanted = [getattr(dims, row) > 0.0 for row in step.get("unless", ())]
+    return all(wanted) and not any(unwanted)
+
+
 def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
     """Steps of a module of these kinds of part, in order, as the data file has them."""
     written: list[dict[str, Any]] = yaml.safe_load(_STEPS.read_text("utf-8"))
     return [step for step in written if kinds.issuperset(step["kinds"])]
-
-
-def _is_so(dims: Dimensions, step: Mapping[str, Any]) -> bool:
-    """Whether the row a step depends on, if it depends on one, is above zero."""
-    value: float = getattr(dims, step["where"]) if "where" in step else 1.0
-    return value > 0.0
 
 
 class _Figures(dict[str, Any]):

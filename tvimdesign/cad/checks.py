@@ -77,9 +77,9 @@ def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Chec
         density = design.value(KINDS[kind].density)
         mass += volume * density
         yield _against(f"{kind}_volume", volume / (len(solids) if one else 1), design.value(KINDS[kind].volume))
-        if kind in TURNING:
+        if kind in TURNING or f"{kind}_inertia" in design.values:
             about_axis = density * _MM5 * sum(_polar_moment(solid) for solid in solids)
-            inertia += about_axis
+            inertia += about_axis if kind in TURNING else 0.0
             if f"{kind}_inertia" in design.values:
                 yield _against(f"{kind}_inertia", about_axis, design.value(f"{kind}_inertia"))
     yield _against("parts_inertia", inertia, design.value("parts_inertia"))

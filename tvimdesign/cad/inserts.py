@@ -18,7 +18,7 @@ JOINTS = ("link", "retainer", "adjuster", "cover")
 
 def insert_length(dims: Dimensions, joint: str) -> float:
     """Length of the inserts of a joint [mm]; zero where it has none."""
-    return dims.of(joint, "insert_length")
+    return dims.of(joint, "insert_length") if joint in JOINTS else 0.0
 
 
 def insert(joint: str, dims: Dimensions) -> cq.Shape:

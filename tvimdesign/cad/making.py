@@ -48,6 +48,21 @@ MAKING = {
     "cover_insert": Making(down="bought", why="a brass insert of the catalogue, melted into the boss"),
     "bearing_inner": Making(down="bought", why="the half of a ball bearing of the catalogue that turns"),
     "bearing_outer": Making(down="bought", why="the half of a ball bearing of the catalogue that stands"),
+    "motor_hub": Making(
+        down="top", drawn=True, why="disc and spokes on the bed: barrel and journal grow upwards, no support",
+    ),
+    "motor_housing": Making(
+        down="bottom", drawn=True,
+        why="base on the bed: wall and tube grow upwards; only the board's recess and the bearings' lip need support",
+    ),
+    "motor_retainer": Making(down="top", drawn=True, why="the face to the bearing on the bed: no support"),
+    "motor_rotor": Making(down="bought", why="the rotor of a frameless motor of the catalogue"),
+    "motor_stator": Making(down="bought", why="the stator of a frameless motor of the catalogue"),
+    "motor_bearing": Making(down="bought", why="a ball bearing of the catalogue"),
+    "motor_screw": Making(down="bought", why="a screw of the catalogue"),
+    "mount_screw": Making(down="bought", why="a screw of the catalogue"),
+    "encoder_magnet": Making(down="bought", why="a magnet magnetised across, as the encoder's maker asks"),
+    "encoder_board": Making(down="bought", why="the encoder of the catalogue, or a board made to its size"),
     "spring_right": Making(down="bought", why="wound to the spring maker's sheet"),
     "spring_left": Making(down="bought", why="wound to the spring maker's sheet"),
 }  # fmt: skip

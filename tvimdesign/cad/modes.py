@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import cadquery as cq
 
-from tvimdesign.cad import adjuster, bought, compression, cover, inserts, shear
+from tvimdesign.cad import adjuster, bought, compression, cover, drive, inserts, shear
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.kinds import SPRINGS
 
@@ -26,13 +26,13 @@ class Module:
     def drawn(self, dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
         """How one of each kind is drawn but the springs, of what a design has."""
         adjusters = {"adjuster": adjuster.adjuster, "adjuster_screw": adjuster.adjuster_screw}
-        covers = cover.DRAWN if dims.cover_height else {}
         return {
             **self.made,
             **bought.drawn(dims),
             **(adjusters if dims.adjuster_radius else {}),
-            **covers,
+            **(cover.DRAWN if dims.cover_height else {}),
             **inserts.drawn(dims),
+            **drive.drawn(dims),
         }
 
     def kinds(self, dims: Dimensions) -> tuple[str, ...]:
@@ -41,7 +41,7 @@ class Module:
 
 
 MODULES = {
-    "shear": Module(made=shear.DRAWN, stand=shear.stand, fixed=shear.FIXED),
-    "compression": Module(made=compression.DRAWN, stand=compression.stand, fixed=compression.FIXED),
+    "shear": Module(made=shear.DRAWN, stand=shear.stand, fixed=(*shear.FIXED, *drive.FIXED)),
+    "compression": Module(made=compression.DRAWN, stand=compression.stand, fixed=(*compression.FIXED, *drive.FIXED)),
 }
 """By mode."""

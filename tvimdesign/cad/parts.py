@@ -31,7 +31,7 @@ def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
 
 
 def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable[cq.Shape]) -> cq.Shape:
-    """Floor, hub, wall, skirt, spring posts, bosses for a cover, feet and what the mode adds.
+    """Floor, hub, wall, skirt, spring posts, bosses for a cover, feet, a torque sensor's flange and what the mode adds.
 
     Less bore, the mode's openings, tang and screw holes, and notches.
     """
@@ -44,8 +44,26 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
     bosses, cover_holes = cover_places(dims)
     feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
     mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
-    body = join(floor, [wall, hub, *posts, *bosses, *feet, *added])
-    return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims))
+    flange, flange_holes = sensor_flange(dims)
+    body = join(floor, [wall, hub, *posts, *bosses, *feet, *flange, *added])
+    return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims), *flange_holes)
+
+
+def sensor_flange(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
+    """The ring that bears a torque sensor, and its holes for screws and pin; nothing where there is none."""
+    if not dims.sensor_screw_count:
+        return [], []
+    floor_bottom = -dims.floor_thickness
+    ground = floor_bottom - dims.foot_height
+    pitch = 2.0 * pi / dims.count("sensor_screw_count")
+    azimuths = [dims.flange_azimuth + index * pitch for index in range(dims.count("sensor_screw_count"))]
+    screws = [
+        cylinder(0.5 * dims.sensor_screw_pilot, ground, ground + dims.flange_screw_depth, at)
+        for at in (polar(dims.sensor_pitch_radius, azimuth) for azimuth in azimuths)
+    ]
+    pin_at = polar(dims.sensor_pitch_radius, dims.flange_azimuth + 0.5 * pitch)
+    pin = cylinder(0.5 * dims.sensor_pin_diameter, ground, ground + dims.sensor_pin_depth, pin_at)
+    return [ring(dims.flange_bore_radius, dims.flange_outer_radius, ground, floor_bottom)], [*screws, pin]
 
 
 def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:

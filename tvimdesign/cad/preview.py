@@ -53,10 +53,12 @@ def _view(placed: Mapping[str, Instance], dims: Dimensions) -> vtkRenderer:
     camera.SetPosition(1.0, -1.35, 1.25)
     camera.SetViewUp(0.0, 0.0, 1.0)
     renderer.ResetCamera()
-    middle = 0.5 * (dims.link_bottom_level + dims.link_thickness - dims.floor_thickness - dims.foot_height)
+    middle = 0.5 * (
+        dims.link_bottom_level + dims.link_thickness - dims.floor_thickness - dims.foot_height - dims.drive_height
+    )
     towards = np.array(camera.GetPosition()) - np.array(camera.GetFocalPoint())
     camera.SetFocalPoint(0.0, 0.0, middle)
     camera.SetPosition(towards[0], towards[1], towards[2] + middle)
-    camera.SetParallelScale(0.5 * dims.envelope_diameter)
+    camera.SetParallelScale(0.5 * dims.envelope_diameter + 0.3 * dims.drive_height)
     lit(renderer)
     return renderer

@@ -30,7 +30,7 @@ from tvimdesign.cad.mesh import Array, Mesh
 from tvimdesign.files import write_whole
 
 _EDGE_ANGLE = 30.0
-_COLUMN, _LINE = 240, 45
+_COLUMN, _LINE = 250, 45
 """Least width and height of a name in the legend [pixels]."""
 
 

@@ -121,6 +121,48 @@ SHELVES: Mapping[str, Shelf] = {
         },
         rising=(("bore", "inner_shoulder", "outer_shoulder", "outer_diameter"),),
     ),
+    "sensor_flanges": Shelf(
+        values={
+            "pitch_diameter": "mm",
+            "screw_count": "1",
+            "thread_diameter": "mm",
+            "tap_drill": "mm",
+            "centring_diameter": "mm",
+            "centring_depth": "mm",
+            "pin_diameter": "mm",
+            "pin_depth": "mm",
+        },
+        rising=(("tap_drill", "thread_diameter"), ("centring_diameter", "pitch_diameter")),
+    ),
+    "motors": Shelf(
+        values={
+            "stator_diameter": "mm",
+            "stator_bore": "mm",
+            "stator_length": "mm",
+            "rotor_diameter": "mm",
+            "rotor_bore": "mm",
+            "rotor_length": "mm",
+            "stator_mass": "g",
+            "rotor_mass": "g",
+            "rotor_inertia": "kg*mm^2",
+            "torque_constant": "N*m/A",
+            "continuous_torque": "N*m",
+        },
+        rising=(("rotor_bore", "rotor_diameter", "stator_bore", "stator_diameter"),),
+    ),
+    "encoders": Shelf(
+        values={
+            "magnet_diameter": "mm",
+            "magnet_height": "mm",
+            "magnet_density": "kg/m^3",
+            "air_gap": "mm",
+            "board_diameter": "mm",
+            "board_height": "mm",
+            "board_mass": "g",
+            "resolution_bits": "1",
+        },
+        rising=(("magnet_diameter", "board_diameter"),),
+    ),
     "polymers": Shelf(
         values={
             "density_solid": "kg/m^3",

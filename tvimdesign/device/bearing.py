@@ -16,6 +16,7 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
 from tvimdesign.device.rows import Rule, Scalar, at_least
+from tvimdesign.physics import structure
 from tvimdesign.physics.shapes import Section, ring
 
 BEARINGS = 2
@@ -223,11 +224,11 @@ def bearing_load(
 ) -> Scalar:
     """Force on the upper bearing, or the upper end of the bore, of a force at the link's end that the joint just holds.
 
-    F (1 + h/s): h from the middle of the link down to the upper bearing, s from there to the lower one (statics).
+    The force acts at half the link's thickness.
     """
     spread = hub_top_level - hub_bottom_level - bearing_width
     height = link_bottom_level + 0.5 * link_thickness - (hub_top_level - 0.5 * bearing_width)
-    return holding_torque / link_length * (1.0 + height / spread)
+    return structure.overhung_load(holding_torque / link_length, height, spread)
 
 
 _DENTS = "a force at the link's end that the joint just holds would dent the bearings' races"

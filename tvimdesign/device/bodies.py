@@ -77,10 +77,12 @@ def bare_housing_volume(
     rim_level: Scalar,
     fixed_posts_volume: Scalar,
     cover_bosses_volume: Scalar,
+    flange_volume: Scalar,
 ) -> Scalar:
-    """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub, posts and bosses."""
+    """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub, posts, bosses, flange."""
     wall = ring(housing_inner_radius, housing_outer_radius).area * rim_level
-    return skirt_volume + floor_volume + wall + hub_volume + fixed_posts_volume + cover_bosses_volume
+    standing = wall + hub_volume + fixed_posts_volume + cover_bosses_volume
+    return skirt_volume + floor_volume + standing + flange_volume
 
 
 @book.helper()
@@ -220,10 +222,12 @@ def module_mass(
     adjusters_mass: Scalar,
     cover_mass: Scalar,
     inserts_mass: Scalar,
+    drive_mass: Scalar,
 ) -> Scalar:
-    """Mass of the module, without wires and the screws that fix it."""
+    """Mass of the module with its motor, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + cover_mass + pcl_mass
-    return made + springs_mass + peltier_mass + screws_mass + inserts_mass + bearings_mass + adjusters_mass
+    fasteners = screws_mass + inserts_mass
+    return made + springs_mass + peltier_mass + fasteners + bearings_mass + adjusters_mass + drive_mass
 
 
 @book.output("kg*mm^2")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
+from tvimdesign.device.motor import Motor
 from tvimdesign.device.rows import Scalar
 
 book = Book("Layout")
@@ -154,9 +155,9 @@ def post_radius(spring_wound_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
 
 
 @book.output("mm", headline=True)
-def envelope_diameter(housing_outer_radius: Scalar) -> Scalar:
-    """Diameter of the module."""
-    return 2.0 * housing_outer_radius
+def envelope_diameter(drive: Motor | None, housing_outer_radius: Scalar, motor_outer_radius: Scalar) -> Scalar:
+    """Diameter of the module, or of its motor where that is wider."""
+    return 2.0 * (housing_outer_radius if drive is None else np.fmax(housing_outer_radius, motor_outer_radius))
 
 
 @book.output("mm", headline=True)
@@ -166,9 +167,11 @@ def envelope_height(
     link_bottom_level: Scalar,
     link_thickness: Scalar,
     link_screw_head_height: Scalar,
+    drive_height: Scalar,
 ) -> Scalar:
-    """Height of the module from the ground to the heads of the link screws."""
-    return foot_height + floor_thickness + link_bottom_level + link_thickness + link_screw_head_height
+    """Height of the module from the ground, below a motor, to the heads of the link screws."""
+    below = drive_height + foot_height + floor_thickness
+    return below + link_bottom_level + link_thickness + link_screw_head_height
 
 
 @book.output("cm^3", headline=True)

@@ -38,15 +38,25 @@ class Rule:
     """The value at and below which there is no such geometry, and the equations mean nothing."""
     only: tuple[str, str] | None = None
     """(option, word): the machine has what the limit is on only where that is chosen."""
+    unless: tuple[str, str] | None = None
+    """(option, word): the machine has what the limit is on wherever anything but that is chosen."""
 
     def applies(self, chosen: Mapping[str, Any]) -> bool:
         """Whether there is anything to limit with some options chosen, by name; an option left open may be any."""
+        if self.unless is not None and chosen.get(self.unless[0]) == self.unless[1]:
+            return False
         return self.only is None or chosen.get(self.only[0], self.only[1]) == self.only[1]
 
 
-def at_least(value: float, reason: str, exists_above: float | None = None, only: tuple[str, str] | None = None) -> Rule:
+def at_least(
+    value: float,
+    reason: str,
+    exists_above: float | None = None,
+    only: tuple[str, str] | None = None,
+    unless: tuple[str, str] | None = None,
+) -> Rule:
     """A lower limit that belongs to the machine."""
-    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above, only=only)
+    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above, only=only, unless=unless)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -49,13 +49,31 @@ def lens(radius: Any, circle_radius: Any) -> Any:
     return b**2 * (0.5 * np.pi - half) + 2.0 * r**2 * half - 0.5 * b * np.sqrt(4.0 * r**2 - b**2)
 
 
+def _half_strip(half_width: Any, radius: Any) -> Section:
+    """The half strip |y| < b, x > 0 within a circle about the axis.
+
+    Cut by the angle p = arcsin(b/R) into a sector and two triangles of height c = sqrt(R^2 - b^2): area R^2 p + b c,
+    polar moment R^4 p/2 + (b^3 c + b c^3/3)/2 (integrals in polar coordinates).
+    """
+    b = half_width
+    reach, angle = np.sqrt(radius**2 - b**2), np.arcsin(b / radius)
+    return Section(radius**2 * angle + b * reach, 0.5 * radius**4 * angle + 0.5 * (b**3 * reach + b * reach**3 / 3.0))
+
+
+def spoke(half_width: Any, disc_radius: Any, length: Any) -> Section:
+    """What an obround from the axis to `length` adds to a disc about the axis: strip and half disc beyond its rim."""
+    near_end = Section(0.5 * np.pi * half_width**2, 0.25 * np.pi * half_width**4)
+    return slot(half_width, length) - near_end - _half_strip(half_width, disc_radius)
+
+
+def notch(half_width: Any, inner_radius: Any, outer_radius: Any) -> Section:
+    """What a straight opening of the given half width takes from one side of a ring about the axis."""
+    return _half_strip(half_width, outer_radius) - _half_strip(half_width, inner_radius)
+
+
 def ring_notch(half_width: Any, inner_radius: Any, outer_radius: Any) -> Any:
-    """Area [m^2] that a straight opening of the given half width takes from one side of a ring about the axis."""
-
-    def half_segment(radius: Any) -> Any:
-        return half_width * np.sqrt(radius**2 - half_width**2) + radius**2 * np.arcsin(half_width / radius)
-
-    return half_segment(outer_radius) - half_segment(inner_radius)
+    """Area [m^2] of such a notch."""
+    return notch(half_width, inner_radius, outer_radius).area
 
 
 def slot(half_width: Any, length: Any) -> Section:

@@ -33,3 +33,11 @@ def ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, outer_radius
 def series(*stiffnesses: Any) -> Any:
     """Stiffness of springs in series, 1/K = sum 1/K_i [N*m/rad]."""
     return 1.0 / sum(1.0 / stiffness for stiffness in stiffnesses)
+
+
+def overhung_load(force: Any, height: Any, spread: Any) -> Any:
+    """Load [N] on the nearer of two bearings, `spread` [m] apart, of a force `height` [m] beyond it: F (1 + h/s).
+
+    Source: statics, moments about the farther bearing.
+    """
+    return force * (1.0 + height / spread)

@@ -112,6 +112,29 @@ _ONLY_WITH = {
     "impedance_targets": ("stated", ("soft_impedance", "stiff_impedance")),
 }
 """Inputs that count only where an option is chosen: option, its word, the inputs."""
+_IDLE_WITHOUT = {
+    "sensor_flange": ("none", ("flange_wall", "flange_screw_reach", "flange_azimuth")),
+    "motor": (
+        "none",
+        (
+            "encoder",
+            "motor_bearing",
+            "motor_screw",
+            "motor_screw_length",
+            "mount_screw_length",
+            "motor_plate_thickness",
+            "motor_hub_wall",
+            "motor_wall",
+            "motor_base_thickness",
+            "motor_retainer_floor",
+            "motor_sink_clearance",
+            "motor_wire_width",
+            "motor_wire_depth",
+        ),
+    ),
+    "encoder": ("none", ("encoder_magnet_spacing",)),
+}
+"""Inputs that count only where a record is chosen: choice, the word for no record, the inputs."""
 
 
 def _refuse_idle(study: Study, start: Mapping[str, Any]) -> None:
@@ -121,6 +144,12 @@ def _refuse_idle(study: Study, start: Mapping[str, Any]) -> None:
         if idle and option in start and start[option] != word and option not in study.vary:
             raise InputError(
                 f"{', '.join(idle)}: no effect, as {option} is {start[option]}; add `{option}: {word}` under `module`"
+            )
+    for choice, (word, names) in _IDLE_WITHOUT.items():
+        idle = [name for name in names if name in study.module or name in study.vary]
+        if idle and start[choice] == word and choice not in study.vary:
+            raise InputError(
+                f"{', '.join(idle)}: no effect, as {choice} is {word}; name one of its records under `module`"
             )
 
 

@@ -23,7 +23,7 @@ from tvimdesign.cad.inspection.walls import wall_checks
 from tvimdesign.cad.making import MAKING
 from tvimdesign.cad.mesh import solid_mesh
 from tvimdesign.cad.outcome import Check
-from tvimdesign.cad.parts import between_springs, link_screws
+from tvimdesign.cad.parts import between_springs, link_screws, mounts
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si
@@ -84,6 +84,8 @@ def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[C
         ("retainer", "rotor", (0.0, 0.0)),
         ("adjuster", "adjuster", (0.0, 0.0)),
         ("cover", "housing", bosses[0]),
+        ("motor", "motor_hub", (0.0, 0.0)),
+        ("mount", "motor_hub", mounts(dims)[0]),
     ):
         if f"{joint}_screw" not in drawn:
             continue

@@ -93,7 +93,8 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[C
         if kind_of(names[0]).endswith("_screw"):
             standing, out = Standing(there), _WAY[group[0].side]
             yield from (_driver(name, _end(meshes[name], out), out, standing) for name in names)
-    yield from mount_checks(dims, Standing(there))
+    if not any(kind_of(name) == "mount_screw" for name in meshes):
+        yield from mount_checks(dims, Standing(there))
 
 
 def _groups(order: Sequence[Placed]) -> Iterator[list[Placed]]:

@@ -102,6 +102,18 @@ def floor_volume(
     return (disc - spring_count * holes - slot_foot_section) * floor_thickness
 
 
+@book.helper()
+def floor_openings_polar(slot_foot_section: Scalar, pcl_mean_radius: Scalar, floor_thickness: Scalar) -> Scalar:
+    """Polar moment [m^5] of what the floor has not got: the slots, at their mean radius."""
+    return slot_foot_section * pcl_mean_radius**2 * floor_thickness
+
+
+@book.helper()
+def housing_vanes_polar(housing_vanes_volume: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Polar moment [m^5] of the housing's vanes, their volume spread over their sectors."""
+    return housing_vanes_volume * 0.5 * (pcl_inner_radius**2 + pcl_outer_radius**2)
+
+
 @book.output("mm^3")
 def housing_volume(bare_housing_volume: Scalar, housing_vanes_volume: Scalar) -> Scalar:
     """Volume of the housing: skirt and floor, wall, hub, spring posts and vanes."""

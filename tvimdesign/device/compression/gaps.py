@@ -94,6 +94,18 @@ def slot_width_reserve(slot_width: Scalar, corner_radius: Scalar) -> Scalar:
     return slot_width - 2.0 * corner_radius
 
 
+@book.helper()
+def solid_floor(floor_thickness: Scalar) -> Scalar:
+    """Floor that may be drilled into from below [m]: all of it, pads stand in the vanes."""
+    return floor_thickness
+
+
+@book.helper()
+def floor_opening_radius(slot_inner_radius: Scalar) -> Scalar:
+    """Radius at which the openings of the floor begin [m]: the slots."""
+    return slot_inner_radius
+
+
 _PRESSED_OUT = "what is squeezed out of the blocks' places could reach the springs, were all of it to go outwards"
 
 

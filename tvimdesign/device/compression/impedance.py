@@ -117,7 +117,7 @@ def structure_stiffness(
     housing_vane_stiffness: Scalar,
     structure_shear_modulus: Scalar,
     pcl_mean_radius: Scalar,
-    placement_radius: Scalar,
+    floor_span: tuple[Scalar, Scalar],
     floor_thickness: Scalar,
     vane_count: Scalar,
     slot_angle: Scalar,
@@ -125,7 +125,7 @@ def structure_stiffness(
     peltier_thickness: Scalar,
     block_area: Scalar,
 ) -> Scalar:
-    """Stiffness in series with the blocks: core, rotor plate, vanes of both, pads, and floor up to its feet."""
+    """Stiffness in series with the blocks: core, plate, vanes of both, pads, and floor up to its feet or its flange."""
     # The floor is weakest where slots cut it: what is left of its circumference there counts.
     whole = floor_thickness * (1.0 - vane_count * slot_angle / (2.0 * np.pi))
     return structure.series(
@@ -133,7 +133,7 @@ def structure_stiffness(
         plate_stiffness,
         rotor_vane_stiffness,
         housing_vane_stiffness,
-        structure.ring_stiffness(structure_shear_modulus, whole, pcl_mean_radius, placement_radius),
+        structure.ring_stiffness(structure_shear_modulus, whole, *floor_span),
         # A sheet pressed through its thickness, E = 3 G as of rubber, its pellets' share not counted on top.
         block.stiffness(3.0 * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness),
     )

@@ -72,6 +72,33 @@ def floor_volume(
     return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_area * floor_web
 
 
+@book.helper()
+def floor_openings_polar(
+    arc_count: Scalar,
+    arc_span: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    pcl_mean_radius: Scalar,
+    window_ledge: Scalar,
+    corner_radius: Scalar,
+    peltier_thickness: Scalar,
+    floor_web: Scalar,
+) -> Scalar:
+    """Polar moment [m^5] of what the floor has not got: pockets of the pads, and the windows below them."""
+    span = arc_span - 2.0 * window_ledge / pcl_inner_radius
+    inner, outer = pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge
+    rounded = [corners(corner_radius, *ends) for ends in ((pcl_inner_radius, pcl_outer_radius), (inner, outer))]
+    pocket = sector(arc_span, pcl_inner_radius, pcl_outer_radius).polar - rounded[0] * pcl_mean_radius**2
+    window = sector(span, inner, outer).polar - rounded[1] * pcl_mean_radius**2
+    return arc_count * (pocket * peltier_thickness + window * floor_web)
+
+
+@book.helper()
+def housing_vanes_polar() -> Scalar:
+    """Polar moment [m^5] of vanes on the floor: there are none."""
+    return 0.0
+
+
 @book.output("mm^3")
 def housing_volume(bare_housing_volume: Scalar) -> Scalar:
     """Volume of the housing: skirt and floor, wall, hub and spring posts."""

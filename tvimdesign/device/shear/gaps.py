@@ -51,6 +51,18 @@ def floor_web_reserve(floor_web: Scalar, minimum_wall: Scalar) -> Scalar:
     return floor_web - minimum_wall
 
 
+@book.helper()
+def solid_floor(floor_web: Scalar) -> Scalar:
+    """Floor that may be drilled into from below [m]: what is left below the pads, wherever these are."""
+    return floor_web
+
+
+@book.helper()
+def floor_opening_radius(pcl_inner_radius: Scalar, window_ledge: Scalar) -> Scalar:
+    """Radius at which the openings of the floor begin [m]: the windows."""
+    return pcl_inner_radius + window_ledge
+
+
 book.after("retainer_gap")
 
 

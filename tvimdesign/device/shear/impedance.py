@@ -38,19 +38,18 @@ def structure_stiffness(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
     structure_shear_modulus: Scalar,
-    pcl_mean_radius: Scalar,
-    placement_radius: Scalar,
+    floor_span: tuple[Scalar, Scalar],
     floor_web: Scalar,
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     layer_polar_moment: Scalar,
 ) -> Scalar:
-    """Stiffness in series with the layer: core, rotor plate, Peltier pads, and floor up to its mounting feet."""
+    """Stiffness in series with the layer: core, rotor plate, pads, and floor up to its feet or its sensor flange."""
     return structure.series(
         core_stiffness,
         plate_stiffness,
         # The floor is weakest where pockets and windows thin it; its web counts.
-        structure.ring_stiffness(structure_shear_modulus, floor_web, pcl_mean_radius, placement_radius),
+        structure.ring_stiffness(structure_shear_modulus, floor_web, *floor_span),
         peltier_shear_modulus * layer_polar_moment / peltier_thickness,
     )
 

@@ -1,0 +1,100 @@
+"""What a module stands on or is driven by: the solids of a torque sensor's flange, and of a motor below the feet."""
+
+from __future__ import annotations
+
+from math import atan2, degrees, hypot
+
+import pytest
+from cad_designs import CASES, DRIVEN, FLANGE, design_of
+
+from tvimdesign.cad.assembly import build, drawn_part, drawn_parts
+from tvimdesign.cad.assembly_note import assembly_note
+from tvimdesign.cad.bom import Item
+from tvimdesign.cad.checks import _polar_moment, interference_checks
+from tvimdesign.cad.dimensions import dimensions
+from tvimdesign.cad.features import holes
+from tvimdesign.cad.inspection.inspect import module_checks, part_checks
+from tvimdesign.cad.kinds import KINDS, TURNING, kind_of
+
+
+def test_the_pattern_stands_at_its_azimuth_with_the_pin_midway_between_two_screws() -> None:
+    dims = dimensions(design_of("flange", {**FLANGE, "flange_azimuth": 0.3}))
+    ground = -dims.floor_thickness - dims.foot_height
+    found = [one for one in holes(drawn_part(dims, "housing")) if abs(hypot(one.x, one.y) - 20.0) < 1e-3]
+    screws = [one for one in found if one.radius == pytest.approx(2.5)]
+    turned = sorted(degrees(atan2(one.y, one.x)) % 360.0 for one in screws)
+    assert turned == pytest.approx([degrees(0.3) + 90.0 * index for index in range(4)], abs=1e-3)
+    assert [one.bottom for one in screws] == pytest.approx(4 * [ground])
+    assert [one.top for one in screws] == pytest.approx(4 * [ground + 11.0])
+    (pin,) = [one for one in found if one.radius == pytest.approx(3.0)]
+    assert degrees(atan2(pin.y, pin.x)) == pytest.approx(degrees(0.3) + 45.0, abs=1e-3)
+    assert (pin.bottom, pin.top) == pytest.approx((ground, ground + 6.0))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["flange", "flange among blocks"])
+def test_a_housing_with_a_flange_can_be_made_by_its_process(case: str) -> None:
+    mode, overrides = CASES[case]
+    design = design_of(case, overrides, mode)
+    dims = dimensions(design)
+    found = part_checks(design, dims, "housing", drawn_part(dims, "housing"))
+    assert [check.text for check in found if check.level == "failure"] == []
+    # What any housing is warned of: the floor over its feet when printed, its feet at the skirt when milled.
+    assert {check.name for check in found if check.level == "warning"} <= {"housing: overhang", "housing: edge"}
+
+
+@pytest.mark.parametrize(
+    ("flange", "words"), [(True, "Centre the torque sensor"), (False, "Fix the module by the 4 holes")]
+)
+def test_the_note_says_what_bears_the_module(flange: bool, words: str) -> None:
+    design = design_of("flange", FLANGE if flange else {})
+    housing = Item("housing", 1, True, "petg", "PETG", 1.0, ())
+    note = assembly_note(design, dimensions(design), [housing]).decode()
+    (step,) = [line for line in note.splitlines() if line[:1].isdigit()]
+    assert words in step
+
+
+def test_hub_and_housing_of_the_motor_are_one_sound_solid_each_and_as_heavy_as_their_rows() -> None:
+    design = design_of("driven", DRIVEN)
+    dims = dimensions(design)
+    for kind in ("motor_hub", "motor_housing", "motor_retainer"):
+        solid = drawn_part(dims, kind)
+        assert solid.Volume() * 1e-9 == pytest.approx(design.values[f"{kind}_volume"], rel=1e-9), kind
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["driven", "driven blocks"])
+def test_a_motor_goes_together_in_the_order_of_the_note_and_its_screws_are_reached_and_hold(case: str) -> None:
+    mode, overrides = CASES[case]
+    design = design_of(case, overrides, mode)
+    dims = dimensions(design)
+    drawn = drawn_parts(dims)
+    found = {check.name: check for check in module_checks(design, dims, drawn)}
+    assert [check.text for check in found.values() if check.level != "pass"] == []
+    drivers = [f"mount_screw_{index + 1}: driver" for index in range(int(dims.spring_count))]
+    assert {"motor_screw: driver", "motor_screw: thread", "mount_screw: thread", *drivers} <= set(found)
+    for kind in ("motor_hub", "motor_housing", "motor_retainer"):
+        failed = [check.text for check in part_checks(design, dims, kind, drawn[kind]) if check.level == "failure"]
+        assert failed == [], kind
+
+
+@pytest.mark.slow
+def test_a_rotor_that_does_not_clear_its_stator_is_found() -> None:
+    design = design_of("driven", DRIVEN)
+    wide = design.model_copy(update={"values": design.values | {"motor_rotor_radius": 23.2e-3}})
+    found = [check.name for check in interference_checks(build(wide), "at rest") if not check.ok]
+    assert found == ["motor_rotor | motor_stator at rest"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["driven", "driven blocks"])
+def test_what_the_motor_turns_has_the_inertia_of_its_solids(case: str) -> None:
+    mode, overrides = CASES[case]
+    design = design_of(case, overrides, mode)
+    stands = {*TURNING, "motor_stator", "motor_housing", "encoder_board"}
+    driven = {name: solid for name, solid in build(design).items() if kind_of(name) not in stands}
+    about_axis = sum(
+        design.values[KINDS[kind_of(name)].density] * _polar_moment(solid) * 1e-15 for name, solid in driven.items()
+    )
+    # Legs of springs reach in from their rings, and half of each bearing stands.
+    assert design.values["driven_inertia"] == pytest.approx(about_axis, rel=0.01)
