@@ -65,6 +65,7 @@ SHELVES: Mapping[str, Shelf] = {
             "minimum_running_clearance": "mm",
             "slip_clearance": "mm",
             "seat_clearance": "mm",
+            "hole_compensation": "mm",
             "corner_radius": "mm",
             "corner_depth_ratio": "1",
             "pocket_depth_ratio": "1",

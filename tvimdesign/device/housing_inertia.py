@@ -121,8 +121,8 @@ def driven_inertia(
 ) -> Scalar:
     """Moment of inertia of all the motor turns while the link stands; zero without a motor.
 
-    Springs and adjusters as rings about the springs' axes, PCL and pads spread over their ring; a cover's screws, and the outer
-    rings of the module's bearings, near the axis, not counted.
+    Springs and adjusters as rings about the springs' axes, PCL and pads spread over their ring; a cover's screws not
+    counted, nor the outer rings of the module's bearings, near the axis.
     """
     if drive is None:
         return 0.0

@@ -16,6 +16,12 @@ for name, unit, field, description in (
     ("minimum_feature", "mm", "minimum_feature", "Thinnest pin or post the process makes"),
     ("minimum_running_clearance", "mm", "minimum_running_clearance", "Least gap between turning and fixed faces"),
     ("slip_clearance", "mm", "slip_clearance", "Least gap to each side of what slips into a hole"),
+    (
+        "hole_compensation",
+        "mm",
+        "hole_compensation",
+        "What upright holes are wider by in print files; STEP stays nominal",
+    ),
     ("corner_radius", "mm", "corner_radius", "Radius of the upright inner corners of pockets"),
     ("corner_depth_ratio", "1", "corner_depth_ratio", "Largest depth of a corner over its radius"),
     ("pocket_depth_ratio", "1", "pocket_depth_ratio", "Largest depth of a pocket over its width"),
