@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from optimum import Once, by_tvimdesign, exact, lsoda
+from contenders import Once, by_tvimdesign, lsoda
+from optimum import exact
 from reference_problem import Reference, study
 
 
