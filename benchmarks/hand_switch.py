@@ -276,9 +276,10 @@ def switch(q: Array, moved: Array, slopes: Array, sensitive: bool) -> float:
     y[2 : 2 + CELLS] = H_AMBIENT
     s, old, work = np.zeros((FREE + 1, STATES)), np.zeros((FREE + 1, STATES)), np.zeros((19, STATES))
     usual, lengths = pace(q), np.empty(FREE + 1)
-    for k in range(FREE):
-        lengths[k] = pace(moved[k])
-    lengths[FREE] = usual
+    lengths[:] = usual
+    if sensitive:
+        for k in range(FREE):
+            lengths[k] = pace(moved[k])
     now, share, gap, last = 0.0, FIRST, -1.0, 0.0
     while now < LONGEST:
         before[:], old[:], last = y, s, gap
