@@ -280,7 +280,7 @@ CONTENDERS = (
     Contender("SLSQP on equations written by hand for numba, compiled before", hand_written, 20, lambda _: ByHand()),
     Contender("AeroSandbox Opti, Radau written by its user, build included", aerosandbox, 20),
     Contender("SLSQP, finite differences, LSODA with exact Jacobian", slsqp(lsoda(1e-8), 1e-6), 10),
-    Contender("trust-constr, finite differences, the same LSODA", trust_constr, 3),
+    Contender("trust-constr, finite differences, the same LSODA", trust_constr, 2),
     Contender("OpenMDAO, SLSQP, finite differences, the same LSODA", openmdao, 10),
     Contender("SLSQP, `solve_ivp` BDF at 1e-6, as most would write it", slsqp(bdf, 1.5e-8), 5),
 )

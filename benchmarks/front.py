@@ -2,7 +2,8 @@
 
 Both get the study `reference.yaml` and the same compiled equations. NSGA-II evaluates a whole generation at once
 through the compiled kernels, which is what a good user of it would do, with pymoo's own handling of the limits; its
-best generation counts, and has more designs in it than the front it is held against. Hypervolumes are of outputs
+best generation counts, and has more designs in it than the front it is held against. One run of it gets its switches
+one by one instead, by LSODA. Hypervolumes are of outputs
 between the ends of tvimdesign's front, up to a tenth beyond the far ends, and of both by the kernels' own values.
 Beside them stand thirty single solves: the goals of the front's own points, each sought cold from the study's start.
 """
@@ -18,7 +19,9 @@ from statistics import median
 from typing import Any
 
 import numpy as np
+from contenders import lsoda
 from numpy.typing import NDArray
+from quick import Quick
 from reference_problem import LONGEST, Reference, study
 
 from tvimdesign.catalog import Catalog
@@ -65,6 +68,31 @@ class ManyDesigns:
         residuals = [limit.residual(row) for limit, row in zip(self._limits, rows[self.count :], strict=True)]
         residuals.append(np.where(np.isfinite(times[0]), -1.0, 1.0))
         return rows[: self.count], np.nan_to_num(np.array(residuals), nan=10.0, posinf=10.0)
+
+
+class OneByOne:
+    """The same, each switch by LSODA with the exact Jacobian: what most would write who have no kernels."""
+
+    def __init__(self, reference: Reference, outputs: tuple[str, ...]) -> None:
+        """Nothing is compiled that the reference problem has not compiled."""
+        self.count = len(outputs)
+        self._reference, self._event = reference, outputs.index(reference.event)
+        self._others = Quick(reference.model.outputs([name for name in outputs if name != reference.event]))
+        self._switch = lsoda(1e-6)
+
+    def __call__(self, designs: Array) -> tuple[Array, Array]:
+        """Outputs and residuals."""
+        found = [self._one(design) for design in designs.T]
+        return np.array([one[0] for one in found]).T, np.array([one[1] for one in found]).T
+
+    def _one(self, design: Array) -> tuple[Array, Array]:
+        rows = self._reference.rows(design, LONGEST)[1:]
+        if not np.all(np.isfinite(rows)):  # no such module
+            return np.full(self.count, LONGEST), np.full(len(rows) + 1, 10.0)
+        seconds = self._switch(self._reference, design)
+        others = self._others(self._reference.inputs(design), np.ones(len(self._reference.model.switch_names)))
+        outputs = np.insert(others, self._event, seconds)
+        return outputs, np.append(self._reference.rows(design, seconds)[1:], -1.0 if seconds < LONGEST else 1.0)
 
 
 @dataclass(frozen=True)
@@ -142,7 +170,13 @@ class Evolution:
 
 
 def nsga2(
-    reference: Reference, many: ManyDesigns, volume: Volume, population: int, seed: int, longest: float, enough: float
+    reference: Reference,
+    many: ManyDesigns | OneByOne,
+    volume: Volume,
+    population: int,
+    seed: int,
+    longest: float,
+    enough: float,
 ) -> Evolution:
     """Let NSGA-II run until it has `enough` hypervolume or has used `longest` seconds of the processor."""
     from pymoo.algorithms.moo.nsga2 import NSGA2
@@ -206,24 +240,30 @@ def compare(outputs: tuple[str, ...], populations: list[int], seeds: int, longes
     def row(name: str, seconds: float, evaluations: str, share: float | str) -> None:
         part = share if isinstance(share, str) else f"{100.0 * share:.2f} %"
         lines.append(f"| {name} | {seconds:.2f} | {seconds / mine.seconds:.3g} | {evaluations} | {part} |")
+        print(lines[-1], flush=True)
 
     row("tvimdesign, the front", mine.seconds, f"{shown.sought} solves", 1.0)
     row("building the problem and its weighted optimum, before that", mine.optimum, "", "")
     row("the same goals one by one, each from the study's start", mine.single,
         f"{len(shown.points)} solves, {mine.failed} failed", "")  # fmt: skip
     row("and simulated, as every point of the front is", mine.checked, "", "")
-    for population in populations:
+
+    def evolved(name: str, many: ManyDesigns | OneByOne, population: int, seeds: int) -> None:
         runs = [nsga2(reference, many, volume, population, seed, longest, whole) for seed in range(1, seeds + 1)]
         for share in SHARES:
             there = [one for run in runs if (one := run.reached(share * whole))]
             if there:
-                name = f"NSGA-II of {population} to {share:.0%}, {len(there)} of {seeds} seeds"
-                row(name, median(one[0] for one in there), f"{median(one[1] for one in there):.0f}", share)
-        if any(run.reached(whole) is None for run in runs):
-            stopped = [run for run in runs if run.reached(whole) is None]
-            row(f"NSGA-II of {population} as it was stopped, {len(stopped)} of {seeds} seeds",
+                row(f"{name} to {share:.0%}, {len(there)} of {seeds} seeds", median(one[0] for one in there),
+                    f"{median(one[1] for one in there):.0f}", share)  # fmt: skip
+        stopped = [run for run in runs if run.reached(whole) is None]
+        if stopped:
+            row(f"{name} as it was stopped, {len(stopped)} of {seeds} seeds",
                 median(run.seconds[-1] for run in stopped), f"{median(run.evaluations[-1] for run in stopped):.0f}",
                 median(run.volumes[-1] for run in stopped) / whole)  # fmt: skip
+
+    for population in populations:
+        evolved(f"NSGA-II of {population}", many, population, seeds)
+    evolved(f"NSGA-II of {populations[0]}, switches by LSODA", OneByOne(reference, outputs), populations[0], 1)
     return "\n".join(lines)
 
 
@@ -232,14 +272,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--populations", type=int, nargs="+", default=[100, 400], help="of NSGA-II")
     parser.add_argument("--seeds", type=int, default=3, help="runs of NSGA-II with each population")
-    parser.add_argument("--longest", type=float, default=120.0, help="seconds after which a run of NSGA-II is stopped")
+    parser.add_argument("--longest", type=float, default=60.0, help="seconds after which a run of NSGA-II is stopped")
     parser.add_argument("--points", type=int, default=POINTS, help="designs on the front")
     parser.add_argument("--out", type=Path, help="Markdown file to write the tables to")
     chosen = parser.parse_args()
     said = []
     for outputs in OUTPUTS:
         said.append(compare(outputs, chosen.populations, chosen.seeds, chosen.longest, chosen.points))
-        print(said[-1] + "\n", flush=True)
+        print("\n" + said[-1] + "\n", flush=True)
     if chosen.out:
         chosen.out.write_text("\n\n".join(said) + "\n", encoding="utf-8")
 

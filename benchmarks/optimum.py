@@ -109,7 +109,7 @@ def main() -> None:
         with contextlib.redirect_stdout(io.StringIO()):
             row, best = judged(reference, counted, best)
         rows.append(row)
-        print(f"{row.name}: {row.seconds:.3f} s of processor", flush=True)
+        print(f"{row.name}: {row.seconds:.3f} s of processor, {row.right} of {row.starts} starts", flush=True)
     text = table(rows)
     print(f"\nobjective {best:.6f}, tvimdesign {rows[0].seconds:.3f} s\n\n{text}")
     if chosen.out:
