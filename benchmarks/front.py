@@ -2,10 +2,10 @@
 
 Both get the study `reference.yaml` and the same compiled equations. NSGA-II evaluates a whole generation at once
 through the compiled kernels, which is what a good user of it would do, with pymoo's own handling of the limits; its
-best generation counts, and has more designs in it than the front it is held against. One run of it gets its switches
-one by one instead, by LSODA. Hypervolumes are of outputs
-between the ends of tvimdesign's front, up to a tenth beyond the far ends, and of both by the kernels' own values.
-Beside them stand thirty single solves: the goals of the front's own points, each sought cold from the study's start.
+best generation counts, and has more designs in it than the front it is held against. One run of it simulates its
+switches one by one instead, by LSODA. Hypervolumes are of outputs between the ends of tvimdesign's front, up to a tenth
+beyond the far ends, and of both by the kernels' own values. Beside them stand thirty single solves: the goals of the
+front's own points, each sought cold from the study's start.
 """
 
 from __future__ import annotations
