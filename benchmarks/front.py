@@ -274,10 +274,11 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=3, help="runs of NSGA-II with each population")
     parser.add_argument("--longest", type=float, default=60.0, help="seconds after which a run of NSGA-II is stopped")
     parser.add_argument("--points", type=int, default=POINTS, help="designs on the front")
+    parser.add_argument("--of", type=int, nargs="+", default=[2, 3], help="counts of outputs that are traded")
     parser.add_argument("--out", type=Path, help="Markdown file to write the tables to")
     chosen = parser.parse_args()
     said = []
-    for outputs in OUTPUTS:
+    for outputs in (one for one in OUTPUTS if len(one) in chosen.of):
         said.append(compare(outputs, chosen.populations, chosen.seeds, chosen.longest, chosen.points))
         print("\n" + said[-1] + "\n", flush=True)
     if chosen.out:

@@ -98,6 +98,7 @@ def main() -> None:
     """Print the comparison; with --out write it too."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--starts", type=int, help="random starts of every contender, in place of its own count")
+    parser.add_argument("--only", nargs="+", default=[""], help="words of the rows wanted besides tvimdesign's own")
     parser.add_argument("--out", type=Path, help="Markdown file to write the table to")
     chosen = parser.parse_args()
     warnings.simplefilter("ignore")  # what rivals say of their finite differences
@@ -105,6 +106,8 @@ def main() -> None:
     rows: list[Row] = []
     best: float | None = None
     for contender in CONTENDERS:
+        if rows and not any(word in contender.name for word in chosen.only):
+            continue
         counted = contender if chosen.starts is None else replace(contender, starts=chosen.starts)
         with contextlib.redirect_stdout(io.StringIO()):
             row, best = judged(reference, counted, best)
