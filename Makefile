@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-designs check-cad lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-front bench-designs check-cad lint format types contracts schema cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -35,7 +35,7 @@ $(VENV)/.bench: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,bench]'
 	@touch $@
 
-bench: $(VENV)/.bench bench-switch bench-choices bench-sweep bench-cad  ## everything against what people would use instead, side by side (minutes)
+bench: $(VENV)/.bench bench-switch bench-choices bench-sweep bench-front bench-cad  ## everything against what people would use instead, side by side (minutes)
 	$(BENCH) benchmarks/optimum.py
 
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
@@ -46,6 +46,9 @@ bench-choices: $(STAMP)  ## the best of 2,028 combinations by branch and bound a
 
 bench-sweep: $(STAMP)  ## designs a second through compiled equations, and through what else there is
 	$(BENCH) benchmarks/sweep.py
+
+bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hypervolume
+	$(BENCH) benchmarks/front.py
 
 bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
 	$(BENCH) benchmarks/random_designs.py

@@ -18,6 +18,7 @@ from quick import Quick
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.backend import ca
+from tvimdesign.solve.limits import impossible
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.study import Study, read_study
 
@@ -110,7 +111,22 @@ class Reference:
         return self._algebra(self.inputs(design), np.array([time])).ravel()
 
     def random_starts(self, count: int) -> list[Array]:
-        """Designs drawn evenly in the logarithms between the bounds, the same for every contender."""
+        """Designs drawn evenly in the logarithms between the bounds, the same for every contender.
+
+        Where there is no such module, or its switch never ends, another one is drawn: no contender gets further there.
+        """
         random = np.random.default_rng(1)
         low, high = np.log(self.lower), np.log(self.upper)
-        return [np.exp(random.uniform(low, high)) for _ in range(count)]
+        found: list[Array] = []
+        while len(found) < count:
+            design = np.exp(random.uniform(low, high))
+            if self._is_one(design):
+                found.append(design)
+        return found
+
+    def _is_one(self, design: Array) -> bool:
+        if not np.all(np.isfinite(self.rows(design, 1.0))):
+            return False
+        switch = self.optimizer.simulator.run(self.inputs(design), stages=["softening"])
+        values = self.model.values(self.inputs(design), switch.values)
+        return np.isfinite(values[self.event]) and not impossible(values, self.model.table)

@@ -10,6 +10,9 @@ from pathlib import Path
 import pytest
 from support import ROOT, Command
 
+# What the benchmarks have written for numba is tested as plain Python: compiling it takes longer than all else.
+os.environ["NUMBA_DISABLE_JIT"] = "1"
+
 
 @pytest.fixture(scope="session")
 def tvimdesign() -> Command:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import hand_module
 import numpy as np
 import pytest
-from optimum import Once, by_tvimdesign, exact, lsoda
+from by_hand import PUBLISHED, ByHand, by_hand, evaluate
+from contenders import Once, by_tvimdesign, lsoda
+from front import ManyDesigns
+from optimum import exact
 from reference_problem import Reference, study
 
 
@@ -33,3 +37,65 @@ def test_our_own_row_is_an_optimum_to_an_independent_integrator(reference: Refer
             inside = np.all(np.exp(logs) <= reference.upper) and np.all(np.exp(logs) >= reference.lower)
             if inside and np.all(once.room(logs) >= 0.0):
                 assert once.objective(logs) > objective * (1.0 - 1e-6)
+
+
+def equations_by_hand(design: np.ndarray, sensitive: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    count = hand_module.OUTPUTS + hand_module.RESIDUALS
+    rows, slopes = np.zeros(count), np.zeros((count, len(design)))
+    evaluate(np.log(design), rows, slopes, sensitive)
+    return rows, slopes
+
+
+def others(reference: Reference) -> list[np.ndarray]:
+    return [reference.begin, *reference.random_starts(2)]
+
+
+def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> None:
+    constant = ("soft_reach", "stiff_reach")
+    kept = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in constant]
+    sizes = reference.model.outputs(["envelope_volume", "module_mass"])
+    for design in others(reference):
+        rows = np.zeros(hand_module.OUTPUTS + hand_module.RESIDUALS)
+        hand_module.measure(design, rows, np.zeros(hand_module.HEAT))
+        expected = np.asarray(sizes(reference.inputs(design), np.ones(len(reference.model.switch_names)))).ravel()
+        assert rows[:2] == pytest.approx(expected, rel=1e-12)
+        residuals = reference.rows(design, 100.0)[kept]
+        assert rows[hand_module.OUTPUTS :] == pytest.approx(residuals, rel=1e-9, abs=1e-12)
+    assert pytest.approx(reference.begin, rel=1e-12) == PUBLISHED
+    assert ByHand().objective(np.log(reference.begin)) == pytest.approx(3.0)
+
+
+def test_the_switch_written_by_hand_is_the_tables(reference: Reference) -> None:
+    rows, _ = equations_by_hand(reference.begin)
+    assert rows[2] == pytest.approx(lsoda(1e-9)(reference, reference.begin), rel=2e-5)
+
+
+@pytest.mark.slow
+def test_the_optimum_by_hand_is_ours(reference: Reference) -> None:
+    design, _ = by_hand(reference.begin, reference.lower, reference.upper)
+    ours = exact(reference, by_tvimdesign(reference, reference.begin).design)
+    objective, broken = exact(reference, design)
+    assert objective == pytest.approx(ours[0], rel=1e-6)
+    assert broken < 1e-6
+
+
+@pytest.mark.slow
+def test_the_slopes_written_by_hand_are_those_of_its_values(reference: Reference) -> None:
+    _, slopes = equations_by_hand(reference.begin, sensitive=True)
+    for i in range(len(reference.begin)):
+        aside = 1e-4 * (np.arange(len(reference.begin)) == i)
+        low, high = (equations_by_hand(reference.begin * np.exp(side * aside))[0] for side in (-1.0, 1.0))
+        found, expected = slopes[:, i], (high - low) / 2e-4
+        assert found[2] == pytest.approx(expected[2], rel=1e-4, abs=5e-3)  # seconds, of 170
+        assert np.delete(found, 2) == pytest.approx(np.delete(expected, 2), rel=1e-4, abs=1e-7)
+
+
+def test_a_generation_is_given_the_same_problem(reference: Reference) -> None:
+    designs = others(reference)
+    many = ManyDesigns(reference, ("response_time", "module_mass"), pace=100.0)
+    outputs, residuals = many(np.array(designs).T.copy())
+    for i, design in enumerate(designs):
+        seconds = lsoda(1e-9)(reference, design)
+        assert outputs[0, i] == pytest.approx(seconds, rel=2e-3)
+        assert residuals[:-1, i] == pytest.approx(reference.rows(design, seconds)[1:], rel=1e-9, abs=1e-12)
+        assert residuals[-1, i] < 0.0

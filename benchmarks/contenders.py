@@ -1,0 +1,286 @@
+"""The ways to the optimum that `optimum.py` sets side by side: tvimdesign, and what people would write instead.
+
+Each takes the reference problem and a start, and gives the design it ends with. Those that call numbers are handed
+tvimdesign's compiled equations; the one by hand has only the problem's numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, MutableMapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from by_hand import ByHand, by_hand
+from numpy.typing import NDArray
+from reference_problem import LONGEST, Heat, Reference, study
+from scipy.integrate import solve_ivp
+from scipy.optimize import Bounds, NonlinearConstraint, minimize
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.simulate import Simulator
+from tvimdesign.solve.transcription import radau
+
+Array = NDArray[np.float64]
+
+
+@dataclass
+class Found:
+    """Where a contender ended."""
+
+    design: Array
+    evaluations: int
+    """Switches simulated, or iterations where the switch is part of the problem."""
+
+
+@dataclass(frozen=True)
+class Contender:
+    """One way to the optimum, from a start."""
+
+    name: str
+    solve: Callable[[Reference, Array], Found]
+    starts: int
+    """How many of the random starts it is given: fewer where one takes minutes."""
+    prepare: Callable[[Reference], object] = lambda _: None
+    """What is built or compiled before the clock starts."""
+
+
+# --- tvimdesign ---
+
+
+def by_tvimdesign(_: Reference, begin: Array) -> Found:
+    """Build and solve, as `tvimdesign run` does for one start."""
+    asked = study()
+    optimizer = Optimizer(asked, Catalog(), table_for(asked.mode))
+    inputs = optimizer.model.start.copy()
+    places = [optimizer.model.index[free.name] for free in optimizer.free]
+    inputs[places] = begin
+    run = optimizer.solve(begin=inputs)
+    return Found(run.inputs[places], run.start.iterations)
+
+
+class Built:
+    """The same with everything built, as for the second start and every one after it."""
+
+    def __init__(self) -> None:
+        """Nothing is built yet."""
+        self._optimizer: Optimizer | None = None
+
+    def build(self, reference: Reference) -> None:
+        """Build, and solve once, which is when CasADi builds the solver."""
+        asked = study()
+        self._optimizer = Optimizer(asked, Catalog(), table_for(asked.mode))
+        self.solve(reference, reference.begin)
+
+    def solve(self, reference: Reference, begin: Array) -> Found:
+        """From a start."""
+        assert self._optimizer is not None
+        run = self._optimizer.solve(begin=reference.inputs(begin))
+        return Found(run.inputs[reference.places], run.start.iterations)
+
+
+BUILT = Built()
+
+
+# --- numba ---
+
+
+def hand_written(reference: Reference, begin: Array) -> Found:
+    """Equations written out for numba, with slopes, and SLSQP."""
+    return Found(*by_hand(begin, reference.lower, reference.upper))
+
+
+# --- scipy ---
+
+
+class Event:
+    """What the switch waits for, as scipy takes it: it ends the integration where it passes zero."""
+
+    terminal = True
+
+    def __init__(self, heat: Heat) -> None:
+        """Of one design's switch."""
+        self._gap = heat.gap
+
+    def __call__(self, now: float, state: Array) -> float:
+        """Below zero before the event, above it after."""
+        return self._gap(now, state)
+
+
+def lsoda(tolerance: float) -> Callable[[Reference, Array], float]:
+    """The switch by LSODA with the exact Jacobian, stopped at the event."""
+
+    def switch(reference: Reference, design: Array) -> float:
+        heat = reference.heat(design)
+        found = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="LSODA", jac=heat.jacobian, rtol=tolerance,
+                          atol=1e-2 * tolerance, events=Event(heat))  # fmt: skip
+        return float(found.t_events[0][0]) if len(found.t_events[0]) else LONGEST
+
+    return switch
+
+
+def bdf(reference: Reference, design: Array) -> float:
+    """The switch as most would write it: solve_ivp's BDF at 1e-6, no Jacobian."""
+    heat = reference.heat(design)
+    found = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="BDF", rtol=1e-6, atol=1e-8, events=Event(heat))
+    return float(found.t_events[0][0]) if len(found.t_events[0]) else LONGEST
+
+
+class Once:
+    """Objective and residuals in the logarithms of the variables; a design asked for again is not simulated again."""
+
+    def __init__(self, reference: Reference, switch: Callable[[Reference, Array], float]) -> None:
+        """Nothing is simulated yet."""
+        self.reference, self.switch = reference, switch
+        self.evaluations = 0
+        self._last: tuple[bytes, Array] | None = None
+
+    def rows(self, unknowns: Array) -> Array:
+        """Objective and residuals."""
+        key = np.asarray(unknowns).tobytes()
+        if self._last is None or self._last[0] != key:
+            design = np.exp(unknowns)
+            self.evaluations += 1
+            self._last = key, self.reference.rows(design, self.switch(self.reference, design))
+        return self._last[1]
+
+    def objective(self, unknowns: Array) -> float:
+        """What is least."""
+        return float(self.rows(unknowns)[0])
+
+    def room(self, unknowns: Array) -> Array:
+        """What is left of every limit, as SLSQP wants it: not below zero."""
+        return -self.rows(unknowns)[1:]
+
+    def bounds(self) -> Bounds:
+        """Ends of the unknowns."""
+        return Bounds(np.log(self.reference.lower), np.log(self.reference.upper), keep_feasible=True)
+
+
+def slsqp(switch: Callable[[Reference, Array], float], step: float) -> Callable[[Reference, Array], Found]:
+    """scipy's SLSQP with its finite differences at a step."""
+
+    def solve(reference: Reference, begin: Array) -> Found:
+        once = Once(reference, switch)
+        found = minimize(
+            once.objective, np.log(begin), method="SLSQP", bounds=once.bounds(),
+            constraints={"type": "ineq", "fun": once.room}, options={"maxiter": 300, "ftol": 1e-9, "eps": step},
+        )  # fmt: skip
+        return Found(np.exp(found.x), once.evaluations)
+
+    return solve
+
+
+def trust_constr(reference: Reference, begin: Array) -> Found:
+    """scipy's trust-constr with finite differences and BFGS."""
+    once = Once(reference, lsoda(1e-8))
+    found = minimize(
+        once.objective, np.log(begin), method="trust-constr", bounds=once.bounds(),
+        constraints=NonlinearConstraint(once.room, 0.0, np.inf), options={"maxiter": 500, "gtol": 1e-7, "xtol": 1e-9},
+    )  # fmt: skip
+    return Found(np.exp(found.x), once.evaluations)
+
+
+# --- OpenMDAO ---
+
+
+def openmdao(reference: Reference, begin: Array) -> Found:
+    """OpenMDAO: the switch and the algebra as components with finite differences, SLSQP as driver."""
+    import openmdao.api as om
+
+    count = {"switches": 0}
+    switch_time = lsoda(1e-8)
+
+    class Switch(om.ExplicitComponent):
+        def setup(self) -> None:
+            self.add_input("unknowns", np.log(begin))
+            self.add_output("time", 100.0)
+            self.declare_partials("*", "*", method="fd", step=1e-6)
+
+        def compute(self, inputs: Mapping[str, Array], outputs: MutableMapping[str, Any]) -> None:
+            count["switches"] += 1
+            outputs["time"] = switch_time(reference, np.exp(inputs["unknowns"]))
+
+    class Algebra(om.ExplicitComponent):
+        def setup(self) -> None:
+            self.add_input("unknowns", np.log(begin))
+            self.add_input("time", 100.0)
+            self.add_output("objective", 1.0)
+            self.add_output("residuals", np.zeros(len(reference.limits)))
+            self.declare_partials("*", "*", method="fd", step=1e-6)
+
+        def compute(self, inputs: Mapping[str, Array], outputs: MutableMapping[str, Any]) -> None:
+            rows = reference.rows(np.exp(inputs["unknowns"]), float(inputs["time"][0]))
+            outputs["objective"], outputs["residuals"] = rows[0], rows[1:]
+
+    problem = om.Problem(reports=False)
+    problem.model.add_subsystem("switch", Switch(), promotes=["*"])
+    problem.model.add_subsystem("algebra", Algebra(), promotes=["*"])
+    problem.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", tol=1e-9, maxiter=300, disp=False)
+    problem.model.add_design_var("unknowns", np.log(reference.lower), np.log(reference.upper))
+    problem.model.add_objective("objective")
+    problem.model.add_constraint("residuals", upper=0.0)
+    problem.setup()
+    problem.set_val("unknowns", np.log(begin))
+    problem.run_driver()
+    return Found(np.exp(problem.get_val("unknowns")), count["switches"])
+
+
+# --- AeroSandbox ---
+
+
+def aerosandbox(_: Reference, begin: Array) -> Found:
+    """AeroSandbox's Opti with Radau collocation written by its user, from a simulated trajectory."""
+    import aerosandbox as asb
+
+    reference = Reference(study())  # its user writes the equations as symbols too
+    ca.GlobalOptions.setNumpyMode(0)  # AeroSandbox does not know the symbols of the other mode
+    opti = asb.Opti()
+    elements, (points, derivative, _) = 8, radau()
+    ends = zip(*(np.log(values).tolist() for values in (begin, reference.lower, reference.upper)), strict=True)
+    logs = ca.vertcat(*(opti.variable(guess, lower_bound=low, upper_bound=high) for guess, low, high in ends))
+    log_time = opti.variable(init_guess=np.log(200.0))
+    entries = ca.vertsplit(ca.MX(reference.model.start))
+    for i, place in enumerate(reference.places):
+        entries[place] = ca.exp(logs[i])
+    inputs = ca.vertcat(*entries)
+    start, drive = reference.stage.initial(inputs), inputs[reference.current]
+    warm = _heated(reference, begin, elements * len(points))
+    states = ca.reshape(opti.variable(init_guess=warm.ravel(order="F")), *warm.shape)
+    rates = reference.stage.rates.map(warm.shape[1])(
+        states, ca.repmat(drive, 1, warm.shape[1]), ca.repmat(inputs, 1, warm.shape[1])
+    )
+    for element in range(elements):
+        columns = slice(element * len(points), (element + 1) * len(points))
+        before = start if element == 0 else states[:, element * len(points) - 1]
+        slopes = ca.mtimes(ca.horzcat(before, states[:, columns]), derivative)
+        opti.subject_to(ca.vec(slopes - ca.exp(log_time) / elements * rates[:, columns]) == 0)
+    opti.subject_to(reference.stage.watch([reference.event])(states[:, -1], drive, inputs) == 0)
+    rows = reference.algebra_function(inputs, ca.exp(log_time))
+    opti.subject_to(rows[1:] <= 0)
+    opti.minimize(rows[0])
+    found = opti.solve(verbose=False, max_iter=500)
+    ca.GlobalOptions.setNumpyMode(1)
+    return Found(np.exp(np.asarray(found(logs)).ravel()), found.stats()["iter_count"])
+
+
+def _heated(reference: Reference, begin: Array, columns: int) -> Array:
+    """A simulated trajectory to start the collocation from, which its user needs as much as we do."""
+    inputs = reference.inputs(begin)
+    trajectory = Simulator(reference.model).run(inputs, stages=["softening"]).trajectory
+    return trajectory.at(np.linspace(0.0, 1.0, columns + 1)[1:])
+
+
+CONTENDERS = (
+    Contender("tvimdesign, build included", by_tvimdesign, 20),
+    Contender("tvimdesign, built before", BUILT.solve, 20, BUILT.build),
+    Contender("SLSQP on equations written by hand for numba, compiled before", hand_written, 20, lambda _: ByHand()),
+    Contender("AeroSandbox Opti, Radau written by its user, build included", aerosandbox, 20),
+    Contender("SLSQP, finite differences, LSODA with exact Jacobian", slsqp(lsoda(1e-8), 1e-6), 10),
+    Contender("trust-constr, finite differences, the same LSODA", trust_constr, 2),
+    Contender("OpenMDAO, SLSQP, finite differences, the same LSODA", openmdao, 10),
+    Contender("SLSQP, `solve_ivp` BDF at 1e-6, as most would write it", slsqp(bdf, 1.5e-8), 5),
+)

@@ -1,0 +1,239 @@
+"""The reference problem's arithmetic written out by hand for numba, as someone would who has this one problem to solve.
+
+One module, one layout, every choice made: the numbers of `reference.yaml`, the table's defaults and the catalogue stand
+here as constants, SI throughout, with short names as in such a program. Nothing of tvimdesign is imported; a test
+holds every number that comes out against the table's.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+PI = math.pi
+
+# Springs: music wire
+E_WIRE, RHO_WIRE, STRENGTH, STRENGTH_POWER = 196.5e9, 7850.0, 2211e6, 0.145
+YIELD_RATIO, FATIGUE_RATIO = 0.78, 0.5
+PRELOAD, STROKE, COIL_GAP, LEG_OVERHANG = 0.15, 0.104, 0.1e-3, 4e-3
+TANG_CLEARANCE, TANG_END_GAP = 0.25e-3, 0.5e-3
+# Structure: printed PETG
+E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
+G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
+WALL_LEAST, FEATURE_LEAST, CORNER, POCKET_RATIO = 1.2e-3, 2e-3, 0.2e-3, 50.0
+PIN_RATIO, PIN, CORE, WALL, FLOOR, ROTOR, LINK = 0.5, 4e-3, 10e-3, 3e-3, 4e-3, 4e-3, 4e-3
+RADIAL, AXIAL, RUNNING, RIM, HUB_WALL, FOOT, NOTCH = 1e-3, 1e-3, 0.4e-3, 1.5e-3, 3e-3, 6e-3, 12e-3
+LINK_RIM, BOLT_CIRCLE, TOOL_HOLE, BOSS, MOUNT_HOLE = 2e-3, 6.5e-3, 4.5e-3, 3.5e-3, 3.4e-3
+RETAINER, RETAINER_RADIUS = 2.5e-3, 13e-3
+# Screws: four M3 of the link, one M4 of the retainer
+LINK_PILOT, LINK_HOLE, LINK_HEAD, LINK_HEAD_HEIGHT, LINK_SCREW = 2.5e-3, 3.4e-3, 5.7e-3, 1.65e-3, 12e-3
+LAST_PILOT, LAST_HOLE, LAST_HEAD, LAST_HEAD_HEIGHT, LAST_SCREW = 3.3e-3, 4.5e-3, 7.6e-3, 2.2e-3, 10e-3
+TIP_ROOM, RHO_STEEL = 0.5e-3, 7850.0
+# Layer and pads
+ARCS, INNER, LEDGE, RHO_PCL = 4.0, 26e-3, 2e-3, 1145.0
+BOND, SHEAR_YIELD, MELT_STRAIN = 2e6, 16e6 / math.sqrt(3.0), 6.0
+PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6
+# Enthalpy of PCL: melts between 50 and 65 degC
+C_SOLID, C_MELT, LATENT, MELTS, MOLTEN, ROUNDING = 1850.0, 2100.0, 76750.0, 323.15, 338.15, 1000.0
+H_MELTS = C_SOLID * (MELTS - 273.15)
+H_MOLTEN = H_MELTS + LATENT + 0.5 * (C_SOLID + C_MELT) * (MOLTEN - MELTS)
+
+SPRINGS = 4.0
+OMEGA = 2.0 * PI  # rad/s, both operating points at 1 Hz
+SOLID_MODES = ((1e10, 0.83776), (10.0, 0.07414), (1.0, 0.06814), (0.1, 0.07545), (0.01, 0.07776), (0.001, 0.10444))
+MELT_MODES = ((0.02068841, 82513.7), (0.00654225, 103878.5), (0.002068841, 130775.3), (0.000654225, 164636.4),
+              (0.0002068841, 207264.9), (6.54225e-05, 260931.1))  # fmt: skip
+
+
+def _moduli(kelvin: float) -> tuple[float, float]:
+    """Storage and loss modulus of PCL at 1 Hz [Pa]; the same for all designs, so worked out once."""
+    window = (H_MOLTEN - H_MELTS) / (MOLTEN - MELTS)
+    enthalpy = C_SOLID * (min(kelvin, MELTS) - 273.15) + C_MELT * max(kelvin - MOLTEN, 0.0)
+    enthalpy += window * min(max(kelvin - MELTS, 0.0), MOLTEN - MELTS)
+    first, last = (0.5 * (z + math.hypot(z, ROUNDING)) for z in (enthalpy - H_MELTS, enthalpy - H_MOLTEN))
+    frozen = 1.0 - (first - last) / (H_MOLTEN - H_MELTS)
+    soft = [0.09 * 5.0 * math.log1p(math.exp((t - 315.15) / 5.0)) for t in (296.15, kelvin)]
+    level = 411e6 * math.exp(soft[0] - soft[1]) / (2.0 * 1.45)
+    level /= sum(share * (OMEGA * time) ** 2 / (1.0 + (OMEGA * time) ** 2) for time, share in SOLID_MODES)
+    shift = math.exp(35e3 / 8.314462618 * (1.0 / kelvin - 1.0 / 373.15))
+    storage = loss = 0.0
+    for (solid_time, share), (melt_time, melt) in zip(SOLID_MODES, MELT_MODES, strict=True):
+        x = OMEGA * solid_time**frozen * (shift * melt_time) ** (1.0 - frozen)
+        modulus = (level * share) ** frozen * melt ** (1.0 - frozen)
+        storage += modulus * x**2 / (1.0 + x**2)
+        loss += modulus * x / (1.0 + x**2)
+    return storage, loss
+
+
+(COLD_STORAGE, COLD_LOSS), (HOT_STORAGE, HOT_LOSS) = _moduli(303.15), _moduli(373.15)
+
+OUTPUTS, RESIDUALS, HEAT = 3, 36, 10
+"""Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
+and the table, without the two rules on impedance that no design of this problem can break. HEAT numbers for the switch.
+"""
+
+
+@njit(cache=True)
+def corner(r: float, circle: float, side: float) -> float:
+    """What a fillet takes from a corner of an annular sector: inside its outer arc (side 1), outside its inner (-1)."""
+    along = math.sqrt((circle - side * r) ** 2 - r**2)
+    centre = math.asin(r / (circle - side * r))
+    return side * 0.5 * (circle**2 * centre - along * r) - 0.5 * r**2 * (0.5 * PI + side * centre)
+
+
+@njit(cache=True)
+def segment(half: float, radius: float) -> float:
+    """Area beside the middle of a disc up to a parallel at `half`, one side."""
+    return half * math.sqrt(radius**2 - half**2) + radius**2 * math.asin(half / radius)
+
+
+@njit(cache=True)
+def joint(storage: float, loss: float, over: float, support: float) -> tuple[float, float]:
+    """Real and imaginary stiffness of a layer behind a support."""
+    k, c = storage * over, loss * over
+    square = (k + support) ** 2 + c**2
+    return support * (k * (k + support) + c**2) / square, support * (c * (k + support) - k * c) / square
+
+
+@njit(cache=True)
+def measure(x: Array, rows: Array, heat: Array) -> None:
+    """Fill in everything that is arithmetic, for one design."""
+    d, coil, n, r, outer, span, t = x[0], x[1], x[2], x[3], x[4], x[5], x[6]
+    # where things are
+    pin_at = PIN_RATIO * r
+    reach = math.sqrt(0.25 * coil**2 + d**2) + 0.5 * d
+    offset = 0.5 * (coil + d + PIN)
+    arm = math.sqrt((r - pin_at) ** 2 - offset**2)
+    leg = arm + LEG_OVERHANG
+    rotor = outer + RIM
+    inside = r + reach + RADIAL
+    outside = inside + WALL
+    pitch = d + COIL_GAP
+    slope = pitch / (PI * coil)
+    rise = math.sqrt(1.0 + slope**2)
+    end = d / rise + pitch * (n + PRELOAD / (2.0 * PI))
+    pin_top = end + slope * leg + 0.5 * d + AXIAL
+    link_bottom = pin_top + AXIAL
+    plate_top = t + ROTOR
+    wound = coil * n / (n + (PRELOAD + STROKE) / (2.0 * PI))
+    post = 0.45 * (wound - d)
+    bore = CORE + RUNNING
+    hub = bore + HUB_WALL
+    web = FLOOR - PAD
+    volume = PI * outside**2 * (FOOT + FLOOR + link_bottom + LINK + LINK_HEAD_HEIGHT)
+    # springs
+    rate = E_WIRE * d**4 / (64.0 * coil * (n + arm / (3.0 * PI * coil)))
+    index = coil / d
+    inner_fibre = (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
+    per_angle = inner_fibre * 32.0 * rate / (PI * d**3)
+    strength = STRENGTH * (1e3 * d) ** -STRENGTH_POWER
+    least, most = PRELOAD - STROKE, PRELOAD + STROKE
+    half = 0.5 * FATIGUE_RATIO * strength
+    amplitude = 0.5 * per_angle * (most - least) / (half / (1.0 - (half / strength) ** 2))
+    mean = 0.5 * per_angle * (most + least) / strength
+    fatigue = 2.0 / (amplitude + math.sqrt(amplitude**2 + 4.0 * mean**2))
+    height = max(end + slope * arm - plate_top, 0.5 * d)
+    pin_stress = 32.0 * rate * most / arm * height / (PI * PIN**3)
+    # layer and what carries it
+    area = 0.5 * ARCS * span * (outer**2 - INNER**2)
+    polar = 0.25 * ARCS * span * (outer**4 - INNER**4)
+    middle = 0.5 * (INNER + outer)
+    support = 1.0 / (
+        2.0 * (link_bottom - plate_top) / (G_PETG * PI * CORE**4)
+        + (CORE**-2 - middle**-2) / (4.0 * PI * G_PETG * ROTOR)
+        + (middle**-2 - r**-2) / (4.0 * PI * G_PETG * web)
+        + PAD / (G_PAD * polar)
+    )
+    cold, _ = joint(COLD_STORAGE, COLD_LOSS, polar / t, support)
+    hot, damped = joint(HOT_STORAGE, HOT_LOSS, polar / t, support)
+    stiffness = SPRINGS * rate
+    # masses
+    rounded = ARCS * 2.0 * (corner(CORNER, outer, 1.0) + corner(CORNER, INNER, -1.0))
+    pads = (area - rounded) * PAD
+    inner, far = INNER + LEDGE, outer - LEDGE
+    windows = 0.5 * (span - 2.0 * LEDGE / INNER) * (far**2 - inner**2)
+    windows = ARCS * (windows - 2.0 * (corner(CORNER, far, 1.0) + corner(CORNER, inner, -1.0)))
+    ring = PI * (outside**2 - inside**2)
+    notches = SPRINGS * (segment(0.5 * NOTCH, outside) - segment(0.5 * NOTCH, inside))
+    feet = SPRINGS * PI * (BOSS**2 - 0.25 * MOUNT_HOLE**2)
+    holes = SPRINGS * PI * ((0.5 * d + TANG_CLEARANCE) ** 2 + 0.25 * MOUNT_HOLE**2)
+    housing = (ring - notches + feet) * FOOT + (PI * (outside**2 - hub**2) - holes) * FLOOR - pads - windows * web
+    housing += ring * pin_top + PI * (hub**2 - bore**2) * (t + FLOOR) + SPRINGS * PI * post**2 * (end + 0.5 * d)
+    core_long = link_bottom + FLOOR + RUNNING - ROTOR
+    link_deep, last_deep = LINK_SCREW - LINK + TIP_ROOM, LAST_SCREW - RETAINER + TIP_ROOM
+    plate = PI * rotor**2 * ROTOR
+    core = PI * CORE**2 * core_long
+    pins = SPRINGS * 0.25 * PI * PIN**2 * (pin_top - plate_top)
+    drilled = PI * LINK_PILOT**2 * link_deep
+    last = 0.25 * PI * LAST_PILOT**2 * last_deep
+    turning = plate + core + pins - drilled - last
+    inertia = 0.5 * (plate * rotor**2 + core * CORE**2 - last * 0.25 * LAST_PILOT**2)
+    inertia += pins * (0.125 * PIN**2 + pin_at**2) - drilled * (0.125 * LINK_PILOT**2 + BOLT_CIRCLE**2)
+    b, long = CORE + LINK_RIM, outside - CORE - LINK_RIM
+    bolts, tool = PI * LINK_HOLE**2, 0.25 * PI * TOOL_HOLE**2
+    link = (2.0 * b * long + PI * b**2 - bolts - tool) * LINK
+    link_polar = 2.0 * b * long * (long**2 + b**2) / 3.0 + 0.5 * PI * b**4
+    link_polar += 0.5 * PI * b**2 * long * (long + 8.0 * b / (3.0 * PI))
+    link_polar -= bolts * (0.125 * LINK_HOLE**2 + BOLT_CIRCLE**2) + tool * (0.125 * TOOL_HOLE**2 + long**2)
+    retainer = PI * (RETAINER_RADIUS**2 - 0.25 * LAST_HOLE**2) * RETAINER
+    retainer_polar = 0.5 * retainer * (RETAINER_RADIUS**2 + 0.25 * LAST_HOLE**2)
+    inertia = RHO_PETG * (inertia + link_polar * LINK + retainer_polar)
+    shanks, heads = PI * LINK_PILOT**2 * LINK_SCREW, PI * LINK_HEAD**2 * LINK_HEAD_HEIGHT
+    shank, head = 0.25 * PI * LAST_PILOT**2 * LAST_SCREW, 0.25 * PI * LAST_HEAD**2 * LAST_HEAD_HEIGHT
+    screws = shanks * (0.125 * LINK_PILOT**2 + BOLT_CIRCLE**2) + heads * (0.125 * LINK_HEAD**2 + BOLT_CIRCLE**2)
+    screws += 0.125 * (shank * LAST_PILOT**2 + head * LAST_HEAD**2)
+    inertia += RHO_STEEL * screws
+    wire = leg * rise + n * math.sqrt((PI * coil) ** 2 + pitch**2) + d * (0.5 * PI - math.atan(slope))
+    wire += FLOOR - TANG_END_GAP
+    mass = RHO_PETG * (housing + turning + link + retainer) + RHO_PCL * area * t + PAD_MASS / (PAD_AREA * PAD) * pads
+    mass += RHO_WIRE * SPRINGS * 0.25 * PI * d**2 * wire + RHO_STEEL * (shanks + heads + shank + head)
+    # gaps
+    far_pin = math.sqrt(pin_at**2 + r**2 - 2.0 * pin_at * r * math.cos(STROKE))
+    along = PI - math.atan2(pin_at * math.sin(STROKE), r - pin_at * math.cos(STROKE)) + math.asin(offset / far_pin)
+    beside, ahead = r * math.sin(along) + 0.5 * coil, max(-r * math.cos(along) - leg, 0.0)
+    rows[0], rows[1], rows[2] = volume, mass, 0.0
+    g = rows[OUTPUTS:]
+    g[0], g[1] = 1.0 - stiffness / 5.2, stiffness / 5.8 - 1.0
+    g[2] = 1.0 - (stiffness + cold) / (stiffness + hot) / 50.0
+    g[3] = 1.0 - damped / OMEGA
+    g[4] = 1.0 - min(BOND, SHEAR_YIELD) * polar / outer / 8.0
+    g[5] = 1.0 - fatigue / 1.2
+    g[6], g[7] = 1.0 - index / 5.0, index / 16.0 - 1.0
+    g[8], g[9], g[10] = inertia / 300e-6 - 1.0, 2.0 * outside / 0.16 - 1.0, mass / 0.6 - 1.0
+    g[11] = 1.0 - YIELD_RATIO * strength / (per_angle * most)
+    g[12] = 1.0 - YIELD_RATIO * strength / (per_angle * 2.0 * PRELOAD)
+    g[13] = 1.0 - ACROSS_LAYERS / pin_stress
+    g[14] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
+    g[15] = -(r - reach - rotor - RADIAL) / 0.01
+    g[16] = -(end - 0.5 * d - plate_top - AXIAL) / 0.01
+    g[17] = -(rotor - pin_at - 0.5 * PIN - RADIAL) / 0.01
+    g[18] = -(math.sqrt(beside**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
+    g[19] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
+    g[20] = -(TANG_CLEARANCE - coil * STROKE / (4.0 * PI * n)) / 0.01
+    g[21] = 1.0 - (r - pin_at - offset) / 1e-3
+    g[22] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
+    g[23] = 1.0 - (outer - INNER) / 5e-3
+    g[24] = -(outer - INNER - 2.0 * LEDGE) / 0.01
+    g[25] = -post / 0.01
+    g[26] = -(2.0 * r * math.sin(PI / SPRINGS) - 2.0 * reach - RADIAL) / 0.01
+    g[27] = 1.0 - (span * INNER - 2.0 * LEDGE) / 2e-3
+    g[28] = 1.0 - (link_bottom + FLOOR + RUNNING - link_deep - last_deep) / 1e-3
+    g[29] = -(inside - r - BOSS) / 0.01
+    g[30] = -(r - BOSS - outer - RADIAL) / 0.01
+    g[31] = -(span * INNER - 2.0 * LEDGE - 2.0 * CORNER) / 0.01
+    g[32] = -(outer - INNER - 2.0 * LEDGE - 2.0 * CORNER) / 0.01
+    g[33] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
+    g[34] = -(2.0 * post - FEATURE_LEAST) / 0.01
+    g[35] = -(t + FLOOR - WALL_LEAST) / 0.01
+    # what the switch needs: current, area, layer, pads, windows, plate beside the arcs, core and link
+    beside_area = PI * rotor**2 - area
+    edge = ARCS * (2.0 * (outer - INNER) + span * (INNER + outer))
+    heat[0], heat[1], heat[2], heat[3] = x[7], area, t, area / PAD_AREA
+    heat[4], heat[5] = 0.5 * PAD_MASS / (PAD_AREA * PAD) * pads * C_PAD, windows
+    heat[6], heat[7] = beside_area, 3.0 * K_PETG * ROTOR * edge**2 / beside_area
+    heat[8] = 2.0 * PI * K_PETG * ROTOR / math.log(INNER / CORE)
+    heat[9] = RHO_PETG * (turning - plate + link + retainer) * C_PETG
