@@ -73,7 +73,8 @@ def _moduli(kelvin: float) -> tuple[float, float]:
 
 OUTPUTS, RESIDUALS, HEAT = 3, 36, 10
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
-and the table, without the two rules on impedance that no design of this problem can break. HEAT numbers for the switch.
+and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
+switch.
 """
 
 

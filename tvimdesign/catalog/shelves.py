@@ -22,7 +22,7 @@ class Columns:
 
 @dataclass(frozen=True)
 class Shelf:
-    """What a record must say. Every required number is greater than zero; each list in `rising` must rise.
+    """What a record must say. Every required number is greater than zero, or `may_be_zero`; `rising` lists rise.
 
     The rows of `paired` tables belong together, first to first: there must be as many in each.
     """
@@ -32,6 +32,7 @@ class Shelf:
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     rising: tuple[tuple[str, ...], ...] = ()
     paired: tuple[str, ...] = ()
+    may_be_zero: tuple[str, ...] = ()
 
 
 SHELVES: Mapping[str, Shelf] = {
@@ -84,6 +85,7 @@ SHELVES: Mapping[str, Shelf] = {
             "thread": ("self_tapping", "tapped"),
             "insert": ("none", "heat_set"),
         },
+        may_be_zero=("hole_compensation",),
         rising=(("minimum_running_clearance", "running_clearance"), ("thinnest_wall", "minimum_wall")),
     ),
     "screws": Shelf(

@@ -117,7 +117,8 @@ class _Check:
             if unit and (part == "value" or part in item):
                 numbers[part] = self.number(f"{field}.{part}", item.get(part, ""), unit, wanted)
         value, low, high = (numbers.get(part) for part in ("value", "low", "high"))
-        if value is not None and name in self.shelf.values and value <= 0.0:
+        is_too_small = value is not None and (value < 0.0 or (value == 0.0 and name not in self.shelf.may_be_zero))
+        if is_too_small and name in self.shelf.values:
             self.no(f"{field}.value", "must be greater than zero")
         if status == "assumed" and not {"low", "high"} <= set(item):
             self.no(field, "an assumed value needs its plausible range, low and high")

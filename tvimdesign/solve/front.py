@@ -159,8 +159,14 @@ class _Tracer:
             places = [self.frame.place(point.values) for point in points]
             gaps = [(float(np.linalg.norm(b - a)), i) for i, (a, b) in enumerate(itertools.pairwise(places))]
             widest = max(gaps)[1]
+            lost = self.lost
             if not self._seek(0.5 * (places[widest] + places[widest + 1])):
-                self.notes.append("it has a jump: between two of its points there is no design")
+                told_apart = self.lost == lost
+                self.notes.append(
+                    "it has a jump: between two of its points there is no design"
+                    if told_apart
+                    else f"more points than {len(self._all)} would be closer than the simulation tells designs apart"
+                )
                 break
         self._settle()
 

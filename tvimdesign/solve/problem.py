@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -160,10 +161,10 @@ class Problem:
 
     # --- what is simulated elsewhere, as equations ---
 
-    @property
+    @cached_property
     def events(self) -> list[str]:
         """The events whose times the problem needs, each after those it starts from."""
-        needed = self._needed()
+        needed = self._needed
         stages = self.model.stages
         ending: set[str] = {
             stages[row.stage].stage.ends
@@ -178,12 +179,13 @@ class Problem:
             found = mine + found
         return found
 
-    @property
+    @cached_property
     def stages(self) -> set[str]:
         """The stages that must be simulated to know what the problem needs."""
-        rows = [self.model.table.row(name) for name in (*self.events, *self._needed())]
+        rows = [self.model.table.row(name) for name in (*self.events, *self._needed)]
         return {row.stage for row in rows if isinstance(row, Event | Path | Steady)}
 
+    @cached_property
     def _needed(self) -> set[str]:
         table = self.model.table
         return {base for name in self.wanted for base in (name.partition("@")[0], *table.ancestors(name))}
@@ -226,7 +228,7 @@ class Problem:
         return 0, 0.0
 
     def _write_balances(self, inputs: Any) -> list[Balance]:
-        needed = self._needed()
+        needed = self._needed
         balances = []
         for name, stage in self.model.stages.items():
             if any(row.name in needed for row in stage.steadies):
@@ -258,7 +260,7 @@ class Problem:
         values: dict[str, Any] = {name: block.final_time for name, block in by_event.items()}
         peaks: dict[str, Any] = {}
         rows = []
-        needed = self._needed()
+        needed = self._needed
         for stage in self.model.stages.values():
             paths = [row for row in stage.paths if row.name in needed]
             if not paths:
