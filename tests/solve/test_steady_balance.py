@@ -1,6 +1,7 @@
 """What it takes to stay soft: the steady state against a long simulation and against the first law."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,8 +10,13 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from support import fine
 
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
 from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Switch
+from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.study import given, read_study
+
+ROOT = Path(__file__).resolve().parents[2]
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thick", "sink")
@@ -106,3 +112,22 @@ def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(
         values = simulator.run(inputs, stages=["softening"]).values
         for name in ("hold_current", "hold_power"):
             assert values[name] == pytest.approx(switch_of(design).values[name], rel=1e-8), name
+
+
+def test_a_steady_state_does_not_hang_on_the_last_digits_of_where_the_switch_ended() -> None:
+    # The optimum of studies/compare_shear.yaml, where Newton's method with shortened steps stopped dead now and then.
+    study = read_study(ROOT / "studies/compare_shear.yaml")
+    sizes = {
+        "wire_diameter": 1.8558e-3, "coil_diameter": 8e-3, "coil_count": 3.0, "placement_radius": 25.182e-3,
+        "core_radius": 7.5293e-3, "link_thickness": 5.2372e-3, "rotor_rim": 1e-3, "pcl_inner_radius": 11.929e-3,
+        "pcl_outer_radius": 17.845e-3, "arc_span": 1.31931, "pcl_thickness": 1.87755e-3,
+    }  # fmt: skip
+    table = table_for("shear")
+    model = Model(table, given(study, Catalog(), table) | sizes, tuple(study.operating_points), study.solver.cells)
+    simulator = Simulator(model)
+    found = []
+    for step in range(40):
+        inputs = model.start.copy()
+        inputs[model.index["pcl_thickness"]] *= 1.0 + 1e-8 * step
+        found.append(simulator.run(inputs, stages=["softening"]).values["hold_current"])
+    assert found == pytest.approx([found[0]] * 40, rel=1e-5)

@@ -26,7 +26,7 @@ from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.run import Run
 from tvimdesign.solve.tradeoff import Point, Tradeoff
 from tvimdesign.study import Study
-from tvimdesign.study.design import Design
+from tvimdesign.study.design import Design, design_json
 from tvimdesign.units import format_quantity, from_si, pretty
 
 ROWS_SHOWN = 12
@@ -64,7 +64,7 @@ class FrontOfRun:
         folder.write_json("front.json", told["front"])
         for number, point in enumerate(front.points, start=1):
             design = design_of(point, number, found)
-            folder.write(f"front/{number:02d}.design.json", design.model_dump_json(indent=2) + "\n")
+            folder.write(f"front/{number:02d}.design.json", design_json(design))
         shutil.rmtree(folder.path / PROGRESS, ignore_errors=True)
         if front.failures:
             where = "; ".join(f"{one.where}: {one.reason}" for one in front.failures)

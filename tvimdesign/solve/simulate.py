@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -19,6 +20,7 @@ from tvimdesign.solve.stage_model import StageModel
 STEPS = 50  # samples of one stretch of time
 TOLERANCE = 1e-6  # with these, values are within 2e-4 of what they converge to (test)
 FIRST_STRETCH = 120.0  # s; each after it is twice as long
+MOST_STEPS = 50  # of Newton; a steady state takes less than ten
 SHOWN_STRETCHES = 4  # of a stage that is to be drawn
 STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
 
@@ -305,25 +307,30 @@ class _StageSimulator:
         return values, Trajectory(times=times, states=states[:size], currents=drive.at(times))
 
     @cached_property
-    def _balance(self) -> Any:
-        """The function (state and current, inputs) -> zero where everything stays with the ending event at zero."""
+    def _balances(self) -> tuple[Any, ...]:
+        """Finders of the state and current at which everything stays, with the ending event at zero.
+
+        Newton's full steps first: with shorter ones it may stop dead where half of the layer has molten.
+        """
         size = self.stage.state_size
         unknowns = ca.SX.sym("unknowns", size + 1)
         inputs = ca.SX.sym("inputs", len(self.model.names))
         state, drive = unknowns[:size], unknowns[size]
         gap = self.stage.watch([self.stage.stage.ends])(state, drive, inputs)
         equations = ca.vertcat(self.stage.rates(state, drive, inputs), gap)
-        return ca.rootfinder("balance", "newton", ca.Function("balance", [unknowns, inputs], [equations]))
+        standing = ca.Function("standing", [unknowns, inputs], [equations])
+        full = {"line_search": False, "max_iter": MOST_STEPS}
+        return tuple(ca.rootfinder("balance", "newton", standing, options) for options in (full, {}))
 
     def balance(self, inputs: Array, trajectory: Trajectory) -> Array | None:
         """State and current that stay where the stage ended; None where the stage has no use of it or none exists."""
         if not self.stage.steadies:
             return None
         begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
-        try:
-            return np.asarray(self._balance(begin, inputs)).ravel()
-        except RuntimeError:  # Newton finds none: with such a cold side there is none
-            return None
+        for balance in self._balances:
+            with suppress(RuntimeError):  # Newton finds none: with such a cold side there is none
+                return np.asarray(balance(begin, inputs)).ravel()
+        return None
 
     def steady_values(self, inputs: Array, balance: Array) -> dict[str, float]:
         """Values of the steady rows."""

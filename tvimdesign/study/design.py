@@ -47,9 +47,14 @@ class Design(BaseModel):
         return self.values[name]
 
 
+def design_json(design: Design) -> bytes:
+    """A design as it is written; what never happens is the word Infinity, which JSON has no number for."""
+    return design.model_dump_json(indent=2).encode() + b"\n"
+
+
 def write_design(design: Design, path: Path) -> Path:
     """Write a design as JSON, whole or not at all; returns the path."""
-    write_whole(path, design.model_dump_json(indent=2).encode() + b"\n")
+    write_whole(path, design_json(design))
     return path
 
 

@@ -20,6 +20,7 @@ from tvimdesign.report.plots import PlotProcess
 from tvimdesign.report.run import catalog_of, check_study
 from tvimdesign.report.talk import talk, wide_console
 from tvimdesign.study.conditions import Entrant, refuse_unequal
+from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.files import printable
 from tvimdesign.study.problems import Problem, StudyError
 
@@ -115,7 +116,8 @@ def _write(folder: ResultsFolder, outcome: Outcome) -> None:
         name = Path(label).stem
         for which in ("drawn", "optimised"):
             if which in found:
-                folder.write_json(f"{name}/{which}.json", found[which]["design"])
+                design = Design.model_validate(found[which]["design"])
+                folder.write(f"{name}/{which}.json", design_json(design))
         folder.write(f"{name}/study.yaml", outcome.entrants[label].path.read_bytes())
 
 
