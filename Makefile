@@ -21,13 +21,13 @@ study: $(STAMP)  ## run studies/paper_shear.yaml and say where the results are
 	$(BIN)/tvimdesign run studies/paper_shear.yaml --overwrite
 
 test: $(STAMP)  ## the fast tests
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder
 
 test-all: $(STAMP)  ## all tests, the long ones too
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile -m ''
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder -m ''
 
 test-slow: $(STAMP)  ## the long tests alone
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile -m slow
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder -m slow
 
 BENCH := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python
 

@@ -13,6 +13,21 @@ from support import ROOT, Command
 # What the benchmarks have written for numba is tested as plain Python: compiling it takes longer than all else.
 os.environ["NUMBA_DISABLE_JIT"] = "1"
 
+LONGEST = (
+    "test_random_designs.py",
+    "test_studies_as_parts.py",
+    "test_cad_make.py",
+    "test_compare.py",
+    "test_cad_work.py",
+)
+"""Files of a minute or more, the longest two first."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the longest files: they are dealt out whole, and none shall be alone at the end."""
+    rank = {name: place for place, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: rank.get(item.path.name, len(LONGEST)))
+
 
 @pytest.fixture(scope="session")
 def tvimdesign() -> Command:

@@ -55,7 +55,8 @@ FLANGE = {"sensor_flange": "iso_9409_40_4_m6", "core_radius": 9.0 * MM, "foot_he
           "flange_screw_reach": 10.5 * MM}  # fmt: skip
 FLANGE_BLOCKS = BEARING_BLOCKS | {"sensor_flange": "iso_9409_50_4_m6", "pcl_inner_radius": 27.0 * MM,
                                   "pcl_outer_radius": 38.0 * MM, "rotor_rim": 2.0 * MM, "foot_height": 12.0 * MM,
-                                  "flange_azimuth": 0.2, "flange_wall": 1.2 * MM, "hub_depth": 1.0 * MM}  # fmt: skip
+                                  "flange_azimuth": 0.2, "flange_wall": 1.2 * MM, "hub_depth": 1.0 * MM,
+                                  "cover": "none"}  # fmt: skip
 # A motor below the feet: with an encoder and printed, and the larger one without, milled, below blocks.
 DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
 DRIVEN_BLOCKS = BLOCKS | {"motor": "frameless_85x13", "process": "machine_6061", "corner_radius": 0.5 * MM,
