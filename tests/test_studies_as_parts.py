@@ -21,7 +21,7 @@ def test_the_released_parts_passed_every_check(name: str) -> None:
 def test_the_released_parts_can_be_made_again(tvimdesign: Command, tmp_path: Path, name: str) -> None:
     released = ROOT / "cad" / name
     done = tvimdesign("cad", released / "design.json", "--out", tmp_path / "parts")
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 0, done.stderr  # no check failed
     made = {path.name for path in (tmp_path / "parts/step").iterdir()}
     assert {path.name for path in (released / "step").iterdir()} == made, "run `make cad`"
     for kept in released.rglob("*"):
@@ -30,8 +30,8 @@ def test_the_released_parts_can_be_made_again(tvimdesign: Command, tmp_path: Pat
             assert kept.read_bytes() == again.read_bytes(), f"{kept.name} differs: run `make cad`"
 
 
-MADE = {"paper_shear", "paper_compression", "wrist_joint", "wrist_compression", "driven_joint"}
-"""Studies whose parts are made: the others differ from these, or from the modules of tests/cad, in dimensions alone."""
+MADE = {"wrist_joint", "wrist_compression", "driven_joint"}
+"""Studies whose parts are made: those of the paper's are made again above, the others differ in dimensions alone."""
 
 
 @pytest.mark.slow
@@ -54,7 +54,3 @@ def test_a_study_becomes_parts_that_pass_every_check(tvimdesign: Command, tmp_pa
         assert (cad / name).stat().st_size > 10_000
     for name in ("bom.csv", "assembly.md", "springs/spring.csv", "springs/spring.pdf"):
         assert (cad / name).stat().st_size > 500
-    from_design = tvimdesign("cad", tmp_path / "out/design.json", "--out", tmp_path / "again")
-    assert from_design.returncode == 0, from_design.stderr
-    same = (tmp_path / "again/step/rotor.step").read_bytes() == (cad / "step/rotor.step").read_bytes()
-    assert same, "the same design gave other bytes"
