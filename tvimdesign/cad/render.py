@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from importlib import import_module
 from math import ceil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-import vtkmodules.vtkRenderingFreeType
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  # the two back-ends register themselves
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -28,6 +27,9 @@ from vtkmodules.vtkRenderingCore import (
 from tvimdesign.cad.kinds import KINDS, Rgb
 from tvimdesign.cad.mesh import Array, Mesh
 from tvimdesign.files import write_whole
+
+for _back_end in ("vtkRenderingOpenGL2", "vtkRenderingFreeType"):
+    import_module(f"vtkmodules.{_back_end}")  # it registers itself as what draws, and what writes
 
 _EDGE_ANGLE = 30.0
 _COLUMN, _LINE = 250, 45
