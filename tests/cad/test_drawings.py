@@ -22,17 +22,25 @@ from tvimdesign.cad.assembly import drawn_parts, place
 from tvimdesign.cad.assembly_note import assembly_note
 from tvimdesign.cad.bom import bill, bill_csv
 from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.drawings import _apart, part_sheet
+from tvimdesign.cad.drawings import part_sheet
 from tvimdesign.cad.export import product
 from tvimdesign.cad.figures import around
 from tvimdesign.cad.kinds import KINDS
+from tvimdesign.cad.placed import apart
 from tvimdesign.cad.projection import from_above, section
+from tvimdesign.cad.sheet import Sheet
 from tvimdesign.cad.spring_sheet import Line, spring_csv, spring_lines, spring_sheet
+from tvimdesign.cad.workmanship import workmanship
 from tvimdesign.study.design import Design
 
 DRAWN = ("housing", "rotor", "link", "retainer")
 TITLES = {"spring_material": "Music wire, ASTM A228", "structure_material": "PETG, printed"}
 Solids = dict[str, cq.Solid]
+
+
+def sheet_of(design: Design, kind: str, solid: cq.Solid) -> Sheet:
+    asked = workmanship(kind, dimensions(design), design.choices)
+    return part_sheet(kind, solid, product(design, kind), design.name, asked)
 
 
 @pytest.fixture(scope="module", params=["paper", "blocks"])
@@ -46,7 +54,7 @@ def module(request: pytest.FixtureRequest) -> tuple[Design, Solids]:
 def drawings(module: tuple[Design, Solids]) -> dict[str, Drawing]:
     """The drawings read back from DXF, by kind of part."""
     design, solids = module
-    sheets = {kind: part_sheet(kind, solids[kind], product(design, kind), design.name) for kind in DRAWN}
+    sheets = {kind: sheet_of(design, kind, solids[kind]) for kind in DRAWN}
     return {kind: ezdxf.read(io.StringIO(sheet.dxf().decode())) for kind, sheet in sheets.items()}
 
 
@@ -102,7 +110,7 @@ def test_the_title_block_says_what_the_part_is(module: tuple[Design, Solids], dr
         said = set(texts(drawings[kind]))
         mass = 1e3 * design.values[KINDS[kind].volume] * design.values["structure_density"]
         assert {kind, "petg", design.name, f"{mass:.2f} g", "A3, first angle", "A – A"} <= said
-        assert any("ISO 2768-m" in text for text in said)
+        assert any("ISO 2768-m" in text for text in said)  # a print that is milled instead
 
 
 def test_a_drawing_is_sound_dxf_in_millimetres_at_true_size(drawings: dict[str, Drawing]) -> None:
@@ -113,30 +121,34 @@ def test_a_drawing_is_sound_dxf_in_millimetres_at_true_size(drawings: dict[str, 
         assert (style.dimlfac, style.dimdsep, style.dimzin) == (1.0, 46, 8)
 
 
+def no_text_lies_on_another(kind: str, document: Drawing) -> None:
+    boxes = []
+    for entity in document.modelspace().query("TEXT"):
+        width, height = 0.62 * entity.dxf.height * len(entity.dxf.text), entity.dxf.height
+        place = entity.get_placement()
+        x, y = place[1].x, place[1].y
+        if "CENTER" in place[0].name:
+            x -= 0.5 * width
+        if "TOP" in place[0].name:
+            y -= height
+        if "MIDDLE" in place[0].name:
+            y -= 0.5 * height
+        boxes.append((x, x + width, y, y + height, entity.dxf.text))
+    for index, (left, right, low, high, text) in enumerate(boxes):
+        for other_left, other_right, other_low, other_high, other in boxes[:index]:
+            apart = left >= other_right or right <= other_left or low >= other_high or high <= other_low
+            assert apart, f"{kind}: {text!r} lies on {other!r}"
+
+
 def test_no_text_lies_on_another(drawings: dict[str, Drawing]) -> None:
     for kind, document in drawings.items():
-        boxes = []
-        for entity in document.modelspace().query("TEXT"):
-            width, height = 0.62 * entity.dxf.height * len(entity.dxf.text), entity.dxf.height
-            place = entity.get_placement()
-            x, y = place[1].x, place[1].y
-            if "CENTER" in place[0].name:
-                x -= 0.5 * width
-            if "TOP" in place[0].name:
-                y -= height
-            if "MIDDLE" in place[0].name:
-                y -= 0.5 * height
-            boxes.append((x, x + width, y, y + height, entity.dxf.text))
-        for index, (left, right, low, high, text) in enumerate(boxes):
-            for other_left, other_right, other_low, other_high, other in boxes[:index]:
-                apart = left >= other_right or right <= other_left or low >= other_high or high <= other_low
-                assert apart, f"{kind}: {text!r} lies on {other!r}"
+        no_text_lies_on_another(kind, document)
 
 
 def test_figures_are_kept_apart_and_in_order() -> None:
-    assert _apart([0.0, 10.0, 20.0], 5.0) == [0.0, 10.0, 20.0]
-    assert _apart([0.0, 1.0, 20.0], 5.0) == [-2.0, 3.0, 20.0]
-    assert _apart([0.0, 0.0, 0.0, 7.0], 4.0) == pytest.approx([-4.25, -0.25, 3.75, 7.75])
+    assert apart([0.0, 10.0, 20.0], 5.0) == [0.0, 10.0, 20.0]
+    assert apart([0.0, 1.0, 20.0], 5.0) == [-2.0, 3.0, 20.0]
+    assert apart([0.0, 0.0, 0.0, 7.0], 4.0) == pytest.approx([-4.25, -0.25, 3.75, 7.75])
 
 
 def test_views_have_the_size_of_the_part_and_its_cut_faces_their_area() -> None:
@@ -231,12 +243,12 @@ def test_a_kind_that_no_step_takes_has_one_of_its_own() -> None:
 
 def test_a_sheet_is_a_pdf_of_its_true_size_with_no_date(module: tuple[Design, Solids]) -> None:
     design, solids = module
-    sheet = part_sheet("retainer", solids["retainer"], product(design, "retainer"), design.name)
+    sheet = sheet_of(design, "retainer", solids["retainer"])
     data = sheet.pdf()
     assert data.startswith(b"%PDF-")
     assert b"/MediaBox [ 0 0 1190.5511811" in data
     assert b"/CreationDate" not in data
-    again = part_sheet("retainer", solids["retainer"], product(design, "retainer"), design.name)
+    again = sheet_of(design, "retainer", solids["retainer"])
     assert again.pdf() == data
     assert again.dxf() == sheet.dxf()
 

@@ -31,7 +31,9 @@ _FONT = "DejaVuSans.ttf"
 _LAYERS = {"OUTLINE": 50, "FINE": 25, "HATCH": 18, "CENTRE": 18, "HIDDEN": 18, "DIMENSION": 25, "TEXT": 25, "FRAME": 50}
 """Line widths by layer, 1/100 mm."""
 _DASHES = {"CENTRE": "CENTER", "HIDDEN": "DASHED"}
-_TITLE_WIDTH, _ROW, _MARGIN = 180.0, 8.0, 10.0
+TITLE_WIDTH, MARGIN = 180.0, 10.0
+"""Of the title block, and around the frame [mm]."""
+_ROW = 8.0
 _TEXT = 2.5
 """Height of letters and figures on paper [mm]."""
 _INCH = 25.4
@@ -64,8 +66,8 @@ class Sheet:
         for name, width in _LAYERS.items():
             self.document.layers.add(name, lineweight=width, linetype=_DASHES.get(name, "CONTINUOUS"))
         self._dimension_style()
-        self.lines([(_MARGIN, _MARGIN), (SIZE[0] - _MARGIN, _MARGIN), (SIZE[0] - _MARGIN, SIZE[1] - _MARGIN),
-                    (_MARGIN, SIZE[1] - _MARGIN), (_MARGIN, _MARGIN)], "FRAME")  # fmt: skip
+        self.lines([(MARGIN, MARGIN), (SIZE[0] - MARGIN, MARGIN), (SIZE[0] - MARGIN, SIZE[1] - MARGIN),
+                    (MARGIN, SIZE[1] - MARGIN), (MARGIN, MARGIN)], "FRAME")  # fmt: skip
 
     def _dimension_style(self) -> None:
         style = self.document.dimstyles.new("SHEET").dxf
@@ -99,21 +101,21 @@ class Sheet:
 
     def title_block(self, title: str, rows: Sequence[Sequence[Field]]) -> None:
         """Title block in the lower right corner: a title, and rows of fields from the bottom up."""
-        left, bottom = SIZE[0] - _MARGIN - _TITLE_WIDTH, _MARGIN
+        left, bottom = SIZE[0] - MARGIN - TITLE_WIDTH, MARGIN
         top = bottom + _ROW * len(rows) + 1.5 * _ROW
-        self.lines([(left, bottom), (left, top), (left + _TITLE_WIDTH, top)], "FRAME")
+        self.lines([(left, bottom), (left, top), (left + TITLE_WIDTH, top)], "FRAME")
         for index, row in enumerate(rows):
             level = bottom + _ROW * (index + 1)
-            self.lines([(left, level), (left + _TITLE_WIDTH, level)], "FINE")
+            self.lines([(left, level), (left + TITLE_WIDTH, level)], "FINE")
             x = left
             for one in row:
                 if x > left:
                     self.lines([(x, level - _ROW), (x, level)], "FINE")
                 self.text(one.label, (x + 1.5, level - 0.8), 1.6, "TOP_LEFT")
                 self.text(one.text, (x + 1.5, level - _ROW + 1.4), _TEXT)
-                x += one.share * _TITLE_WIDTH
+                x += one.share * TITLE_WIDTH
         self.text(title, (left + 3.0, top - 1.0 * _ROW), 5.0)
-        self._first_angle((left + _TITLE_WIDTH - 28.0, top - 0.75 * _ROW))
+        self._first_angle((left + TITLE_WIDTH - 28.0, top - 0.75 * _ROW))
 
     def _first_angle(self, at: Point) -> None:
         """The symbol of first-angle projection, ISO 5456-2: a cone, and to its right what is seen from its left."""

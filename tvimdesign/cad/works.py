@@ -29,6 +29,7 @@ from tvimdesign.cad.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.springs import free_coil
 from tvimdesign.cad.step import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.work import Job, Work
+from tvimdesign.cad.workmanship import workmanship
 from tvimdesign.errors import GeometryError
 
 PICTURES = "pictures"
@@ -71,7 +72,8 @@ def _part(kind: str, job: Job) -> list[Check]:
     what = product(job.design, kind)
     checks = _step(job.folder, solid, what)
     if MAKING[kind].drawn:
-        sheet = part_sheet(kind, solid, what, job.design.name)
+        asked = workmanship(kind, job.dims, job.design.choices)
+        sheet = part_sheet(kind, solid, what, job.design.name, asked)
         _write(job.folder, names.drawing_dxf(kind), sheet.dxf())
         _write(job.folder, names.drawing_pdf(kind), sheet.pdf())
     if MAKING[kind].down == "bought":

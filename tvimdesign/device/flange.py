@@ -85,6 +85,12 @@ def sensor_screw_pilot(sensor_pattern: Pattern) -> Scalar:
 
 
 @places.output("mm")
+def sensor_screw_diameter(sensor_pattern: Pattern) -> Scalar:
+    """Nominal diameter of those screws; zero without a flange."""
+    return sensor_pattern.thread
+
+
+@places.output("mm")
 def sensor_pin_diameter(sensor_pattern: Pattern) -> Scalar:
     """Hole for the sensor's locating pin, midway between two screws; zero without a flange."""
     return sensor_pattern.pin

@@ -1,0 +1,122 @@
+"""Fits, surfaces and threads on drawings: ISO 286 against its tables, and what drawings of a milled module say."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+
+import ezdxf
+import pytest
+import yaml
+from cad_designs import BEARING_BLOCKS, CASES, DRIVEN, FLANGE, design_of
+from support import ROOT
+from test_drawings import no_text_lies_on_another, sheet_of, texts
+
+from tvimdesign.cad.assembly import drawn_part
+from tvimdesign.cad.dimensions import dimensions
+from tvimdesign.cad.features import upright_cylinders
+from tvimdesign.cad.iso_286 import limit_deviations, standard_tolerance
+from tvimdesign.cad.making import MAKING
+from tvimdesign.cad.workmanship import workmanship
+from tvimdesign.errors import GeometryError
+from tvimdesign.study.design import Design
+
+MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_ratio": 40.0}
+
+
+@pytest.mark.parametrize(
+    ("fit", "size", "lower", "upper"),
+    [  # ISO 286-2, tables of limit deviations, in micrometres
+        ("H7", 3, 0, 10), ("H7", 10, 0, 15), ("H7", 50, 0, 25), ("H8", 20, 0, 33), ("H6", 100, 0, 22),
+        ("h6", 20, -13, 0), ("h5", 15, -8, 0), ("h8", 40, -39, 0), ("js5", 25, -4.5, 4.5), ("JS7", 60, -15, 15),
+        ("g6", 30, -20, -7), ("G7", 40, 9, 34), ("k6", 40, 2, 18), ("k5", 20, 2, 11), ("H7", 31.5, 0, 25),
+    ],
+)  # fmt: skip
+def test_limit_deviations_are_those_of_the_standard(fit: str, size: float, lower: float, upper: float) -> None:
+    assert limit_deviations(fit, size) == pytest.approx((1e-3 * lower, 1e-3 * upper))
+
+
+def test_tolerance_grades_follow_the_standard_s_formula() -> None:
+    # ISO 286-1: 7, 10, 16, 25 and 40 units i = 0.45 D^(1/3) + 0.001 D at the geometric mean of the range, then rounded.
+    for over, up_to in ((3, 6), (10, 18), (18, 30), (30, 50), (50, 80), (80, 120), (120, 180)):
+        mean = (over * up_to) ** 0.5
+        unit = 0.45 * mean ** (1 / 3) + 0.001 * mean
+        for grade, units in ((5, 7), (6, 10), (7, 16), (8, 25), (9, 40)):
+            assert 1e3 * standard_tolerance(grade, up_to) == pytest.approx(units * unit, rel=0.06, abs=1.0)
+
+
+@pytest.mark.parametrize(
+    ("fit", "size"), [("H7", 0.0), ("H7", 501.0), ("H12", 10.0), ("z6", 10.0), ("k8", 10.0), ("H4", 9.0)]
+)
+def test_what_the_table_has_not_is_refused(fit: str, size: float) -> None:
+    with pytest.raises(GeometryError, match=r"iso_286\.yaml"):
+        limit_deviations(fit, size)
+
+
+def milled(case: Mapping[str, float | str], mode: str) -> Design:
+    return design_of("milled", {**case, **MILLED}, mode)
+
+
+@pytest.mark.parametrize(
+    ("case", "mode", "kinds"),
+    [(BEARING_BLOCKS, "compression", ("housing", "rotor")), (DRIVEN, "shear", ("motor_hub", "motor_housing")),
+     (FLANGE, "shear", ("housing", "rotor"))],
+)  # fmt: skip
+def test_what_is_milled_to_the_file_is_within_every_fit(
+    case: Mapping[str, float | str], mode: str, kinds: tuple[str, ...]
+) -> None:
+    design = milled(case, mode)
+    for kind in kinds:
+        seats = workmanship(kind, dimensions(design), design.choices).seats
+        assert seats[0].letter == "B"
+        for seat in seats:
+            assert seat.fit, f"{kind}: {seat.about} is drawn outside its class"
+            assert seat.limits.lower - 1e-9 <= seat.drawn - seat.size <= seat.limits.upper + 1e-9
+
+
+def test_a_seat_that_is_drawn_outside_its_class_is_told_as_drawn() -> None:
+    design = milled(BEARING_BLOCKS | {"seat_clearance": 0.05e-3}, "compression")
+    seat = workmanship("housing", dimensions(design), design.choices).seats[0]
+    assert (seat.fit, seat.size) == ("", seat.drawn)
+    assert seat.drawn == pytest.approx(24.1)  # 6802 has 24 mm, and the study a gap of 0.05 mm to each side
+
+
+def test_a_printed_module_has_no_fits_and_its_screws_cut_their_threads() -> None:
+    mode, overrides = CASES["paper"]
+    design = design_of("paper", overrides, mode)
+    asked = workmanship("rotor", dimensions(design), design.choices)
+    assert not asked.seats
+    assert [(one.screw, one.made) for one in asked.threads] == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
+
+
+def test_drawings_of_a_milled_module_tell_fits_threads_and_edges() -> None:
+    said = {}
+    for kind, design in (("motor_housing", milled(DRIVEN, "shear")), ("rotor", milled(BEARING_BLOCKS, "compression"))):
+        sheet = sheet_of(design, kind, drawn_part(dimensions(design), kind))
+        document = ezdxf.read(io.StringIO(sheet.dxf().decode()))
+        assert document.audit().errors == []
+        no_text_lies_on_another(kind, document)
+        said[kind] = texts(document)
+        dimensioned = [one.dxf.text for one in document.modelspace().query("DIMENSION")]
+        assert {"motor_housing": "⌀24 H6", "rotor": "⌀15 h5"}[kind] in dimensioned
+    # Bearing 6802: 15 x 24 mm; ISO 286-2: H6 at 24 mm is +13 / 0, h5 at 15 mm is 0 / -8; IT5 9 and 8.
+    assert {"B", "⌀24 H6", "+13 / 0", "24.000 to 24.013", "/○/ 0.0045  ↗ 0.009 B"} <= set(said["motor_housing"])
+    assert {"B", "⌀15 h5", "0 / -8", "14.992 to 15.000", "/○/ 0.004  ↗ 0.008 B", "M4"} <= set(said["rotor"])
+    assert any(text.startswith("4× M3 ⌀2.5 hole") for text in said["rotor"])
+    assert any("ISO 13715" in text for text in said["rotor"])
+    assert not any(text.startswith("Printing") for text in said["rotor"])
+
+
+def test_a_hole_of_a_thread_s_diameter_and_another_depth_has_no_thread() -> None:
+    mode, overrides = CASES["wrist"]
+    design = design_of("wrist", overrides, mode)  # its keys' pockets are 2.5 mm wide, as the hole for the retainer's M3
+    found = upright_cylinders(drawn_part(dimensions(design), "rotor"))
+    asked = workmanship("rotor", dimensions(design), design.choices)
+    wide = [one for one in found if one.concave and one.radius == pytest.approx(1.25)]
+    assert {one.is_central for one in wide} == {True, False}
+    assert all((asked.thread(one) is not None) == one.is_central for one in wide)
+
+
+def test_every_seat_and_thread_is_of_a_part_that_is_drawn() -> None:
+    told = yaml.safe_load((ROOT / "tvimdesign/cad/workmanship.yaml").read_text(encoding="utf-8"))
+    assert {*told["seats"], *told["threads"]} <= {kind for kind, making in MAKING.items() if making.drawn}
