@@ -201,6 +201,7 @@ def _settle(design: Design, child: Any, ear: Connection, started: float, tally: 
     child.join()
     tally.built += 1
     tally.failed += [f"{design.name}: {text}" for text in wrong]
+    print(f"{tally.built} built, {len(tally.failed)} faults{' '.join(['', *wrong])}", file=sys.stderr, flush=True)
 
 
 def main(arguments: Sequence[str]) -> int:
