@@ -61,6 +61,9 @@ FLANGE_BLOCKS = BEARING_BLOCKS | {"sensor_flange": "iso_9409_50_4_m6", "pcl_inne
 DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
 DRIVEN_BLOCKS = BLOCKS | {"motor": "frameless_85x13", "process": "machine_6061", "corner_radius": 0.5 * MM,
                           "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "spring_pairs": 3}  # fmt: skip
+# A torque sensor below the motor: its pattern is in the base of the motor's housing.
+ON_SENSOR = DRIVEN | {"sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": 13.0 * MM,
+                      "flange_screw_reach": 10.5 * MM}  # fmt: skip
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),

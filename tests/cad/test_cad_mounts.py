@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import atan2, degrees, hypot
 
 import pytest
-from cad_designs import CASES, DRIVEN, FLANGE, design_of
+from cad_designs import CASES, DRIVEN, FLANGE, ON_SENSOR, design_of
 
 from tvimdesign.cad.assembly import build, drawn_part, drawn_parts
 from tvimdesign.cad.assembly_note import assembly_note
@@ -15,6 +15,7 @@ from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.features import holes
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.kinds import KINDS, TURNING, kind_of
+from tvimdesign.cad.workmanship import workmanship
 
 
 def test_the_pattern_stands_at_its_azimuth_with_the_pin_midway_between_two_screws() -> None:
@@ -54,12 +55,29 @@ def test_the_note_says_what_bears_the_module(flange: bool, words: str) -> None:
     assert words in step
 
 
-def test_hub_and_housing_of_the_motor_are_one_sound_solid_each_and_as_heavy_as_their_rows() -> None:
-    design = design_of("driven", DRIVEN)
+@pytest.mark.parametrize("case", [DRIVEN, ON_SENSOR], ids=["alone", "on a sensor"])
+def test_hub_and_housing_of_the_motor_are_one_sound_solid_each_and_as_heavy_as_their_rows(
+    case: dict[str, float | str],
+) -> None:
+    design = design_of("driven", case)
     dims = dimensions(design)
     for kind in ("motor_hub", "motor_housing", "motor_retainer"):
         solid = drawn_part(dims, kind)
         assert solid.Volume() * 1e-9 == pytest.approx(design.values[f"{kind}_volume"], rel=1e-9), kind
+
+
+def test_a_sensor_below_the_motor_has_its_pattern_in_the_base_and_its_recess_below_the_board() -> None:
+    dims = dimensions(design_of("driven", ON_SENSOR))
+    bottom = dims.motor_bottom_level
+    found = [one for one in holes(drawn_part(dims, "motor_housing")) if one.bottom == pytest.approx(bottom)]
+    pattern = [one for one in found if hypot(one.x, one.y) == pytest.approx(25.0)]
+    assert sorted(one.radius for one in pattern) == [2.5, 2.5, 2.5, 2.5, 3.0]
+    assert {round(one.top - bottom, 6) for one in pattern} == {6.0, 11.0}
+    board = drawn_part(dims, "encoder_board").BoundingBox()
+    assert board.zmin == pytest.approx(bottom + 6.4)
+    asked = workmanship("motor_housing", dims, {"making_method": "milled"})
+    assert [one.about for one in asked.threads] == ["sensor's screws"]
+    assert {"sensor's spigot", "sensor's pin"} <= {one.about for one in asked.seats}
 
 
 @pytest.mark.slow

@@ -119,4 +119,6 @@ def test_a_hole_of_a_thread_s_diameter_and_another_depth_has_no_thread() -> None
 
 def test_every_seat_and_thread_is_of_a_part_that_is_drawn() -> None:
     told = yaml.safe_load((ROOT / "tvimdesign/cad/workmanship.yaml").read_text(encoding="utf-8"))
+    words = [one["about"] for part in ("seats", "threads") for group in told[part].values() for one in group]
+    assert max(map(len, words)) <= 21  # what the table has room for
     assert {*told["seats"], *told["threads"]} <= {kind for kind, making in MAKING.items() if making.drawn}

@@ -186,21 +186,67 @@ def test_there_is_no_motor_and_no_rule_of_one_unless_it_is_chosen(mode: str) -> 
             refuse_impossible(study, Catalog(), table)
 
 
-def test_a_torque_sensor_and_a_motor_cannot_both_stand_under_the_floor() -> None:
-    both = DRIVEN | {"sensor_flange": "iso_9409_40_4_m6"}
-    assert values_of("flange_motor_gap", **both)["flange_motor_gap"] == pytest.approx(-6.0 * MM)
-    assert values_of("flange_motor_gap", **DRIVEN)["flange_motor_gap"] == 0.0
-    assert values_of("flange_motor_gap", sensor_flange="iso_9409_40_4_m6")["flange_motor_gap"] > 0.0
-    text = "mode: shear\nmodule: {motor: frameless_70x10, sensor_flange: iso_9409_40_4_m6}\n"
-    told = {limit.output for limit in limits_of(read_study_text(text, "a test"), table_for("shear"))}
-    assert "flange_motor_gap" in told
+# On a sensor: the circle of 50 mm, whose bore of 31.5 mm lets the board of 28 mm in, and a base for screws of 10.5 mm.
+ON_SENSOR = DRIVEN | {
+    "sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": "13 mm", "flange_screw_reach": "10.5 mm",
+}  # fmt: skip
 
 
-def test_numbers_and_symbols_give_the_same_motor_mount() -> None:
-    table, known = table_for("shear"), inputs_with(**DRIVEN)
+def test_a_torque_sensor_bears_the_motor_and_its_spigot_keeps_below_the_board() -> None:
+    rows = "sensor_recess_depth encoder_board_level motor_bottom_level flange_outer_radius flange_volume housing_volume"
+    both, driven = values_of(rows, **ON_SENSOR), values_of(rows, **DRIVEN | {"motor_base_thickness": "13 mm"})
+    assert both["sensor_recess_depth"] == pytest.approx((6.0 + 0.4) * MM)  # spigot, and the running clearance
+    assert both["encoder_board_level"] - both["motor_bottom_level"] == pytest.approx(6.4 * MM)
+    # The floor of the module is as without a sensor: the ring is in the motor's base.
+    assert both["flange_outer_radius"] == both["flange_volume"] == driven["encoder_board_level"] * 0.0
+    assert both["housing_volume"] == driven["housing_volume"]
+    assert driven["encoder_board_level"] == driven["motor_bottom_level"]
+    stiff = values_of("structure_stiffness", **ON_SENSOR)["structure_stiffness"]
+    assert stiff == values_of("structure_stiffness", **DRIVEN)["structure_stiffness"]  # the floor bears to its feet
+    # Four holes of 5 x 11 mm and a pin's of 6 x 6 for four of 2.5 x 11.8; a recess of 31.6 mm around a bore of
+    # 24.1, 6.4 deep, the bore as much longer; the groove of 8 mm 6.4 deeper from there to the outer radius of 37.2.
+    cases = {"both": ON_SENSOR, "driven": DRIVEN | {"motor_base_thickness": "13 mm"}}
+    row = "motor_housing_volume"
+    volume = {name: values_of(row, **case)[row] / MM**3 for name, case in cases.items()}
+    holes = 0.25 * np.pi * (4 * 25.0 * 11.0 + 36.0 * 6.0 - 4 * 6.25 * 11.8)
+    recess = 0.25 * np.pi * (31.6**2 - 24.1**2) * 6.4
+    y = np.linspace(-4.0, 4.0, 2001)
+    groove = np.trapezoid(np.sqrt(37.2**2 - y**2) - np.sqrt(15.8**2 - y**2), y) * 6.4
+    lip = 0.25 * np.pi * (24.1**2 - 22.0**2) * 6.4  # the lower seat is longer by the recess, the lip shorter
+    assert volume["driven"] - volume["both"] == pytest.approx(holes + recess + groove + lip, rel=1e-6)
+
+
+def test_a_motor_on_a_sensor_keeps_its_rules_and_each_is_broken_by_what_its_name_says() -> None:
+    flange = {
+        "flange_bore_gap": {"sensor_flange": "iso_9409_40_4_m6"},  # 25 mm are too narrow for the board of 28
+        "flange_seat_reserve": {"motor_base_thickness": "12.1 mm"},
+        "flange_thread_reserve": {"flange_screw_reach": "10.4 mm"},
+        "flange_wall_reserve": {"flange_wall": "9.3 mm"},
+        "flange_bore_wall_reserve": {"minimum_wall": "6.3 mm"},
+        "flange_pin_wall_reserve": {"minimum_wall": "13.7 mm"},
+        "flange_groove_gap": {"flange_azimuth": "15 deg"},
+        "encoder_floor_reserve": {"motor_base_thickness": "10.5 mm"},
+    }
+    kept = [*flange, "flange_channel_gap", "flange_spring_gap", "flange_spigot_reserve", *RULES, *ENCODER_RULES]
+    assert min(values_of(" ".join(kept), **ON_SENSOR).values()) > -1e-12
+    for rule, module in flange.items():
+        assert values_of(rule, **ON_SENSOR | module)[rule] < 0.0, rule
+
+
+@pytest.mark.parametrize("case", [DRIVEN, ON_SENSOR], ids=["alone", "on a sensor"])
+def test_numbers_and_symbols_give_the_same_motor_mount(case: dict[str, str]) -> None:
+    table, known = table_for("shear"), inputs_with(**case)
     free = ("motor_wall", "motor_hub_wall", "motor_plate_thickness", "motor_base_thickness", "placement_radius")
     symbols = ca.SX.sym("x", len(free))
-    rows = [*sorted(RULES | ENCODER_RULES), "drive_mass", "drive_inertia", "envelope_volume", "module_mass"]
+    rows = [
+        *sorted(RULES | ENCODER_RULES),
+        "flange_groove_gap",
+        "flange_wall_reserve",
+        "drive_mass",
+        "drive_inertia",
+        "envelope_volume",
+        "module_mass",
+    ]
     traced = table.evaluate(known | dict(zip(free, ca.vertsplit(symbols), strict=True)), rows)
     function = ca.Function("f", [symbols], [ca.vertcat(*(traced[name] for name in rows))])
     expected = table.evaluate(known, rows)

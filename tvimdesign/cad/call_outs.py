@@ -61,7 +61,9 @@ def _said_of(group: Sequence[Cylinder], bottom: float, top: float, asked: Workma
     one = group[0]
     if _is_corner(one):
         return f"{len(group)}× R{figure(one.radius)} inner corners"
-    size = sized(one, asked) if one.is_round else f"R{figure(one.radius)} over {figure(degrees(one.span))}°"
+    size = sized(one, asked)
+    if not one.is_round:
+        size = f"{size if asked.seat(2.0 * one.radius) else f'R{figure(one.radius)}'} over {figure(degrees(one.span))}°"
     what = ("hole" if one.concave else "boss") if one.is_round else ("inside" if one.concave else "outside")
     through = one.concave and one.is_round and abs(one.bottom - bottom) < 1e-3 and abs(one.top - top) < 1e-3
     deep = "through" if through else f"h {figure(one.bottom - bottom)} to {figure(one.top - bottom)}"

@@ -8,7 +8,7 @@ from math import pi
 import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
-from tvimdesign.cad.parts import mounts
+from tvimdesign.cad.parts import mounts, sensor_holes
 from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, slot, turned
 from tvimdesign.device.drive import BASE_SCREWS
 
@@ -46,17 +46,26 @@ def housing(dims: Dimensions) -> cq.Shape:
         cylinder(dims.motor_seat_radius, bottom, dims.motor_retainer_level + dims.motor_bearing_width),
         cylinder(dims.motor_seat_radius, top - dims.motor_bearing_width, top),
     ]
-    azimuths = [(index + 0.5) * 2.0 * pi / BASE_SCREWS for index in range(BASE_SCREWS)]
-    holes = [
-        cylinder(0.5 * dims.mount_screw_pilot, bottom, bottom + dims.motor_base_hole_depth, at)
-        for at in (polar(dims.motor_base_hole_radius, azimuth) for azimuth in azimuths)
-    ]
+    holes = base_holes(dims)
     if not dims.encoder_recess_radius:
         return join(base, [wall, tube]).cut(*seats, *holes)
-    ceiling = bottom + dims.encoder_board_height
+    ceiling = dims.encoder_board_level + dims.encoder_board_height
     recess = cylinder(dims.encoder_recess_radius, bottom, ceiling)
     groove = block(across, dims.motor_wire_width, bottom, ceiling)
     return join(base, [wall, tube]).cut(*seats, *holes, recess, groove)
+
+
+def base_holes(dims: Dimensions) -> list[cq.Shape]:
+    """What fixes the base from below: four holes, or a torque sensor's pattern with the recess for its spigot."""
+    bottom = dims.motor_bottom_level
+    if dims.sensor_recess_depth:
+        recess = cylinder(dims.flange_bore_radius, bottom, bottom + dims.sensor_recess_depth)
+        return [recess, *sensor_holes(dims, bottom)]
+    azimuths = [(index + 0.5) * 2.0 * pi / BASE_SCREWS for index in range(BASE_SCREWS)]
+    return [
+        cylinder(0.5 * dims.mount_screw_pilot, bottom, bottom + dims.motor_base_hole_depth, at)
+        for at in (polar(dims.motor_base_hole_radius, azimuth) for azimuth in azimuths)
+    ]
 
 
 def retainer(dims: Dimensions) -> cq.Shape:
@@ -106,8 +115,8 @@ def magnet(dims: Dimensions) -> cq.Shape:
 
 
 def board(dims: Dimensions) -> cq.Shape:
-    """The encoder's board with its chip as a disc, flush with the base below."""
-    bottom = dims.motor_bottom_level
+    """The encoder's board with its chip as a disc, flush with the base below, or over a torque sensor's spigot."""
+    bottom = dims.encoder_board_level
     return cylinder(dims.encoder_board_radius, bottom, bottom + dims.encoder_board_height)
 
 

@@ -50,11 +50,17 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
 
 
 def sensor_flange(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
-    """The ring that bears a torque sensor, and its holes for screws and pin; nothing where there is none."""
-    if not dims.sensor_screw_count:
+    """The ring under the floor that bears a torque sensor, and its holes; nothing where there is none."""
+    if not dims.flange_outer_radius:
         return [], []
     floor_bottom = -dims.floor_thickness
     ground = floor_bottom - dims.foot_height
+    ring_of_it = ring(dims.flange_bore_radius, dims.flange_outer_radius, ground, floor_bottom)
+    return [ring_of_it], sensor_holes(dims, ground)
+
+
+def sensor_holes(dims: Dimensions, ground: float) -> list[cq.Shape]:
+    """Holes for a torque sensor's screws and pin, upwards from the face it is screwed to."""
     pitch = 2.0 * pi / dims.count("sensor_screw_count")
     azimuths = [dims.flange_azimuth + index * pitch for index in range(dims.count("sensor_screw_count"))]
     screws = [
@@ -63,7 +69,7 @@ def sensor_flange(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
     ]
     pin_at = polar(dims.sensor_pitch_radius, dims.flange_azimuth + 0.5 * pitch)
     pin = cylinder(0.5 * dims.sensor_pin_diameter, ground, ground + dims.sensor_pin_depth, pin_at)
-    return [ring(dims.flange_bore_radius, dims.flange_outer_radius, ground, floor_bottom)], [*screws, pin]
+    return [*screws, pin]
 
 
 def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:

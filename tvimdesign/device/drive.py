@@ -13,6 +13,9 @@ of the base. Rotor and stator are bonded, with the gap of parts that slip into a
     |S|R| [bearing] | lip    |R|S|  stator in the outer wall
     |S|R| [bearing] |        |R|S|
     base, retainer with magnet, board
+
+With a flange for a torque sensor its pattern takes the place of the base's holes, and its spigot a recess below the
+board, as deep as the spigot and a running clearance (`flange.py`).
 """
 
 from __future__ import annotations
@@ -20,6 +23,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
+from tvimdesign.device.flange import Pattern
 from tvimdesign.device.layout import book as layout
 from tvimdesign.device.motor import Encoder, Motor
 from tvimdesign.device.rows import Scalar
@@ -154,6 +158,12 @@ def motor_bottom_level(drive: Motor | None, stator_bottom_level: Scalar, motor_b
 
 
 @book.output("mm")
+def encoder_board_level(drive: Motor | None, motor_bottom_level: Scalar, sensor_recess_depth: Scalar) -> Scalar:
+    """Lower face of the encoder's board, if any: the base's, or over a sensor's spigot; zero without a motor."""
+    return 0.0 if drive is None else motor_bottom_level + sensor_recess_depth
+
+
+@book.output("mm")
 def motor_rotor_bottom_level(drive: Motor | None, stator_top_level: Scalar, stator_bottom_level: Scalar) -> Scalar:
     """Lower end of the motor's rotor and of the barrel: rotor and stator have one middle; zero without a motor."""
     if drive is None:
@@ -179,7 +189,7 @@ def motor_retainer_thickness(
 def motor_retainer_level(
     drive: Motor | None,
     angle_sensor: Encoder | None,
-    motor_bottom_level: Scalar,
+    encoder_board_level: Scalar,
     motor_retainer_thickness: Scalar,
     running_clearance: Scalar,
 ) -> Scalar:
@@ -187,7 +197,7 @@ def motor_retainer_level(
     if drive is None:
         return 0.0
     below = running_clearance if angle_sensor is None else angle_sensor.air_gap + angle_sensor.board_height
-    return motor_bottom_level + below + motor_retainer_thickness
+    return encoder_board_level + below + motor_retainer_thickness
 
 
 @book.output("mm")
@@ -211,6 +221,8 @@ def motor_screw_depth(
 
 
 @book.output("mm")
-def motor_base_hole_depth(drive: Motor | None, motor_base_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
-    """Depth of the holes in the base: they leave it the process's least wall; zero without a motor."""
-    return 0.0 if drive is None else motor_base_thickness - minimum_wall
+def motor_base_hole_depth(
+    drive: Motor | None, base_pattern: Pattern, motor_base_thickness: Scalar, minimum_wall: Scalar
+) -> Scalar:
+    """Depth of the base's holes: they leave it the least wall; zero without a motor, or where a sensor bears it."""
+    return 0.0 if drive is None or base_pattern.screws else motor_base_thickness - minimum_wall

@@ -8,6 +8,7 @@ from tvimdesign.device.bearing import bearing_density as density_as_a_ring
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
 from tvimdesign.device.drive import BASE_SCREWS
+from tvimdesign.device.flange import Pattern, pattern_holes
 from tvimdesign.device.motor import Encoder, Motor
 from tvimdesign.device.rows import Scalar
 from tvimdesign.physics.shapes import Section, disc_at, ring, ring_notch, spoke
@@ -83,8 +84,12 @@ def motor_housing_volume(
     motor_wire_width: Scalar,
     motor_wire_depth: Scalar,
     encoder_recess_radius: Scalar,
+    base_pattern: Pattern,
+    flange_bore_radius: Scalar,
+    flange_screw_depth: Scalar,
+    sensor_recess_depth: Scalar,
 ) -> Scalar:
-    """Volume of the motor's housing: base, wall and tube, less bore, seats, screw holes, recess and wires' ways."""
+    """Volume of the motor's housing: base, wall and tube, less bore, seats, holes, recesses and wires' ways."""
     if drive is None:
         return 0.0
     lower = motor_retainer_level + drive.bearing_width - motor_bottom_level
@@ -97,12 +102,14 @@ def motor_housing_volume(
     bore = ring(0.0, motor_seat_radius).area * (lower + drive.bearing_width) + ring(0.0, motor_lip_radius).area * lip
     screws = BASE_SCREWS * ring(0.0, 0.5 * mount_screw_pilot).area * motor_base_hole_depth
     wires = ring_notch(0.5 * motor_wire_width, stator_seat_radius, motor_outer_radius) * motor_wire_depth
-    whole = solid - bore - screws - wires
-    if angle_sensor is None:
-        return whole
-    groove = ring_notch(0.5 * motor_wire_width, encoder_recess_radius, motor_outer_radius)
-    recess = ring(motor_seat_radius, encoder_recess_radius).area
-    return whole - (recess + groove) * angle_sensor.board_height
+    whole = solid - bore - screws - wires - pattern_holes(base_pattern, flange_screw_depth)
+    recesses: list[tuple[Scalar, Scalar]] = [(flange_bore_radius, sensor_recess_depth)] if base_pattern.screws else []
+    if angle_sensor is not None:
+        recesses.append((encoder_recess_radius, angle_sensor.board_height))
+    for radius, height in recesses:
+        groove = 0.0 if angle_sensor is None else ring_notch(0.5 * motor_wire_width, radius, motor_outer_radius)
+        whole -= (ring(motor_seat_radius, radius).area + groove) * height
+    return whole
 
 
 @book.helper()

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.catalog import Record
 from tvimdesign.device.bearing import BEARINGS
 from tvimdesign.device.book import Book
+from tvimdesign.device.flange import Pattern
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.hold import book as hold
 from tvimdesign.device.motor import WITHOUT, Encoder, Motor
@@ -25,15 +25,6 @@ def _with_a_motor(reason: str) -> Rule:
 def _with_an_encoder(reason: str) -> Rule:
     """There must be room, where there is an encoder at all."""
     return at_least(0.0, reason, unless=("encoder", WITHOUT))
-
-
-@book.output("mm", at_least(0.0, "a flange for a torque sensor and the motor's hub cannot both stand under the floor",
-                            unless=("sensor_flange", WITHOUT)))  # fmt: skip
-def flange_motor_gap(drive: Motor | None, sensor_flange: Record | str, foot_height: Scalar) -> Scalar:
-    """Height of a torque sensor's flange, negative where a motor's hub stands below it; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
-    return foot_height if drive is None else -foot_height
 
 
 @book.output("mm", _with_a_motor("the module's retainer would rub on the motor's hub: more foot_height"))
@@ -175,26 +166,30 @@ def motor_retainer_wall_reserve(
 @book.output("mm", _with_a_motor("the motor housing's base is too thin for the screws that fix it"))
 def motor_base_thread_reserve(
     drive: Motor | None,
+    base_pattern: Pattern,
     motor_base_hole_depth: Scalar,
     screw_tip_room: Scalar,
     thread_engagement: Scalar,
     mount_screw_diameter: Scalar,
 ) -> Scalar:
-    """Thread in the base beyond what the process wants; zero without a motor."""
-    return 0.0 if drive is None else motor_base_hole_depth - screw_tip_room - thread_engagement * mount_screw_diameter
+    """Thread in the base beyond what the process wants; zero without a motor, or where a sensor bears it."""
+    if drive is None or base_pattern.screws:
+        return 0.0
+    return motor_base_hole_depth - screw_tip_room - thread_engagement * mount_screw_diameter
 
 
 @book.output("mm", _with_a_motor("the holes of the motor housing's base would meet its bore or the encoder's recess"))
 def motor_base_hole_gap(
     drive: Motor | None,
+    base_pattern: Pattern,
     motor_base_hole_radius: Scalar,
     mount_screw_pilot: Scalar,
     motor_seat_radius: Scalar,
     encoder_recess_radius: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Base between its holes and bore or recess beyond the process's least wall; zero without a motor."""
-    if drive is None:
+    """Base between its holes and bore or recess beyond the least wall; zero without a motor, or with a sensor's."""
+    if drive is None or base_pattern.screws:
         return 0.0
     inside = np.fmax(motor_seat_radius, encoder_recess_radius)
     return motor_base_hole_radius - 0.5 * mount_screw_pilot - inside - minimum_wall
@@ -207,9 +202,13 @@ def encoder_ledge_reserve(angle_sensor: Encoder | None, motor_seat_radius: Scala
 
 
 @book.output("mm", _with_an_encoder("the base above the encoder's board is thinner than the process can make it"))
-def encoder_floor_reserve(angle_sensor: Encoder | None, motor_base_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
+def encoder_floor_reserve(
+    angle_sensor: Encoder | None, motor_base_thickness: Scalar, sensor_recess_depth: Scalar, minimum_wall: Scalar
+) -> Scalar:
     """Base above the encoder's board beyond the process's least wall; zero without an encoder."""
-    return 0.0 if angle_sensor is None else motor_base_thickness - angle_sensor.board_height - minimum_wall
+    if angle_sensor is None:
+        return 0.0
+    return motor_base_thickness - sensor_recess_depth - angle_sensor.board_height - minimum_wall
 
 
 @book.output("N")

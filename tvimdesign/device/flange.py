@@ -1,8 +1,12 @@
-"""The flange for a torque sensor: a ring under the floor with the threads, bore and pin hole of a standard pattern.
+"""The flange for a torque sensor, on which the joint stands: threads, bore and pin hole of a standard pattern.
 
-It stands between hub and the openings of the floor, from the floor down to the ground, so the sensor bears the module
-in place of its feet and measures what the joint hands on, without a gram more on the link. The retainer goes in and its
-screw is turned through the flange's bore, which centres the sensor's spigot. Screws come from below, out of the sensor.
+Without a motor it is a ring under the floor, between hub and the openings of the floor, down to the ground, so the
+sensor bears the module in place of its feet and measures what the joint hands on, without a gram more on the link. The
+retainer goes in and its screw is turned through the flange's bore, which centres the sensor's spigot.
+
+With a motor below the feet the pattern is in the base of the motor's housing (`drive.py`), which is then the joint's
+lower end, in place of the base's own holes; the sensor reads what the motor turns against. Bearings, retainer and the
+encoder's board go in through the bore. Screws come from below, out of the sensor.
 """
 
 from __future__ import annotations
@@ -18,6 +22,7 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.impedance import book as impedance
 from tvimdesign.device.layout import book as layout
+from tvimdesign.device.motor import Encoder, Motor
 from tvimdesign.device.rows import Rule, Scalar, at_least
 from tvimdesign.physics.shapes import ring
 
@@ -108,12 +113,30 @@ def flange_bore_radius(sensor_flange: Record | str, sensor_pattern: Pattern, sea
     return 0.0 if isinstance(sensor_flange, str) else sensor_pattern.centring_radius + seat_clearance
 
 
+@places.helper()
+def floor_pattern(sensor_pattern: Pattern, drive: Motor | None) -> Pattern:
+    """What the flange under the floor has: nothing where a motor stands there, whose base has the pattern."""
+    return sensor_pattern if drive is None else Pattern()
+
+
+@places.helper()
+def base_pattern(sensor_pattern: Pattern, drive: Motor | None) -> Pattern:
+    """What the base of the motor's housing has of the pattern; nothing without a motor."""
+    return Pattern() if drive is None else sensor_pattern
+
+
 @places.output("mm")
-def flange_outer_radius(sensor_flange: Record | str, sensor_pattern: Pattern, flange_wall: Scalar) -> Scalar:
-    """Outer radius of the flange: a wall beyond the wider of its holes; zero without a flange."""
-    if isinstance(sensor_flange, str):
+def sensor_recess_depth(base_pattern: Pattern, running_clearance: Scalar) -> Scalar:
+    """Recess for the sensor's spigot in the base of the motor's housing; zero without motor or sensor."""
+    return base_pattern.centring_depth + running_clearance if base_pattern.screws else 0.0
+
+
+@places.output("mm")
+def flange_outer_radius(floor_pattern: Pattern, flange_wall: Scalar) -> Scalar:
+    """Outer radius of the flange: a wall beyond the wider of its holes; zero without a flange, or with a motor."""
+    if not floor_pattern.screws:
         return 0.0
-    return sensor_pattern.pitch_radius + _half_hole(sensor_pattern) + flange_wall
+    return floor_pattern.pitch_radius + _half_hole(floor_pattern) + flange_wall
 
 
 @places.output("mm")
@@ -129,18 +152,17 @@ def _half_hole(pattern: Pattern) -> float:
 
 @supports.helper()
 def floor_span(
-    sensor_flange: Record | str, flange_outer_radius: Scalar, pcl_mean_radius: Scalar, placement_radius: Scalar
+    floor_pattern: Pattern, flange_outer_radius: Scalar, pcl_mean_radius: Scalar, placement_radius: Scalar
 ) -> tuple[Scalar, Scalar]:
     """Radii between which the floor hands the PCL's torque on [m]: out to the feet, or in to the flange."""
-    if isinstance(sensor_flange, str):
+    if not floor_pattern.screws:
         return pcl_mean_radius, placement_radius
     return flange_outer_radius, pcl_mean_radius
 
 
 @weights.output("mm^3")
 def flange_volume(
-    sensor_flange: Record | str,
-    sensor_pattern: Pattern,
+    floor_pattern: Pattern,
     flange_bore_radius: Scalar,
     flange_outer_radius: Scalar,
     flange_screw_depth: Scalar,
@@ -149,13 +171,17 @@ def flange_volume(
     hub_depth: Scalar,
 ) -> Scalar:
     """Volume the flange adds to the housing: its ring less its holes and less what of it is hub already."""
-    if isinstance(sensor_flange, str):
+    if not floor_pattern.screws:
         return 0.0
     in_hub = np.fmin(np.fmax(hub_radius, flange_bore_radius), flange_outer_radius)
     whole = ring(flange_bore_radius, flange_outer_radius).area * foot_height
     shared = ring(flange_bore_radius, in_hub).area * hub_depth
-    screws = sensor_pattern.screws * sensor_pattern.tap_drill**2 * flange_screw_depth
-    return whole - shared - 0.25 * np.pi * (screws + sensor_pattern.pin**2 * sensor_pattern.pin_depth)
+    return whole - shared - pattern_holes(floor_pattern, flange_screw_depth)
+
+
+def pattern_holes(pattern: Pattern, screw_depth: Scalar) -> Scalar:
+    """Volume of a pattern's holes for screws and pin [m^3]."""
+    return 0.25 * np.pi * (pattern.screws * pattern.tap_drill**2 * screw_depth + pattern.pin**2 * pattern.pin_depth)
 
 
 # --- rules -----------------------------------------------------------------------------------------------------------
@@ -166,33 +192,38 @@ def _where_there_is_one(reason: str) -> Rule:
     return at_least(0.0, reason, unless=("sensor_flange", WITHOUT))
 
 
-@rules.output("mm", _where_there_is_one("retainer and bearing do not go in through the sensor flange's bore"))
+@rules.output(
+    "mm", _where_there_is_one("what is put in through the bore for the sensor's spigot does not go: a larger pattern")
+)
 def flange_bore_gap(
     sensor_flange: Record | str,
+    drive: Motor | None,
     flange_bore_radius: Scalar,
     retainer_radius: Scalar,
     seat_radius: Scalar,
+    motor_seat_radius: Scalar,
+    encoder_recess_radius: Scalar,
     slip_clearance: Scalar,
 ) -> Scalar:
-    """Room for retainer and hub's bore inside the sensor flange's bore; zero without a flange."""
+    """Room in that bore around retainer and hub's bore, or the motor's bearings and board; zero without a flange."""
     if isinstance(sensor_flange, str):
         return 0.0
+    if drive is not None:
+        return flange_bore_radius - np.fmax(motor_seat_radius, encoder_recess_radius)
     return flange_bore_radius - np.fmax(retainer_radius, seat_radius) - slip_clearance
 
 
 @rules.output(
     "mm", _where_there_is_one("the sensor flange would close the pads' way out for wires and cold side's air")
 )
-def flange_channel_gap(
-    sensor_flange: Record | str, floor_opening_radius: Scalar, flange_outer_radius: Scalar
-) -> Scalar:
-    """Room between the sensor flange and the openings below the pads; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else floor_opening_radius - flange_outer_radius
+def flange_channel_gap(floor_pattern: Pattern, floor_opening_radius: Scalar, flange_outer_radius: Scalar) -> Scalar:
+    """Room between the sensor flange and the openings below the pads; zero without a flange, or with a motor."""
+    return floor_opening_radius - flange_outer_radius if floor_pattern.screws else 0.0
 
 
 @rules.output("mm", _where_there_is_one("the sensor flange would cover the springs' tang holes or their adjusters"))
 def flange_spring_gap(
-    sensor_flange: Record | str,
+    floor_pattern: Pattern,
     preload_adjuster: str,
     placement_radius: Scalar,
     spring_reach: Scalar,
@@ -201,8 +232,8 @@ def flange_spring_gap(
     slip_clearance: Scalar,
     flange_outer_radius: Scalar,
 ) -> Scalar:
-    """Room between the sensor flange and what springs take of the floor; zero without a flange."""
-    if isinstance(sensor_flange, str):
+    """Room between the sensor flange and what springs take of the floor; zero without a flange, or with a motor."""
+    if not floor_pattern.screws:
         return 0.0
     taken = spring_reach + tang_clearance if preload_adjuster == FIXED else adjuster_radius + slip_clearance
     return placement_radius - taken - flange_outer_radius
@@ -210,20 +241,26 @@ def flange_spring_gap(
 
 @rules.output(
     "mm",
-    _where_there_is_one("a hole of the sensor flange would open into a pad's seat: more foot_height, or less reach"),
+    _where_there_is_one(
+        "a hole for the sensor would open into a pad's seat (more foot_height, or less reach), or into the motor "
+        "(more motor_base_thickness)"
+    ),
 )
 def flange_seat_reserve(
     sensor_flange: Record | str,
     sensor_pattern: Pattern,
+    drive: Motor | None,
     foot_height: Scalar,
     solid_floor: Scalar,
+    motor_base_thickness: Scalar,
     flange_screw_depth: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor left above the sensor flange's holes beyond the process's least wall; zero without a flange."""
+    """Floor, or motor's base, left above the holes for a sensor beyond the least wall; zero without a flange."""
     if isinstance(sensor_flange, str):
         return 0.0
-    return foot_height + solid_floor - np.fmax(flange_screw_depth, sensor_pattern.pin_depth) - minimum_wall
+    high = foot_height + solid_floor if drive is None else motor_base_thickness
+    return high - np.fmax(flange_screw_depth, sensor_pattern.pin_depth) - minimum_wall
 
 
 @rules.output("mm", _where_there_is_one("the sensor's screws do not reach far enough into the flange to hold"))
@@ -235,9 +272,21 @@ def flange_thread_reserve(
 
 
 @rules.output("mm", _where_there_is_one("the sensor flange would split outside its holes"))
-def flange_wall_reserve(sensor_flange: Record | str, flange_wall: Scalar, minimum_wall: Scalar) -> Scalar:
-    """Sensor flange outside its holes beyond the process's least wall; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else flange_wall - minimum_wall
+def flange_wall_reserve(
+    sensor_flange: Record | str,
+    sensor_pattern: Pattern,
+    drive: Motor | None,
+    motor_outer_radius: Scalar,
+    flange_wall: Scalar,
+    minimum_wall: Scalar,
+) -> Scalar:
+    """Wall outside the holes for a sensor beyond the least, in a motor's base beyond `flange_wall`; zero without."""
+    if isinstance(sensor_flange, str):
+        return 0.0
+    if drive is None:
+        return flange_wall - minimum_wall
+    outside = motor_outer_radius - sensor_pattern.pitch_radius - _half_hole(sensor_pattern)
+    return outside - np.fmax(flange_wall, minimum_wall)
 
 
 @rules.output("mm", _where_there_is_one("the sensor flange would split between its holes and its bore"))
@@ -260,6 +309,32 @@ def flange_pin_wall_reserve(sensor_flange: Record | str, sensor_pattern: Pattern
 
 
 @rules.output("mm", _where_there_is_one("the sensor's spigot would meet the retainer's screw: more foot_height"))
-def flange_spigot_reserve(sensor_flange: Record | str, sensor_pattern: Pattern, retainer_gap: Scalar) -> Scalar:
-    """Room between the sensor's spigot and the retainer's screw; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else retainer_gap - sensor_pattern.centring_depth
+def flange_spigot_reserve(floor_pattern: Pattern, retainer_gap: Scalar) -> Scalar:
+    """Room between the sensor's spigot and the retainer's screw; zero without a flange, or with a motor."""
+    return retainer_gap - floor_pattern.centring_depth if floor_pattern.screws else 0.0
+
+
+@rules.output(
+    "mm",
+    _where_there_is_one("the groove for the encoder's wires would meet a hole for the sensor: turn flange_azimuth"),
+)
+def flange_groove_gap(
+    base_pattern: Pattern,
+    angle_sensor: Encoder | None,
+    flange_azimuth: Scalar,
+    motor_wire_width: Scalar,
+    minimum_wall: Scalar,
+) -> Scalar:
+    """Base between its holes for a sensor and the groove along x beyond the least wall; zero without that groove."""
+    if angle_sensor is None or not base_pattern.screws:
+        return 0.0
+    pitch = 2.0 * np.pi / base_pattern.screws
+    holes = [(index * pitch, base_pattern.tap_drill) for index in range(round(base_pattern.screws))]
+    apart: Scalar = np.inf
+    for azimuth, width in [*holes, (0.5 * pitch, base_pattern.pin)]:
+        along = base_pattern.pitch_radius * np.cos(flange_azimuth + azimuth)
+        beside = base_pattern.pitch_radius * np.sin(flange_azimuth + azimuth)
+        # The groove runs from the axis outwards: what stands behind the axis is as far from it as from the axis.
+        away = np.sqrt(np.fmin(along, 0.0) ** 2 + beside**2)
+        apart = np.fmin(apart, away - 0.5 * width)
+    return apart - 0.5 * motor_wire_width - minimum_wall
