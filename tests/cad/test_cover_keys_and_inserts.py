@@ -14,6 +14,7 @@ from tvimdesign.cad.assembly import drawn_part
 from tvimdesign.cad.assembly_note import steps_of
 from tvimdesign.cad.checks import interference_checks, size_checks
 from tvimdesign.cad.dimensions import Dimensions, dimensions
+from tvimdesign.cad.inspection.corners import corner_checks, round_corners
 from tvimdesign.cad.inspection.inspect import thread_checks
 from tvimdesign.cad.kinds import kind_of
 from tvimdesign.cad.shapes import turned
@@ -99,3 +100,16 @@ def test_a_screw_that_is_too_short_for_its_insert_is_found(dims: Dimensions, dra
 def test_steps_of_keys_are_written_where_there_are_keys() -> None:
     (step,) = [step for step in steps_of({"pcl_arc", "rotor"}) if "where" in step]
     assert step["where"] == ["key_count"]
+
+
+def test_a_cutter_comes_into_every_corner_of_a_milled_housing_with_a_cover() -> None:
+    design = design_of("milled", {"cover": "plate", "process": "machine_6061", "corner_radius": 1.0 * MM})
+    dims = dimensions(design)
+    assert broken_rules(design) == []
+    housing = drawn_part(dims, "housing")
+    assert housing.Volume() * 1e-9 == pytest.approx(design.values["housing_volume"], rel=1e-8)
+    checks = corner_checks("housing", housing, dims.corner_radius, dims.corner_depth_ratio)
+    assert [check.text for check in checks if check.level != "pass"] == []
+    beside = [one for one in round_corners(housing) if one.radius == pytest.approx(dims.cover_corner_radius)]
+    assert len(beside) == 8  # two beside each of four bosses
+    assert {round(one.depth, 6) for one in beside} == {round(dims.rim_level, 6)}

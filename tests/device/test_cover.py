@@ -17,13 +17,13 @@ MM = 1e-3
 TABLE = table_for("shear")
 RULES = (
     "cover_reserve", "cover_wall_reserve", "cover_depth_reserve", "cover_spring_gap", "cover_mount_gap",
-    "cover_link_gap", "cover_thread_reserve",
+    "cover_link_gap", "cover_thread_reserve", "cover_corner_reserve",
 )  # fmt: skip
 ROWS = (
     "envelope_height", "envelope_diameter", "rim_level", "pin_top_level", "cover_height", "link_bottom_level",
     "cover_volume", "cover_mass", "cover_screw_volume", "housing_volume", "housing_mass", "rotor_mass", "module_mass",
     "screws_mass", "cover_boss_radius", "housing_inner_radius", "housing_outer_radius", "parts_inertia",
-    "screw_length_misfit", *RULES,
+    "screw_length_misfit", "cover_corner_radius", *RULES,
 )  # fmt: skip
 
 
@@ -65,6 +65,9 @@ def test_cover_and_bosses_have_the_volume_of_their_points(bare: dict[str, float]
     x, y = np.meshgrid(inner + np.linspace(-boss, boss, 2001), np.linspace(-boss, boss, 2001))
     cell = (2.0 * boss / 2000) ** 2
     inside = cell * np.sum((np.hypot(x - inner, y) < boss) & (np.hypot(x, y) < inner))
+    # Printed corners of 0.2 mm: wall and boss meet nearly at right angles, where a fillet fills (1 - pi/4) r^2.
+    assert covered["cover_corner_radius"] == pytest.approx(0.2 * MM)
+    inside += 2.0 * (1.0 - 0.25 * np.pi) * (0.2 * MM) ** 2
     hole = np.pi * 0.8e-3**2 * (6.0 - 1.5 + 0.5) * MM
     higher = np.pi * (outer**2 - inner**2) * 0.4 * MM
     gained = covered["housing_volume"] - bare["housing_volume"]
@@ -99,6 +102,7 @@ def test_cover_and_bosses_have_the_volume_of_their_points(bare: dict[str, float]
             },
         ),
         ("cover_mount_gap", {"mount_boss_radius": 12.3 * MM}),
+        ("cover_corner_reserve", {"corner_radius": 15.0 * MM}),
         ("cover_link_gap", {"core_radius": 46.0 * MM}),
         ("cover_thread_reserve", {"cover_screw_length": 4.0 * MM}),
     ],
@@ -107,6 +111,16 @@ def test_a_cover_that_has_no_room_is_refused(rule: str, more: dict[str, float], 
     assert min(covered[name] for name in RULES) > 0.0
     broken = values_of("plate", **more)
     assert [name for name in RULES if broken[name] < 0.0] == [rule]
+
+
+def test_a_cutter_reaches_the_floor_in_the_corners_beside_the_bosses() -> None:
+    rows = ["cover_corner_radius", "rim_level", "corner_depth_ratio"]
+    text = "mode: shear\nmodule: {cover: plate, process: machine_6061}\n"
+    milled = TABLE.evaluate(given(read_study_text(text, "a test"), Catalog(), TABLE), rows)
+    assert milled["cover_corner_radius"] == pytest.approx(milled["rim_level"] / 3.0)  # a cutter cuts three radii deep
+    wide = TABLE.evaluate(module("plate", corner_radius=9.0 * MM), rows)
+    assert wide["cover_corner_radius"] == 9.0 * MM
+    assert TABLE.evaluate(module("none"), rows)["cover_corner_radius"] == 0.0
 
 
 def test_the_link_passes_the_screws_by_what_a_drawing_says(covered: dict[str, float]) -> None:

@@ -112,6 +112,22 @@ def test_a_disc_centred_on_a_circle_has_the_strips_of_it_that_lie_inside(radius:
     assert shapes.lens(radius, circle) == pytest.approx(disc + rest, rel=1e-8)
 
 
+@pytest.mark.parametrize("corner", [0.5e-3, 3e-3])
+def test_a_fillet_beside_a_disc_on_a_circle_has_the_area_of_its_points(corner: float) -> None:
+    disc, circle = 2.4e-3, 30e-3
+    # Its centre is as far from the disc's, on x, and from the circle's, as it touches both: two circles, met by hand.
+    x = (circle**2 + (circle - corner) ** 2 - (disc + corner) ** 2) / (2.0 * circle)
+    y = np.sqrt((circle - corner) ** 2 - x**2)
+    step = corner / 400.0
+    at_x, at_y = np.meshgrid(np.arange(x - corner, circle, step), np.arange(0.0, y + corner, step))
+    void = (np.hypot(at_x, at_y) < circle) & (np.hypot(at_x - circle, at_y) > disc)
+    # Between the rays from both centres to that of the fillet, and outside of its circle.
+    between = (at_y * x < at_x * y) & (at_y * (circle - x) > (circle - at_x) * y)
+    filled = void & between & (np.hypot(at_x - x, at_y - y) > corner)
+    assert shapes.lens_corner(disc, circle, corner) == pytest.approx(filled.sum() * step**2, rel=5e-3)
+    assert shapes.lens_corner(disc, circle, 0.0) == pytest.approx(0.0, abs=1e-18)
+
+
 def test_a_spoke_is_what_an_obround_adds_to_a_disc() -> None:
     b, rim, length = 3.5, 6.0, 20.0
     start = np.sqrt(rim**2 - b**2)  # where the strip leaves the disc

@@ -8,7 +8,7 @@ from math import atan2, hypot, pi, sqrt
 import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
-from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, slot, turned
+from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, rounded, slot, turned
 from tvimdesign.cad.springs import installed_coil
 
 LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
@@ -37,15 +37,14 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
     """
     floor_bottom = -dims.floor_thickness
     floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
-    ground, rim = floor_bottom - dims.foot_height, dims.rim_level
-    wall = ring(dims.housing_inner_radius, dims.housing_outer_radius, ground, rim)
+    ground = floor_bottom - dims.foot_height
     hub = cylinder(dims.hub_radius, dims.hub_bottom_level, dims.hub_top_level)
     posts, holes = spring_places(dims)
-    bosses, cover_holes = cover_places(dims)
+    walls, cover_holes = walls_and_cover_holes(dims, ground)
     feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
     mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
     flange, flange_holes = sensor_flange(dims)
-    body = join(floor, [wall, hub, *posts, *bosses, *feet, *flange, *added])
+    body = join(floor, [*walls, hub, *posts, *feet, *flange, *added])
     return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims), *flange_holes)
 
 
@@ -111,13 +110,15 @@ def between_springs(dims: Dimensions, radius: float) -> list[tuple[float, float]
     return [polar(radius, azimuth + half_pitch) for azimuth in dims.azimuths("spring_count")]
 
 
-def cover_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
-    """What stands inside the wall for a cover's screws, and their holes; nothing without a cover."""
+def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shape], list[cq.Shape]]:
+    """Skirt and wall, with bosses where there is a cover, and the holes for its screws."""
+    inner, outer, rim = dims.housing_inner_radius, dims.housing_outer_radius, dims.rim_level
     if not dims.cover_height:
-        return [], []
-    rim, axes = dims.rim_level, between_springs(dims, dims.housing_inner_radius)
+        return [ring(inner, outer, ground, rim)], []
+    axes = between_springs(dims, inner)
+    bossed = join(ring(inner, outer, 0, rim), [cylinder(dims.cover_boss_radius, 0, rim, at) for at in axes])
     holes = [cylinder(0.5 * dims.cover_screw_hole, rim - dims.cover_screw_depth, rim, at) for at in axes]
-    return [cylinder(dims.cover_boss_radius, 0, rim, at) for at in axes], holes
+    return [ring(inner, outer, ground, 0), rounded(bossed, dims.cover_corner_radius)], holes
 
 
 def notches(dims: Dimensions) -> list[cq.Shape]:

@@ -1,7 +1,8 @@
 """The cover: a plate on the housing's rim that closes the module around the core, or none.
 
 It is screwed to bosses that stand inside the housing's wall between the springs, where the feet are below. Above each
-foot it has a hole as wide as the foot, so that a driver comes to the screws that fix the housing. With a cover the rim
+foot it has a hole as wide as the foot, so that a driver comes to the screws that fix the housing. The corners beside
+the bosses are as round as a cutter of the process needs to be to reach the floor. With a cover the rim
 is a running clearance higher than the pins, and the link goes on top of it. What air between layer and cover does to
 the heat is not in the model.
 """
@@ -16,7 +17,7 @@ from tvimdesign.device.fastening import Joint, screwed_joint
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
 from tvimdesign.device.rows import Rule, Scalar, at_least
-from tvimdesign.physics.shapes import Section, disc_at, lens, ring
+from tvimdesign.physics.shapes import Section, disc_at, lens, lens_corner, ring
 
 PLATE = "plate"
 ONLY = ("cover", PLATE)
@@ -75,6 +76,14 @@ def cover_boss_radius(cover_screw_hole: Scalar, cover_screw_clearance: Scalar, c
     return 0.5 * np.fmax(cover_screw_hole, cover_screw_clearance) + cover_hole_wall
 
 
+@places.output("mm")
+def cover_corner_radius(
+    has_cover: Scalar, corner_radius: Scalar, corner_depth_ratio: Scalar, rim_level: Scalar
+) -> Scalar:
+    """Radius of the corners beside the cover's bosses, which are as deep as the wall is high; zero without a cover."""
+    return has_cover * np.fmax(corner_radius, rim_level / corner_depth_ratio)
+
+
 # --- weights ---------------------------------------------------------------------------------------------------------
 
 
@@ -82,13 +91,15 @@ def cover_boss_radius(cover_screw_hole: Scalar, cover_screw_clearance: Scalar, c
 def cover_bosses_volume(
     cover_screw_count: Scalar,
     cover_boss_radius: Scalar,
+    cover_corner_radius: Scalar,
     housing_inner_radius: Scalar,
     rim_level: Scalar,
     cover_screw_hole: Scalar,
     cover_screw_depth: Scalar,
 ) -> Scalar:
     """What the housing gains by the cover's bosses [m^3]: what stands inside its wall, less the screws' holes."""
-    inside = lens(cover_boss_radius, housing_inner_radius) * rim_level
+    corners = 2.0 * lens_corner(cover_boss_radius, housing_inner_radius, cover_corner_radius)
+    inside = (lens(cover_boss_radius, housing_inner_radius) + corners) * rim_level
     return cover_screw_count * (inside - 0.25 * np.pi * cover_screw_hole**2 * cover_screw_depth)
 
 
@@ -164,6 +175,14 @@ def cover_spring_gap(
     apart = np.sqrt(ahead**2 + (placement_radius * np.sin(half_pitch)) ** 2)
     taken = np.fmax(spring_reach + radial_clearance, adjuster_radius + slip_clearance)
     return has_cover * (apart - cover_boss_radius - taken)
+
+
+@rules.output("mm", _room("the corners beside the cover's bosses, as round as a cutter needs, would reach the springs"))
+def cover_corner_reserve(
+    has_cover: Scalar, spring_reach: Scalar, radial_clearance: Scalar, cover_corner_radius: Scalar
+) -> Scalar:
+    """Radius of springs with their clearance beyond that of those corners: what clears wall and boss clears them."""
+    return has_cover * (spring_reach + radial_clearance - cover_corner_radius)
 
 
 @rules.output("mm", _room("the cover's bosses stand in the way to the screws that fix the housing"))

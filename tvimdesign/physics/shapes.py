@@ -49,6 +49,25 @@ def lens(radius: Any, circle_radius: Any) -> Any:
     return b**2 * (0.5 * np.pi - half) + 2.0 * r**2 * half - 0.5 * b * np.sqrt(4.0 * r**2 - b**2)
 
 
+def lens_corner(radius: Any, circle_radius: Any, corner: Any) -> Any:
+    """Area [m^2] that a fillet fills in one of the two corners between such a disc and its circle, inside that circle.
+
+    The fillet's centre F is b + r from the disc's B and R - r from the circle's O; the law of cosines gives the angles
+    f at O and a at B of the triangle OBF. What lies between the rays OF and BF, both rims and F is a sector of the
+    circle, less the triangle, less the disc's part up to where both rims meet (d, e the angles there at O and B); a
+    sector of the fillet's circle is left empty:
+    R^2 f/2 - R (R - r) sin(f)/2 - b^2 (e - a)/2 - R^2 (d - sin d)/2 - r^2 (a + f)/2.
+    """
+    b, circle, r = radius, circle_radius, corner
+    rim, reach = circle - r, b + r
+    at_axis = np.arccos((circle**2 + rim**2 - reach**2) / (2.0 * circle * rim))
+    at_disc = np.arccos((circle**2 + reach**2 - rim**2) / (2.0 * circle * reach))
+    meet = 2.0 * np.arcsin(0.5 * b / circle)
+    disc = b**2 * (0.5 * (np.pi - meet) - at_disc) + circle**2 * (meet - np.sin(meet))
+    whole = circle**2 * at_axis - circle * rim * np.sin(at_axis)
+    return 0.5 * (whole - disc - r**2 * (at_axis + at_disc))
+
+
 def _half_strip(half_width: Any, radius: Any) -> Section:
     """The half strip |y| < b, x > 0 within a circle about the axis.
 
