@@ -8,7 +8,7 @@ from math import atan2, hypot, pi, sqrt
 import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
-from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, rounded, slot, turned
+from tvimdesign.cad.shapes import block, bossed_ring, cylinder, join, polar, ring, slot, turned
 from tvimdesign.cad.springs import installed_coil
 
 LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
@@ -116,9 +116,11 @@ def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shap
     if not dims.cover_height:
         return [ring(inner, outer, ground, rim)], []
     axes = between_springs(dims, inner)
-    bossed = join(ring(inner, outer, 0, rim), [cylinder(dims.cover_boss_radius, 0, rim, at) for at in axes])
+    half_pitch = pi / dims.count("spring_count")
+    azimuths = [azimuth + half_pitch for azimuth in dims.azimuths("spring_count")]
+    wall = bossed_ring((inner, outer), dims.cover_boss_radius, dims.cover_corner_radius, azimuths, (0, rim))
     holes = [cylinder(0.5 * dims.cover_screw_hole, rim - dims.cover_screw_depth, rim, at) for at in axes]
-    return [ring(inner, outer, ground, 0), rounded(bossed, dims.cover_corner_radius)], holes
+    return [ring(inner, outer, ground, 0), wall], holes
 
 
 def notches(dims: Dimensions) -> list[cq.Shape]:

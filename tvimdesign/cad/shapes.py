@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from math import cos, pi, sin
+from collections.abc import Iterable, Sequence
+from math import acos, cos, pi, sin
 
 import cadquery as cq
 from OCP.StdFail import StdFail_NotDone
@@ -63,6 +63,39 @@ def sector(inner: float, outer: float, span: float, bottom: float, top: float) -
         cq.Edge.makeLine(at(inner, first), at(outer, first)),
     ])  # fmt: skip
     return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+
+
+def bossed_ring(radii: Point, boss: float, corner: float, azimuths: Sequence[float], levels: Point) -> cq.Solid:
+    """Upright ring between two radii, with discs of radius `boss` on its inner circle and fillets beside them.
+
+    Its inner outline is drawn arc by arc, for the kernel's own fillet between two cylinders is no cylinder.
+    """
+    (inner, outer), (bottom, top) = radii, levels
+    _require(inner_radius=inner, width_of_a_ring=outer - inner, boss=boss, corner=corner, height=top - bottom)
+    rim, reach = inner - corner, boss + corner
+    # The centre of a fillet touches disc and circle: the law of cosines gives its azimuth beside the disc's.
+    beside = acos((inner**2 + rim**2 - reach**2) / (2.0 * inner * rim))
+
+    def at(radius: float, azimuth: float) -> cq.Vector:
+        return cq.Vector(*polar(radius, azimuth), bottom)
+
+    def fillet(azimuth: float, side: float) -> tuple[cq.Vector, cq.Vector, cq.Vector]:
+        """Where it touches the circle, its middle, and where it touches the disc."""
+        centre, out = at(rim, azimuth + side * beside), at(1.0, azimuth + side * beside) - at(0.0, 0.0)
+        towards = (at(inner, azimuth) - centre).normalized()
+        return centre + out * corner, centre + (out + towards).normalized() * corner, centre + towards * corner
+
+    edges = []
+    for azimuth, following in zip(azimuths, [*azimuths[1:], azimuths[0] + 2.0 * pi], strict=True):
+        before, after, later = fillet(azimuth, -1.0), fillet(azimuth, 1.0), fillet(following, -1.0)
+        edges += [
+            cq.Edge.makeThreePointArc(*before),
+            cq.Edge.makeThreePointArc(before[2], at(inner - boss, azimuth), after[2]),
+            cq.Edge.makeThreePointArc(*reversed(after)),
+            cq.Edge.makeThreePointArc(after[0], at(inner, 0.5 * (azimuth + following)), later[0]),
+        ]
+    outside = cq.Wire.makeCircle(outer, cq.Vector(0, 0, bottom), _UP)
+    return cq.Solid.extrudeLinear(outside, [cq.Wire.assembleEdges(edges)], cq.Vector(0, 0, top - bottom))
 
 
 def rounded(body: cq.Shape, radius: float) -> cq.Solid:
