@@ -13,6 +13,7 @@ from tvimdesign.cad.bom import Item
 from tvimdesign.cad.checks import _polar_moment, interference_checks
 from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.features import holes
+from tvimdesign.cad.inspection.corners import corner_checks
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.kinds import KINDS, TURNING, kind_of
 from tvimdesign.cad.workmanship import workmanship
@@ -64,6 +65,17 @@ def test_hub_and_housing_of_the_motor_are_one_sound_solid_each_and_as_heavy_as_t
     for kind in ("motor_hub", "motor_housing", "motor_retainer"):
         solid = drawn_part(dims, kind)
         assert solid.Volume() * 1e-9 == pytest.approx(design.values[f"{kind}_volume"], rel=1e-9), kind
+
+
+@pytest.mark.parametrize("process", ["print_petg", "machine_6061"])
+def test_the_spokes_of_the_motor_s_hub_leave_no_corner_that_a_cutter_cannot_cut(process: str) -> None:
+    design = design_of("driven", DRIVEN | {"process": process, "corner_radius": 1e-3})
+    dims = dimensions(design)
+    hub = drawn_part(dims, "motor_hub")
+    assert hub.Volume() * 1e-9 == pytest.approx(design.values["motor_hub_volume"], rel=1e-9)
+    checks = corner_checks("motor_hub", hub, dims.corner_radius, dims.corner_depth_ratio)
+    assert [check.text for check in checks if check.level != "pass"] == []
+    assert dims.motor_corner_radius == pytest.approx({"print_petg": 1.0, "machine_6061": 2.0}[process])  # 6 mm high
 
 
 def test_a_sensor_below_the_motor_has_its_pattern_in_the_base_and_its_recess_below_the_board() -> None:

@@ -142,7 +142,7 @@ def test_a_good_motor_mount_keeps_its_rules_and_each_is_broken_by_what_its_name_
     assert min(values_of(" ".join(RULES | ENCODER_RULES), **DRIVEN).values()) > -1e-12
     for rule, module in {
         "motor_retainer_gap": {"foot_height": "5.4 mm"},
-        "motor_foot_gap": {"placement_radius": "20.7 mm", "pin_radius_ratio": "0.2"},
+        "motor_foot_gap": {"placement_radius": "20.9 mm", "pin_radius_ratio": "0.2"},
         "motor_spoke_gap": {"mount_boss_radius": "15 mm"},
         "motor_spoke_wall_reserve": {"mount_boss_radius": "2.4 mm"},
         "mount_thread_reserve": {"mount_screw_length": "15 mm"},

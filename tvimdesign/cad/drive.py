@@ -9,7 +9,7 @@ import cadquery as cq
 
 from tvimdesign.cad.dimensions import Dimensions
 from tvimdesign.cad.parts import mounts, sensor_holes
-from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, slot, turned
+from tvimdesign.cad.shapes import block, cylinder, join, polar, ring, spoked_disc, turned
 from tvimdesign.device.drive import BASE_SCREWS
 
 Draw = Callable[[Dimensions], cq.Shape]
@@ -19,16 +19,19 @@ def hub(dims: Dimensions) -> cq.Shape:
     """Disc with a spoke to each of the housing's feet, barrel for the rotor, collar and journal; less screw holes."""
     bottom = dims.motor_plate_level
     top = bottom + dims.motor_plate_thickness
-    one = slot(dims.mount_boss_radius, dims.placement_radius, bottom, top)
     half_pitch = pi / dims.count("spring_count")
-    spokes = [turned(one, azimuth + half_pitch) for azimuth in dims.azimuths("spring_count")]
+    azimuths = [azimuth + half_pitch for azimuth in dims.azimuths("spring_count")]
+    plate = spoked_disc(
+        dims.motor_disc_radius, dims.mount_boss_radius, dims.placement_radius, dims.motor_corner_radius, azimuths,
+        (bottom, top),
+    )  # fmt: skip
     barrel = ring(dims.motor_barrel_radius, dims.motor_disc_radius, dims.motor_rotor_bottom_level, bottom)
     collar = cylinder(dims.motor_collar_radius, dims.stator_top_level, bottom)
     end = dims.motor_journal_level
     journal = cylinder(dims.motor_journal_radius, end, dims.stator_top_level)
     pilots = [cylinder(0.5 * dims.mount_screw_pilot, bottom, top, at) for at in mounts(dims)]
     pilot = cylinder(0.5 * dims.motor_screw_pilot, end, end + dims.motor_screw_depth)
-    body = join(cylinder(dims.motor_disc_radius, bottom, top), [*spokes, barrel, collar, journal])
+    body = join(plate, [barrel, collar, journal])
     return body.cut(pilot, *pilots)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import acos, cos, pi, sin
+from math import acos, cos, pi, sin, sqrt
 
 import cadquery as cq
 from OCP.StdFail import StdFail_NotDone
@@ -63,6 +63,44 @@ def sector(inner: float, outer: float, span: float, bottom: float, top: float) -
         cq.Edge.makeLine(at(inner, first), at(outer, first)),
     ])  # fmt: skip
     return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+
+
+def spoked_disc(
+    radius: float, half_width: float, length: float, corner: float, azimuths: Sequence[float], levels: Point
+) -> cq.Solid:
+    """Upright disc about the axis with spokes to `length` that end in half discs, and fillets where they begin."""
+    bottom, top = levels
+    _require(radius=radius, half_width=half_width, corner=corner, height=top - bottom)
+    # The centre of a fillet touches disc and spoke.
+    along = sqrt((radius + corner) ** 2 - (half_width + corner) ** 2)
+    touch, beside = radius / (radius + corner), half_width + corner
+
+    def at(x: float, y: float, azimuth: float) -> cq.Vector:
+        return cq.Vector(x * cos(azimuth) - y * sin(azimuth), x * sin(azimuth) + y * cos(azimuth), bottom)
+
+    def fillet(side: float, azimuth: float) -> tuple[cq.Vector, cq.Vector, cq.Vector]:
+        """Where it touches the disc, its middle, and where it touches the spoke."""
+        inwards = cq.Vector(-along, -side * beside, 0.0).normalized() + cq.Vector(0.0, -side, 0.0)
+        half = inwards.normalized() * corner
+        return (
+            at(touch * along, side * touch * beside, azimuth),
+            at(along + half.x, side * beside + half.y, azimuth),
+            at(along, side * half_width, azimuth),
+        )
+
+    edges = []
+    for azimuth, following in zip(azimuths, [*azimuths[1:], azimuths[0] + 2.0 * pi], strict=True):
+        before, after, later = fillet(-1.0, azimuth), fillet(1.0, azimuth), fillet(-1.0, following)
+        near, far = at(length, -half_width, azimuth), at(length, half_width, azimuth)
+        edges += [
+            cq.Edge.makeThreePointArc(*before),
+            cq.Edge.makeLine(before[2], near),
+            cq.Edge.makeThreePointArc(near, at(length + half_width, 0.0, azimuth), far),
+            cq.Edge.makeLine(far, after[2]),
+            cq.Edge.makeThreePointArc(*reversed(after)),
+            cq.Edge.makeThreePointArc(after[0], at(radius, 0.0, 0.5 * (azimuth + following)), later[0]),
+        ]
+    return cq.Solid.extrudeLinear(cq.Wire.assembleEdges(edges), [], cq.Vector(0, 0, top - bottom))
 
 
 def bossed_ring(radii: Point, boss: float, corner: float, azimuths: Sequence[float], levels: Point) -> cq.Solid:

@@ -44,6 +44,14 @@ def motor_disc_radius(drive: Motor | None, slip_clearance: Scalar) -> Scalar:
 
 
 @book.output("mm")
+def motor_corner_radius(
+    drive: Motor | None, corner_radius: Scalar, corner_depth_ratio: Scalar, motor_plate_thickness: Scalar
+) -> Scalar:
+    """Radius of the corners between the hub's disc and its spokes, which are as deep as it; zero without a motor."""
+    return 0.0 if drive is None else np.fmax(corner_radius, motor_plate_thickness / corner_depth_ratio)
+
+
+@book.output("mm")
 def motor_barrel_radius(drive: Motor | None, motor_disc_radius: Scalar, motor_hub_wall: Scalar) -> Scalar:
     """Inner radius of that barrel; zero without a motor."""
     return 0.0 if drive is None else motor_disc_radius - motor_hub_wall

@@ -11,7 +11,7 @@ from tvimdesign.device.drive import BASE_SCREWS
 from tvimdesign.device.flange import Pattern, pattern_holes
 from tvimdesign.device.motor import Encoder, Motor
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics.shapes import Section, disc_at, ring, ring_notch, spoke
+from tvimdesign.physics.shapes import Section, disc_at, inner_corner, ring, ring_notch, spoke
 
 book = Book(shared.group)
 _NOTHING = Section(0.0, 0.0)
@@ -31,6 +31,7 @@ def motor_hub_moments(
     motor_disc_radius: Scalar,
     motor_barrel_radius: Scalar,
     motor_collar_radius: Scalar,
+    motor_corner_radius: Scalar,
     motor_journal_radius: Scalar,
     motor_plate_thickness: Scalar,
     motor_plate_level: Scalar,
@@ -44,15 +45,17 @@ def motor_hub_moments(
     mount_screw_pilot: Scalar,
     placement_radius: Scalar,
 ) -> Section:
-    """Volume and its polar moment about the axis, of the motor's hub."""
+    """Volume and its polar moment about the axis, of the motor's hub; the spokes' corners count at the disc's rim."""
     if drive is None:
         return _NOTHING
     spokes = spoke(mount_boss_radius, motor_disc_radius, placement_radius) - disc_at(
         0.5 * mount_screw_pilot, placement_radius
     )
+    corners = 2.0 * inner_corner(motor_corner_radius, motor_disc_radius, mount_boss_radius)
     return _sum(
         (ring(0.0, motor_disc_radius), motor_plate_thickness),
         (spokes.times(spring_count), motor_plate_thickness),
+        (Section(corners, corners * motor_disc_radius**2).times(spring_count), motor_plate_thickness),
         (ring(motor_barrel_radius, motor_disc_radius), motor_plate_level - motor_rotor_bottom_level),
         (ring(0.0, motor_collar_radius), motor_plate_level - stator_top_level),
         (ring(0.0, motor_journal_radius), stator_top_level - motor_journal_level),

@@ -34,17 +34,26 @@ def motor_retainer_gap(drive: Motor | None, retainer_gap: Scalar, running_cleara
 
 
 @book.output("mm", _with_a_motor("the motor's hub is wider than the circle of the housing's feet: a smaller motor"))
-def motor_foot_gap(drive: Motor | None, placement_radius: Scalar, motor_disc_radius: Scalar) -> Scalar:
-    """Length of the motor hub's spokes from its disc to the middle of the feet; zero without a motor."""
-    return 0.0 if drive is None else placement_radius - motor_disc_radius
+def motor_foot_gap(
+    drive: Motor | None, placement_radius: Scalar, motor_disc_radius: Scalar, motor_corner_radius: Scalar
+) -> Scalar:
+    """Length of the motor hub's spokes from their corners at its disc to the feet's middle; zero without a motor."""
+    return 0.0 if drive is None else placement_radius - motor_disc_radius - motor_corner_radius
 
 
 @book.output("mm", _with_a_motor("the spokes of the motor's hub would meet outside its disc: a larger motor"))
 def motor_spoke_gap(
-    drive: Motor | None, motor_disc_radius: Scalar, spring_count: Scalar, mount_boss_radius: Scalar
+    drive: Motor | None,
+    motor_disc_radius: Scalar,
+    motor_corner_radius: Scalar,
+    spring_count: Scalar,
+    mount_boss_radius: Scalar,
 ) -> Scalar:
-    """Half of the gap between neighbouring spokes at the rim of the motor hub's disc; zero without a motor."""
-    return 0.0 if drive is None else motor_disc_radius * np.sin(np.pi / spring_count) - mount_boss_radius
+    """Half of the gap between the corners of neighbouring spokes of the motor hub's disc; zero without a motor."""
+    if drive is None:
+        return 0.0
+    centres = (motor_disc_radius + motor_corner_radius) * np.sin(np.pi / spring_count)
+    return centres - mount_boss_radius - motor_corner_radius
 
 
 @book.output("mm", _with_a_motor("the motor hub's spokes would split around their screws"))
