@@ -88,11 +88,13 @@ class Simulator:
         drives: Mapping[str, Drive] | None = None,
         stages: Collection[str] | None = None,
         stretches: Mapping[str, float] | None = None,
+        standing: Collection[str] | None = None,
     ) -> Switch:
         """Simulate the named stages (all unless given) and those they start from; the rest has infinite values.
 
         `drives` are currents by stage where they are not the constant ones of the inputs; `stretches` the lengths [s]
-        of time, by stage, that are sampled at a time at first.
+        of time, by stage, that are sampled at a time at first. The steady state is sought where it is wanted of the
+        stages that are left `standing` (all unless given).
         """
         values = dict.fromkeys(self.model.switch_names, np.inf)
         trajectories: dict[str, Trajectory] = {}
@@ -110,7 +112,8 @@ class Simulator:
             state = before.states[:, -1] if before else None
             found, trajectories[name] = simulator.run(inputs, drive, state, stretch)
             values |= found
-            balance = simulator.balance(inputs, trajectories[name]) if np.isfinite(found[stage.ends]) else None
+            settles = np.isfinite(found[stage.ends]) and (standing is None or name in standing)
+            balance = simulator.balance(inputs, trajectories[name]) if settles else None
             if balance is not None:
                 balances[name] = balance
                 values |= simulator.steady_values(inputs, balance)
@@ -307,29 +310,35 @@ class _StageSimulator:
         return values, Trajectory(times=times, states=states[:size], currents=drive.at(times))
 
     @cached_property
-    def _balances(self) -> tuple[Any, ...]:
-        """Finders of the state and current at which everything stays, with the ending event at zero.
-
-        Newton's full steps first: with shorter ones it may stop dead where half of the layer has molten.
-        """
+    def _standing(self) -> Any:
+        """The function (state and current, inputs) that is zero where everything stays and the ending event is due."""
         size = self.stage.state_size
         unknowns = ca.SX.sym("unknowns", size + 1)
         inputs = ca.SX.sym("inputs", len(self.model.names))
         state, drive = unknowns[:size], unknowns[size]
         gap = self.stage.watch([self.stage.stage.ends])(state, drive, inputs)
         equations = ca.vertcat(self.stage.rates(state, drive, inputs), gap)
-        standing = ca.Function("standing", [unknowns, inputs], [equations])
-        full = {"line_search": False, "max_iter": MOST_STEPS}
-        return tuple(ca.rootfinder("balance", "newton", standing, options) for options in (full, {}))
+        return ca.Function("standing", [unknowns, inputs], [equations])
+
+    @cached_property
+    def _by_full_steps(self) -> Any:
+        """Newton's method as it is: with shorter steps it may stop dead where half of the layer has molten."""
+        options = {"line_search": False, "max_iter": MOST_STEPS}
+        return ca.rootfinder("balance", "newton", self._standing, options)
+
+    @cached_property
+    def _by_shorter_steps(self) -> Any:
+        return ca.rootfinder("balance", "newton", self._standing)
 
     def balance(self, inputs: Array, trajectory: Trajectory) -> Array | None:
         """State and current that stay where the stage ended; None where the stage has no use of it or none exists."""
         if not self.stage.steadies:
             return None
         begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
-        for balance in self._balances:
-            with suppress(RuntimeError):  # Newton finds none: with such a cold side there is none
-                return np.asarray(balance(begin, inputs)).ravel()
+        with suppress(RuntimeError):
+            return np.asarray(self._by_full_steps(begin, inputs)).ravel()
+        with suppress(RuntimeError):  # Newton finds none: with such a cold side there is none
+            return np.asarray(self._by_shorter_steps(begin, inputs)).ravel()
         return None
 
     def steady_values(self, inputs: Array, balance: Array) -> dict[str, float]:
