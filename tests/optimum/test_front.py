@@ -13,7 +13,7 @@ from comparable import COMPRESSION, SHEAR
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.front import Front, trace_front
+from tvimdesign.solve.front import Front, completed, trace_front
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.run import Run
@@ -191,6 +191,18 @@ def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved) -
     assert notes.recalled == 6
     assert _numbers(again) == _numbers(whole)
     assert [point.values for point in again.points] == [point.values for point in whole.points]
+
+
+def test_a_front_knows_what_it_was_sought_by_and_once_completed_every_output(solved: Solved) -> None:
+    trade = solved.trade()
+    sought = trace_front(trade, (TIME, MASS), 3)
+    whole = completed(sought, trade)
+    for partly, point in zip(sought.points, whole.points, strict=True):
+        assert {TIME, MASS} <= partly.values.keys() < point.values.keys()
+        assert set(trade.optimizer.model.output_names) <= point.values.keys()
+        assert np.isfinite(point.values["stiffening_time"])
+        # What is simulated a second time with all that rides along is the same to the integration's tolerance.
+        assert point.values == pytest.approx(point.values | partly.values, rel=1e-3)
 
 
 def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -88,13 +88,13 @@ class Simulator:
         drives: Mapping[str, Drive] | None = None,
         stages: Collection[str] | None = None,
         stretches: Mapping[str, float] | None = None,
-        standing: Collection[str] | None = None,
+        wanted: Collection[str] | None = None,
     ) -> Switch:
         """Simulate the named stages (all unless given) and those they start from; the rest has infinite values.
 
         `drives` are currents by stage where they are not the constant ones of the inputs; `stretches` the lengths [s]
-        of time, by stage, that are sampled at a time at first. The steady state is sought where it is wanted of the
-        stages that are left `standing` (all unless given).
+        of time, by stage, that are sampled at a time at first. Of the stages' rows only those that are
+        `wanted` need be sought (all unless given), as steady states and each event take time of their own.
         """
         values = dict.fromkeys(self.model.switch_names, np.inf)
         trajectories: dict[str, Trajectory] = {}
@@ -110,9 +110,9 @@ class Simulator:
             simulator = self._stage(name)
             stretch = (stretches or {}).get(name, FIRST_STRETCH)
             state = before.states[:, -1] if before else None
-            found, trajectories[name] = simulator.run(inputs, drive, state, stretch)
+            found, trajectories[name] = simulator.run(inputs, drive, state, stretch, wanted)
             values |= found
-            settles = np.isfinite(found[stage.ends]) and (standing is None or name in standing)
+            settles = np.isfinite(found[stage.ends]) and simulator.stays(wanted)
             balance = simulator.balance(inputs, trajectories[name]) if settles else None
             if balance is not None:
                 balances[name] = balance
@@ -198,10 +198,12 @@ class _StageSimulator:
         return ca.vertcat(self.stage.rates(state, drive, inputs), self.stage.watch(watched)(state, drive, inputs))
 
     def run(
-        self, inputs: Array, drive: Drive, before: Array | None, stretch: float
+        self, inputs: Array, drive: Drive, before: Array | None, stretch: float, wanted: Collection[str] | None
     ) -> tuple[dict[str, float], Trajectory]:
-        """Simulate until every event has happened, nothing changes any more, or the horizon is over."""
-        found = _Found(dict.fromkeys(self._events, np.inf))
+        """Simulate until every event that is wanted has happened, nothing changes any more, or the horizon is over."""
+        ends = self.stage.stage.ends
+        sought = [name for name in self._events if wanted is None or name in wanted or name == ends]
+        found = _Found(dict.fromkeys(sought, np.inf))
         horizon = float(inputs[self.model.index["horizon"]])
         begin, constants = self._begin(inputs, before)
         time, length = 0.0, stretch
@@ -258,7 +260,7 @@ class _StageSimulator:
         time = when[0]
         seen: list[tuple[Array, float, Array]] = []
         for i, name in enumerate(self._events):
-            if np.isfinite(found.times[name]) or not np.any(watched[i] >= 0.0):
+            if np.isfinite(found.times.get(name, 0.0)) or not np.any(watched[i] >= 0.0):
                 continue
             same = [known[1:] for known in seen if np.array_equal(known[0], watched[i])]
             share, state = same[0] if same else self._crossing(stretch, constants, when, i, watched[i])
@@ -302,7 +304,7 @@ class _StageSimulator:
             watched = np.column_stack([watched[:, keep], np.asarray(now).ravel()])
         size = self.stage.state_size
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
-        values = dict(found.times)
+        values = dict.fromkeys(self._events, np.inf) | found.times
         for row, sampled in zip(self.stage.paths, watched[len(self._events) :], strict=True):
             # What a stage that never ends adds up to has no end either.
             whole = integrals.get(row.name, np.max(sampled))
@@ -330,10 +332,12 @@ class _StageSimulator:
     def _by_shorter_steps(self) -> Any:
         return ca.rootfinder("balance", "newton", self._standing)
 
+    def stays(self, wanted: Collection[str] | None) -> bool:
+        """Whether a steady state at the stage's end is of use."""
+        return any(wanted is None or row.name in wanted for row in self.stage.steadies)
+
     def balance(self, inputs: Array, trajectory: Trajectory) -> Array | None:
-        """State and current that stay where the stage ended; None where the stage has no use of it or none exists."""
-        if not self.stage.steadies:
-            return None
+        """State and current that stay where the stage ended; None where none exists."""
         begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
         with suppress(RuntimeError):
             return np.asarray(self._by_full_steps(begin, inputs)).ravel()
