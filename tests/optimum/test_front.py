@@ -129,10 +129,16 @@ def test_no_point_of_two_fronts_beats_one_of_the_other(pair: Front, triple: Fron
                 assert not all(there.values[name] < point.values[name] * 0.995 for name in (TIME, MASS, SIZE))
 
 
-def test_every_point_is_a_whole_design_that_keeps_what_the_study_requires(solved: Solved, pair: Front) -> None:
-    table = table_for(solved.study.mode)
-    for point in pair.points:
+def test_every_point_is_once_completed_a_whole_design_that_keeps_what_the_study_requires(
+    solved: Solved, pair: Front
+) -> None:
+    table, whole = table_for(solved.study.mode), completed(pair, solved.trade())
+    for partly, point in zip(pair.points, whole.points, strict=True):
+        assert {TIME, MASS} <= partly.values.keys() < point.values.keys()
         assert set(table.names(solved.study.operating_points)) <= point.values.keys()
+        assert np.isfinite(point.values["stiffening_time"])
+        # What is simulated a second time with all that rides along is the same to the integration's tolerance.
+        assert point.values == pytest.approx(point.values | partly.values, rel=1e-3)
         for requirement in solved.study.require:
             assert point.values[requirement.output] >= requirement.limit * (1.0 - 1e-5)
 
@@ -191,18 +197,6 @@ def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved) -
     assert notes.recalled == 6
     assert _numbers(again) == _numbers(whole)
     assert [point.values for point in again.points] == [point.values for point in whole.points]
-
-
-def test_a_front_knows_what_it_was_sought_by_and_once_completed_every_output(solved: Solved) -> None:
-    trade = solved.trade()
-    sought = trace_front(trade, (TIME, MASS), 3)
-    whole = completed(sought, trade)
-    for partly, point in zip(sought.points, whole.points, strict=True):
-        assert {TIME, MASS} <= partly.values.keys() < point.values.keys()
-        assert set(trade.optimizer.model.output_names) <= point.values.keys()
-        assert np.isfinite(point.values["stiffening_time"])
-        # What is simulated a second time with all that rides along is the same to the integration's tolerance.
-        assert point.values == pytest.approx(point.values | partly.values, rel=1e-3)
 
 
 def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> None:
