@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Input, Supplied, Table
+from tvimdesign.device import Input, Table
 from tvimdesign.errors import InputError
 from tvimdesign.study import Study, given
 from tvimdesign.units import format_quantity, from_si, pretty, to_si
@@ -64,8 +64,7 @@ def _behind(table: Table, name: str, sense: str) -> tuple[str, ...]:
 
 def on_switch(table: Table, output: str) -> bool:
     """Whether an output depends on how a switch runs."""
-    above = (output.partition("@")[0], *table.ancestors(output))
-    return any(isinstance(table.row(base), Supplied) for base in above)
+    return output.partition("@")[0] in table.behind_supplied
 
 
 def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
