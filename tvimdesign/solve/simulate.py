@@ -280,11 +280,19 @@ class _StageSimulator:
         steps = len(self._shares) - 1
         within = np.linspace(currents[first - 1], currents[first], steps + 1)
         close = self._stretch(stretch[:, first - 1], constants, length / steps, within)
-        near = self._watch(close, constants, within)[event]
-        last = max(int(np.argmax(near >= 0.0)), 1)
-        part = near[last - 1] / (near[last - 1] - near[last])
-        share = (first - 1 + (last - 1 + part) / steps) / steps
-        return float(share * length), close[:, last - 1] + part * (close[:, last] - close[:, last - 1])
+
+        def near(place: int) -> float:
+            return float(self._watched(close[: self.stage.state_size, place], within[place], constants)[event])
+
+        # Looking at a sample costs as much as integrating up to it, so few are looked at: by halves.
+        low, high = (0, near(0)), (steps, near(steps))
+        while high[0] - low[0] > 1:
+            middle = (low[0] + high[0]) // 2
+            value = near(middle)
+            low, high = (low, (middle, value)) if value >= 0.0 else ((middle, value), high)
+        part = low[1] / (low[1] - high[1])
+        share = (first - 1 + (low[0] + part) / steps) / steps
+        return float(share * length), close[:, low[0]] + part * (close[:, high[0]] - close[:, low[0]])
 
     def _summary(
         self, found: _Found, pieces: list[tuple[Array, Array, Array]], constants: Array, drive: Drive
