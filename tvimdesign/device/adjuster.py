@@ -17,7 +17,7 @@ from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
 from tvimdesign.device.rows import Rule, Scalar, at_least
 from tvimdesign.physics.friction import disc_torque
-from tvimdesign.physics.shapes import bar_across
+from tvimdesign.physics.shapes import Section, bar_across, disc_at, ring
 
 FIXED = "fixed"
 ONLY = ("preload_adjuster", "rotary")
@@ -87,8 +87,9 @@ def adjuster_screw_circle(placement_radius: Scalar) -> Scalar:
 
 
 @weights.helper()
-def spring_hole_area(
+def spring_hole_section(
     preload_adjuster: str,
+    placement_radius: Scalar,
     wire_diameter: Scalar,
     tang_clearance: Scalar,
     adjuster_radius: Scalar,
@@ -96,19 +97,27 @@ def spring_hole_area(
     adjuster_thickness: Scalar,
     adjuster_screw_clearance: Scalar,
     floor_thickness: Scalar,
-) -> Scalar:
-    """What a spring takes of the floor [m^2], on average over its thickness: the tang's hole, or pocket and screw's."""
+) -> Section:
+    """What a spring takes of the floor, on average over its thickness: the tang's hole, or pocket and screw's.
+
+    Either counts about the spring's axis, the hole of a tang without an extent of its own.
+    """
     if preload_adjuster == FIXED:
-        return np.pi * (0.5 * wire_diameter + tang_clearance) ** 2
-    pocket = (adjuster_radius + slip_clearance) ** 2 * adjuster_thickness
-    hole = (0.5 * adjuster_screw_clearance) ** 2 * (floor_thickness - adjuster_thickness)
-    return np.pi * (pocket + hole) / floor_thickness
+        area = ring(0.0, 0.5 * wire_diameter + tang_clearance).area
+    else:
+        pocket = ring(0.0, adjuster_radius + slip_clearance).area * adjuster_thickness
+        hole = ring(0.0, 0.5 * adjuster_screw_clearance).area * (floor_thickness - adjuster_thickness)
+        area = (pocket + hole) / floor_thickness
+    return Section(area, area * (placement_radius**2 + 0.5 * adjuster_radius**2))
 
 
 @weights.helper()
-def fixed_posts_volume(preload_adjuster: str, spring_count: Scalar, post_radius: Scalar, post_height: Scalar) -> Scalar:
-    """Volume of the spring posts that are part of the floor [m^3]."""
-    return 0.0 if preload_adjuster != FIXED else spring_count * np.pi * post_radius**2 * post_height
+def fixed_posts_moments(
+    preload_adjuster: str, spring_count: Scalar, post_radius: Scalar, post_height: Scalar, placement_radius: Scalar
+) -> Section:
+    """Volume and its polar moment about the axis, of the spring posts that are part of the floor."""
+    standing = spring_count * post_height if preload_adjuster == FIXED else 0.0
+    return disc_at(post_radius, placement_radius).times(standing)
 
 
 @weights.output("mm^3")

@@ -79,17 +79,21 @@ def cover_boss_radius(cover_screw_hole: Scalar, cover_screw_clearance: Scalar, c
 
 
 @weights.helper()
-def cover_bosses_volume(
+def cover_bosses_moments(
     cover_screw_count: Scalar,
     cover_boss_radius: Scalar,
     housing_inner_radius: Scalar,
     rim_level: Scalar,
     cover_screw_hole: Scalar,
     cover_screw_depth: Scalar,
-) -> Scalar:
-    """What the housing gains by the cover's bosses [m^3]: what stands inside its wall, less the screws' holes."""
+) -> Section:
+    """What the housing gains by the cover's bosses: what stands inside its wall, less the screws' holes.
+
+    Volume and its polar moment about the axis, as if all stood on the wall's inner radius.
+    """
     inside = lens(cover_boss_radius, housing_inner_radius) * rim_level
-    return cover_screw_count * (inside - 0.25 * np.pi * cover_screw_hole**2 * cover_screw_depth)
+    volume = cover_screw_count * (inside - 0.25 * np.pi * cover_screw_hole**2 * cover_screw_depth)
+    return Section(volume, volume * housing_inner_radius**2)
 
 
 @weights.helper()

@@ -10,18 +10,10 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.drive import BASE_SCREWS
 from tvimdesign.device.motor import Encoder, Motor
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics.shapes import Section, disc_at, ring, ring_notch, spoke
+from tvimdesign.physics.shapes import Section, disc_at, notch, ring, spoke, stacked
 
 book = Book(shared.group)
 _NOTHING = Section(0.0, 0.0)
-
-
-def _sum(*prisms: tuple[Section, Scalar]) -> Section:
-    """Volume and polar moment of flat shapes, each with its height."""
-    return Section(
-        sum(section.area * height for section, height in prisms),
-        sum(section.polar * height for section, height in prisms),
-    )
 
 
 @book.helper()
@@ -49,7 +41,7 @@ def motor_hub_moments(
     spokes = spoke(mount_boss_radius, motor_disc_radius, placement_radius) - disc_at(
         0.5 * mount_screw_pilot, placement_radius
     )
-    return _sum(
+    return stacked(
         (ring(0.0, motor_disc_radius), motor_plate_thickness),
         (spokes.times(spring_count), motor_plate_thickness),
         (ring(motor_barrel_radius, motor_disc_radius), motor_plate_level - motor_rotor_bottom_level),
@@ -96,11 +88,11 @@ def motor_housing_volume(
     )
     bore = ring(0.0, motor_seat_radius).area * (lower + drive.bearing_width) + ring(0.0, motor_lip_radius).area * lip
     screws = BASE_SCREWS * ring(0.0, 0.5 * mount_screw_pilot).area * motor_base_hole_depth
-    wires = ring_notch(0.5 * motor_wire_width, stator_seat_radius, motor_outer_radius) * motor_wire_depth
+    wires = notch(0.5 * motor_wire_width, stator_seat_radius, motor_outer_radius).area * motor_wire_depth
     whole = solid - bore - screws - wires
     if angle_sensor is None:
         return whole
-    groove = ring_notch(0.5 * motor_wire_width, encoder_recess_radius, motor_outer_radius)
+    groove = notch(0.5 * motor_wire_width, encoder_recess_radius, motor_outer_radius).area
     recess = ring(motor_seat_radius, encoder_recess_radius).area
     return whole - (recess + groove) * angle_sensor.board_height
 
@@ -117,7 +109,7 @@ def motor_retainer_moments(
     """Volume and its polar moment about the axis, of the motor's retainer."""
     if drive is None:
         return _NOTHING
-    return _sum(
+    return stacked(
         (ring(0.5 * motor_screw_clearance, motor_collar_radius), motor_retainer_floor),
         (ring(motor_sink_radius, motor_collar_radius), motor_retainer_thickness - motor_retainer_floor),
     )
@@ -140,7 +132,7 @@ def motor_screw_moments(
     """Volume and its polar moment about the axis, of the motor retainer's screw."""
     if drive is None:
         return _NOTHING
-    return _sum(
+    return stacked(
         (ring(0.0, 0.5 * motor_screw_pilot), motor_screw_length),
         (ring(0.0, 0.5 * motor_screw_head), motor_screw_head_height),
     )
@@ -165,7 +157,7 @@ def mount_screw_moments(
     """Volume and its polar moment about the axis, of the screws between housing and motor hub."""
     if drive is None:
         return _NOTHING
-    return _sum(
+    return stacked(
         (disc_at(0.5 * mount_screw_pilot, placement_radius).times(spring_count), mount_screw_length),
         (disc_at(0.5 * mount_screw_head, placement_radius).times(spring_count), mount_screw_head_height),
     )

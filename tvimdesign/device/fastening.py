@@ -25,7 +25,7 @@ from tvimdesign.device.gaps import MM
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
 from tvimdesign.device.rows import Rule, Scalar, at_least
-from tvimdesign.physics.shapes import Section, disc_at, ring
+from tvimdesign.physics.shapes import Section, disc_at, ring, stacked
 
 
 class Joint(NamedTuple):
@@ -142,9 +142,9 @@ def its_screw_moments(
     its_screw_head_height: Scalar,
 ) -> Section:
     """Volume of the {it} and its polar moment about the axis."""
-    shank = disc_at(0.5 * its_screw_pilot, its_screw_circle).times(its_screw_count * its_screw_length)
-    head = disc_at(0.5 * its_screw_head, its_screw_circle).times(its_screw_count * its_screw_head_height)
-    return Section(shank.area + head.area, shank.polar + head.polar)
+    shank = disc_at(0.5 * its_screw_pilot, its_screw_circle)
+    head = disc_at(0.5 * its_screw_head, its_screw_circle)
+    return stacked((shank, its_screw_count * its_screw_length), (head, its_screw_count * its_screw_head_height))
 
 
 def its_screw_volume(its_screw_moments: Section) -> Scalar:

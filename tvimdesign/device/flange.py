@@ -19,7 +19,7 @@ from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.impedance import book as impedance
 from tvimdesign.device.layout import book as layout
 from tvimdesign.device.rows import Rule, Scalar, at_least
-from tvimdesign.physics.shapes import ring
+from tvimdesign.physics.shapes import Section, ring
 
 WITHOUT = "none"
 
@@ -150,6 +150,12 @@ def flange_volume(
     shared = ring(flange_bore_radius, in_hub).area * hub_depth
     screws = sensor_pattern.screws * sensor_pattern.tap_drill**2 * flange_screw_depth
     return whole - shared - 0.25 * np.pi * (screws + sensor_pattern.pin**2 * sensor_pattern.pin_depth)
+
+
+@weights.helper()
+def flange_moments(flange_volume: Scalar, flange_bore_radius: Scalar, flange_outer_radius: Scalar) -> Section:
+    """Volume and its polar moment about the axis, of the flange, its volume spread over its ring."""
+    return Section(flange_volume, flange_volume * 0.5 * (flange_bore_radius**2 + flange_outer_radius**2))
 
 
 # --- rules -----------------------------------------------------------------------------------------------------------

@@ -9,97 +9,17 @@ from __future__ import annotations
 
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
-from tvimdesign.device.flange import Pattern
 from tvimdesign.device.motor import Motor
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics.shapes import Section, disc_at, notch, ring
+from tvimdesign.physics.shapes import Section
 
 book = Book(shared.group)
 
 
-@book.helper()
-def skirt_polar(
-    housing_inner_radius: Scalar,
-    housing_outer_radius: Scalar,
-    foot_height: Scalar,
-    notch_width: Scalar,
-    spring_count: Scalar,
-    mount_boss_radius: Scalar,
-    mount_hole: Scalar,
-    placement_radius: Scalar,
-) -> Scalar:
-    """Polar moment [m^5] of the housing below its floor: skirt, notches and feet."""
-    skirt = ring(housing_inner_radius, housing_outer_radius)
-    notches = notch(0.5 * notch_width, housing_inner_radius, housing_outer_radius).times(spring_count)
-    foot = disc_at(mount_boss_radius, placement_radius) - disc_at(0.5 * mount_hole, placement_radius)
-    return (skirt.polar - notches.polar + spring_count * foot.polar) * foot_height
-
-
-@book.helper()
-def hub_polar(
-    hub_radius: Scalar,
-    hub_top_level: Scalar,
-    hub_bottom_level: Scalar,
-    seat_radius: Scalar,
-    lip_radius: Scalar,
-    bearing_width: Scalar,
-) -> Scalar:
-    """Polar moment [m^5] of the hub."""
-    seats = 2.0 * bearing_width
-    between = hub_top_level - hub_bottom_level - seats
-    return ring(seat_radius, hub_radius).polar * seats + ring(lip_radius, hub_radius).polar * between
-
-
-@book.helper()
-def flange_polar(
-    flange_volume: Scalar, sensor_pattern: Pattern, flange_bore_radius: Scalar, flange_outer_radius: Scalar
-) -> Scalar:
-    """Polar moment [m^5] of a torque sensor's flange, its volume spread over its ring; zero without one."""
-    return flange_volume * 0.5 * (flange_bore_radius**2 + flange_outer_radius**2) if sensor_pattern.screws else 0.0
-
-
-@book.helper()
-def floor_polar(
-    hub_radius: Scalar,
-    housing_outer_radius: Scalar,
-    floor_thickness: Scalar,
-    spring_count: Scalar,
-    spring_hole_area: Scalar,
-    mount_hole: Scalar,
-    placement_radius: Scalar,
-    adjuster_radius: Scalar,
-    floor_openings_polar: Scalar,
-) -> Scalar:
-    """Polar moment [m^5] of the floor around the hub, less its holes and what the mode opens in it."""
-    disc = ring(hub_radius, housing_outer_radius).polar
-    at_spring = placement_radius**2 + 0.5 * adjuster_radius**2
-    hole = disc_at(0.5 * mount_hole, placement_radius).polar + spring_hole_area * at_spring
-    return (disc - spring_count * hole) * floor_thickness - floor_openings_polar
-
-
 @book.output("kg*mm^2")
-def housing_inertia(
-    skirt_polar: Scalar,
-    hub_polar: Scalar,
-    flange_polar: Scalar,
-    floor_polar: Scalar,
-    fixed_posts_volume: Scalar,
-    post_radius: Scalar,
-    placement_radius: Scalar,
-    housing_inner_radius: Scalar,
-    housing_outer_radius: Scalar,
-    rim_level: Scalar,
-    cover_bosses_volume: Scalar,
-    housing_vanes_polar: Scalar,
-    structure_density: Scalar,
-) -> Scalar:
+def housing_inertia(housing_moments: Section, structure_density: Scalar) -> Scalar:
     """Moment of inertia of the housing about the axis."""
-    wall = ring(housing_inner_radius, housing_outer_radius).polar * rim_level
-    posts = fixed_posts_volume * (placement_radius**2 + 0.5 * post_radius**2)
-    bosses = cover_bosses_volume * housing_inner_radius**2
-    standing = hub_polar + wall + posts + bosses + housing_vanes_polar
-    whole = skirt_polar + flange_polar + floor_polar + standing
-    return whole * structure_density
+    return housing_moments.polar * structure_density
 
 
 @book.output("kg*mm^2")
