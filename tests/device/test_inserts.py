@@ -96,8 +96,15 @@ def test_inserts_are_melted_into_plastic_and_not_into_metal() -> None:
     milled = values_of("insert_ground", process="machine_6061", thread_insert="heat_set")
     assert milled["insert_ground"] < rule.value
     assert values_of("insert_ground", process="machine_6061")["insert_ground"] == rule.value
-    for word, held in (("none", set()), ("heat_set", set(RULES))):
-        study = read_study_text(f"mode: shear\nmodule: {{thread_insert: {word}}}\n", "a test")
+    # A joint that the module does not have has no inserts to hold either.
+    bare = {"insert_ground", "link_insert_misfit", "retainer_insert_misfit"}
+    for module, held in (
+        ("thread_insert: none, cover: plate, preload_adjuster: rotary", set()),
+        ("thread_insert: heat_set", bare),
+        ("thread_insert: heat_set, cover: plate", bare | {"cover_insert_misfit"}),
+        ("thread_insert: heat_set, cover: plate, preload_adjuster: rotary", set(RULES)),
+    ):
+        study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test")
         assert {limit.output for limit in limits_of(study, TABLE)} & set(RULES) == held
 
 

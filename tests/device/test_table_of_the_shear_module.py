@@ -11,6 +11,7 @@ from support import USED_BY_PARTS, digits
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, Supplied, Table, table_for
+from tvimdesign.device.rows import Extra
 from tvimdesign.units import to_si
 
 TABLE = table_for("shear")
@@ -39,6 +40,25 @@ def test_default_of_an_input_lies_within_its_limits(row: Input, inputs: dict[str
     found = [value for name, value in inputs.items() if name.partition("@")[0] == row.name]
     assert found
     assert all(row.lower <= value <= row.upper for value in found)
+
+
+def test_every_extra_is_a_choice_that_has_the_word_for_none() -> None:
+    extras = {extra for row in TABLE.outputs for extra in row.extras}
+    assert {extra.choice for extra in extras} >= {"cover", "preload_adjuster", "sensor_flange", "motor", "encoder"}
+    words = {row.name: row.options for row in TABLE.choices}
+    assert [extra for extra in extras if extra.without not in words[extra.choice]] == []
+
+
+def test_a_row_of_an_extra_is_computed_and_held_only_where_the_module_has_it() -> None:
+    extras = (Extra("cover", "none"), Extra("motor", "none"))
+    row = Output(
+        name="gap", unit="mm", description="", group="", function=lambda width: 2.0 * width, extras=extras, otherwise=7.0
+    )
+    assert row.needs == ("cover", "motor", "width")
+    assert row.call(["plate", "a record", 3.0]) == 6.0
+    assert row.call(["none", "a record", None]) == row.call(["plate", "none", None]) == 7.0
+    assert row.exists({"cover": "plate", "motor": None})
+    assert not row.exists({"cover": "plate", "motor": "none"})
 
 
 def test_every_input_and_choice_is_used() -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
-from tvimdesign.device.motor import Motor
+from tvimdesign.device.motor import WITH_MOTOR, Motor
 from tvimdesign.device.rows import Scalar
 from tvimdesign.physics.shapes import Section
 
@@ -22,9 +22,8 @@ def housing_inertia(housing_moments: Section, structure_density: Scalar) -> Scal
     return housing_moments.polar * structure_density
 
 
-@book.output("kg*mm^2")
+@book.output("kg*mm^2", extras=WITH_MOTOR)
 def driven_inertia(
-    drive: Motor | None,
     drive_inertia: Scalar,
     housing_inertia: Scalar,
     springs_mass: Scalar,
@@ -44,8 +43,6 @@ def driven_inertia(
     Springs and adjusters as rings about the springs' axes, PCL and pads spread over their ring; a cover's screws not
     counted, nor the outer rings of the module's bearings, near the axis.
     """
-    if drive is None:
-        return 0.0
     at_springs = placement_radius**2 + 0.25 * coil_diameter**2
     at_pcl = 0.5 * (pcl_inner_radius**2 + pcl_outer_radius**2)
     carried = (springs_mass + adjusters_mass) * at_springs + (pcl_mass + peltier_mass) * at_pcl
@@ -53,7 +50,7 @@ def driven_inertia(
     return drive_inertia + housing_inertia + cover + carried
 
 
-@book.output("rad/s^2")
-def motor_acceleration(drive: Motor | None, driven_inertia: Scalar) -> Scalar:
+@book.output("rad/s^2", extras=WITH_MOTOR)
+def motor_acceleration(drive: Motor, driven_inertia: Scalar) -> Scalar:
     """Acceleration of the housing by the motor's continuous torque while the link is free; zero without a motor."""
-    return 0.0 if drive is None else drive.continuous_torque / driven_inertia
+    return drive.continuous_torque / driven_inertia

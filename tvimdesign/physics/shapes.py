@@ -26,6 +26,9 @@ class Section(NamedTuple):
         return Section(count * self.area, count * self.polar)
 
 
+NOTHING = Section(0.0, 0.0)
+
+
 def stacked(*prisms: tuple[Section, Any]) -> Section:
     """Volume [m^3] and polar moment of volume about the axis [m^5] of flat shapes, each with its height [m].
 

@@ -50,8 +50,8 @@ def limits_of(study: Study, table: Table) -> list[Limit]:
     taken = {(limit.output, limit.sense) for limit in own}
     options = {row.name: study.module.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
     for row in table.outputs:
-        for rule in row.rules:
-            if (row.name, rule.sense) not in taken and rule.applies(options):
+        for rule in row.rules if row.exists(options) else ():
+            if (row.name, rule.sense) not in taken:
                 own.append(make_limit(table, row.name, rule.sense, rule.value, rule.reason))
     return own
 
