@@ -52,8 +52,9 @@ def test_every_extra_is_a_choice_that_has_the_word_for_none() -> None:
 def test_a_row_of_an_extra_is_computed_and_held_only_where_the_module_has_it() -> None:
     extras = (Extra("cover", "none"), Extra("motor", "none"))
     row = Output(
-        name="gap", unit="mm", description="", group="", function=lambda width: 2.0 * width, extras=extras, otherwise=7.0
-    )
+        name="gap", unit="mm", description="", group="", function=lambda width: 2.0 * width,
+        extras=extras, otherwise=7.0,
+    )  # fmt: skip
     assert row.needs == ("cover", "motor", "width")
     assert row.call(["plate", "a record", 3.0]) == 6.0
     assert row.call(["none", "a record", None]) == row.call(["plate", "none", None]) == 7.0
