@@ -27,6 +27,11 @@ def test_sector_is_its_thin_arcs() -> None:
     assert shapes.sector(span, inner, outer) == pytest.approx((area, polar), rel=1e-9)
 
 
+def test_four_sectors_of_49_degrees_have_the_papers_contact_area() -> None:
+    # Exley et al., table I: 1579.2 mm^2. The arcs from 26 to 40 mm are the reference layout.
+    assert shapes.sector(4.0 * np.radians(49.0), 26e-3, 40e-3).area == pytest.approx(1579.2e-6, rel=5e-3)
+
+
 def test_ring_is_a_disc_less_a_disc() -> None:
     disc = by_strips(lambda x: np.sqrt(40e-3**2 - x**2), -40e-3, 40e-3)
     hole = by_strips(lambda x: np.sqrt(26e-3**2 - x**2), -26e-3, 26e-3)

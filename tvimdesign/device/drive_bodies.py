@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from tvimdesign.catalog import Record
-from tvimdesign.device.bearing import BEARINGS
+from tvimdesign.device.bearing import BEARINGS, bearing_inner_section, bearings_inertia
 from tvimdesign.device.bearing import bearing_density as density_as_a_ring
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
 from tvimdesign.device.drive import BASE_SCREWS
+from tvimdesign.device.fastening import its_screw_moments
 from tvimdesign.device.motor import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
 from tvimdesign.device.rows import Scalar
 from tvimdesign.physics.shapes import NOTHING, Section, disc_at, notch, ring, spoke, stacked
@@ -120,10 +121,7 @@ def motor_screw_moments(
     motor_screw_head_height: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the motor retainer's screw."""
-    return stacked(
-        (ring(0.0, 0.5 * motor_screw_pilot), motor_screw_length),
-        (ring(0.0, 0.5 * motor_screw_head), motor_screw_head_height),
-    )
+    return its_screw_moments(1.0, 0.0, motor_screw_pilot, motor_screw_length, motor_screw_head, motor_screw_head_height)
 
 
 @book.output("mm^3")
@@ -142,9 +140,8 @@ def mount_screw_moments(
     mount_screw_head_height: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the screws between housing and motor hub."""
-    return stacked(
-        (disc_at(0.5 * mount_screw_pilot, placement_radius).times(spring_count), mount_screw_length),
-        (disc_at(0.5 * mount_screw_head, placement_radius).times(spring_count), mount_screw_head_height),
+    return its_screw_moments(
+        spring_count, placement_radius, mount_screw_pilot, mount_screw_length, mount_screw_head, mount_screw_head_height
     )
 
 
@@ -264,8 +261,8 @@ def drive_inertia(
     """
     retainer = motor_retainer_moments.polar * structure_density
     screws = motor_screw_moments.polar * motor_screw_density + mount_screw_moments.polar * mount_screw_density
-    inner = ring(drive.bearing_bore, 0.5 * (drive.bearing_bore + drive.bearing_radius)).polar * drive.bearing_width
-    rings = BEARINGS * inner * motor_bearing_density
+    inner = bearing_inner_section(drive.bearing_bore, drive.bearing_radius)
+    rings = bearings_inertia(inner, drive.bearing_width, motor_bearing_density)
     whole = drive.rotor_inertia + motor_hub_inertia + retainer + screws + rings
     if angle_sensor is None:
         return whole

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.bearing import BEARINGS
+from tvimdesign.device.bearing import BEARINGS, bearing_load
 from tvimdesign.device.book import Book
 from tvimdesign.device.flange import WITH_FLANGE
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.hold import book as hold
 from tvimdesign.device.motor import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
 from tvimdesign.device.rows import Rule, Scalar, at_least
-from tvimdesign.physics import structure
 
 book, torques = Book(gaps.group, WITH_MOTOR), Book(hold.group, WITH_MOTOR)
 books = (book, torques)
@@ -198,9 +197,10 @@ def motor_bearing_load(
     motor_retainer_level: Scalar,
 ) -> Scalar:
     """Force on the motor's upper bearing of a force at the link's end that the joint just holds; zero without one."""
-    spread = stator_top_level - motor_retainer_level - drive.bearing_width
-    height = link_bottom_level + 0.5 * link_thickness - (stator_top_level - 0.5 * drive.bearing_width)
-    return structure.overhung_load(holding_torque / link_length, height, spread)
+    return bearing_load(
+        holding_torque, link_length, link_bottom_level, link_thickness, stator_top_level, motor_retainer_level,
+        drive.bearing_width,
+    )  # fmt: skip
 
 
 _DENTS = "a force at the link's end that the joint just holds would dent the races of the motor's bearings"

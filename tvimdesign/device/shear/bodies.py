@@ -5,16 +5,21 @@ from __future__ import annotations
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics import layer
 from tvimdesign.physics.shapes import Section, corners, sector, stacked
 
 book = Book(shared.group)
 
 
+@book.helper()
+def pcl_section(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Section:
+    """Plan view of all PCL arcs together."""
+    return sector(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+
+
 @book.output("mm^2", headline=True)
-def pcl_area(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+def pcl_area(pcl_section: Section) -> Scalar:
     """Contact area of all PCL arcs together."""
-    return layer.area(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+    return pcl_section.area
 
 
 @book.output("mm^3")
