@@ -108,6 +108,19 @@ def test_inserts_are_melted_into_plastic_and_not_into_metal() -> None:
         assert {limit.output for limit in limits_of(study, TABLE)} & set(RULES) == held
 
 
+def test_a_process_that_says_nothing_else_holds_no_rule_of_inserts() -> None:
+    """Whether threads are in inserts is left to the process's record where a study does not say it."""
+    study = read_study_text("mode: shear\n", "a test")
+    chosen = given(study, Catalog(), TABLE)
+    for word, held in (
+        ("none", set()),
+        ("heat_set", {"insert_ground", "link_insert_misfit", "retainer_insert_misfit"}),
+    ):
+        limits = limits_of(study, TABLE, chosen | {"thread_insert": word})
+        assert {limit.output for limit in limits} & set(RULES) == held
+    assert chosen["thread_insert"] == "none"
+
+
 @pytest.mark.parametrize("mode", MODES)
 def test_an_insert_that_is_not_asked_for_is_refused(mode: str) -> None:
     study = read_study_text(f"mode: {mode}\nmodule:\n  link_insert: heat_set_m3\n", "a test")

@@ -52,7 +52,7 @@ def ranges_of(study: Study, catalog: Catalog, table: Table) -> Ranges:
     model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
     driven = {table.stage(stage).drive for stage in study.profile.pieces()}
     ends = {name: _ends(vary) for name, vary in study.vary.items() if name in model.index and name not in driven}
-    limits = tuple(limit for limit in limits_of(study, table) if not on_switch(table, limit.output))
+    limits = tuple(limit for limit in limits_of(study, table, model.words) if not on_switch(table, limit.output))
     low, high = (np.array([end[i] for end in ends.values()]) for i in (0, 1))
     return Ranges(table, model, tuple(ends), low, high, limits)
 

@@ -40,15 +40,20 @@ class Limit:
         return beyond / self.scale
 
 
-def limits_of(study: Study, table: Table) -> list[Limit]:
-    """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense."""
+def limits_of(study: Study, table: Table, chosen: Mapping[str, Any] | None = None) -> list[Limit]:
+    """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense.
+
+    `chosen` are records and options by name, so that rules of what the module lacks are left out; without them only
+    those are that the study itself says it lacks.
+    """
     own = [
         make_limit(table, output, r.sense, r.limit, "require")
         for r in study.require
         for output in _behind(table, r.output, r.sense)
     ]
     taken = {(limit.output, limit.sense) for limit in own}
-    options = {row.name: study.module.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    said = study.module if chosen is None else chosen
+    options = {row.name: said.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
     for row in table.outputs:
         for rule in row.rules if row.exists(options) else ():
             if (row.name, rule.sense) not in taken:
