@@ -38,21 +38,21 @@ places.record(
 
 
 class Pattern(NamedTuple):
-    """What a flange has by its record, lengths [m]."""
+    """What a flange has by its record, lengths [m]; without one all is zero."""
 
-    screws: float
-    pitch_radius: float
-    thread: float
-    tap_drill: float
-    centring_radius: float
-    centring_depth: float
-    pin: float
-    pin_depth: float
+    screws: float = 0.0
+    pitch_radius: float = 0.0
+    thread: float = 0.0
+    tap_drill: float = 0.0
+    centring_radius: float = 0.0
+    centring_depth: float = 0.0
+    pin: float = 0.0
+    pin_depth: float = 0.0
 
 
-@places.helper(otherwise=None)
+@places.helper(otherwise=Pattern())
 def sensor_pattern(sensor_flange: Record) -> Pattern:
-    """What the chosen pattern asks of the flange; None without one."""
+    """What the chosen pattern asks of the flange."""
     value = sensor_flange.value
     return Pattern(
         screws=value("screw_count"),
