@@ -50,6 +50,7 @@ class Book:
                     source=_of_record(record) if record else f"{entry['status']}: {entry['source']}",
                     record=record,
                     mode=entry.get("mode"),
+                    extras=(Extra(*entry["extra"]),) if "extra" in entry else (),
                 )
             )
 
@@ -71,6 +72,7 @@ class Book:
         description: str,
         only: tuple[str, str, str] | None = None,
         others: tuple[str, ...] = (),
+        extras: tuple[Extra, ...] = (),
     ) -> None:
         """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit.
 
@@ -80,7 +82,7 @@ class Book:
         word, record = (default, None) if isinstance(default, str) else ("", default)
         row = Choice(
             name=name, description=description, group=self.group, default=word, record=record, shelf=shelf, only=only,
-            options=others,
+            options=others, extras=extras,
         )  # fmt: skip
         self.rows.append(row)
 

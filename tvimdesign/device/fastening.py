@@ -66,7 +66,7 @@ def screwed_joint(joint: Joint) -> tuple[Book, Book, Book]:
         places.property(f"{name}_screw_{row}", unit, (f"{name}_screw", field), f"{description} of the {words}")
     places.record(
         f"{name}_insert", "inserts", (f"{name}_screw", "insert"),
-        f"Insert for the {words} where `thread_insert` is heat_set", others=(NO_INSERT,),
+        f"Insert for the {words} where `thread_insert` is heat_set", others=(NO_INSERT,), extras=WITH_INSERTS,
     )  # fmt: skip
     places.alike(name, words, its_thread)
     places.alike(name, words, its_screw_hole, "mm")

@@ -17,9 +17,9 @@ book = Book("Layout", WITH_MOTOR)
 """The layout's own room asks for the motor, so its name is not taken from there."""
 
 book.record("motor", "motors", WITHOUT, "Frameless motor that turns the module's housing, or none", others=(WITHOUT,))
-book.record("encoder", "encoders", WITHOUT, "Encoder of that motor, or none", others=(WITHOUT,))
-book.record("motor_bearing", "bearings", "ball_6802", "Ball bearings of that motor, two of a kind")
-book.record("motor_screw", "screws", "iso_7380_m3", "Screw that holds that motor's retainer")
+book.record("encoder", "encoders", WITHOUT, "Encoder of that motor, or none", others=(WITHOUT,), extras=WITH_MOTOR)
+book.record("motor_bearing", "bearings", "ball_6802", "Ball bearings of that motor, two of a kind", extras=WITH_MOTOR)
+book.record("motor_screw", "screws", "iso_7380_m3", "Screw that holds that motor's retainer", extras=WITH_MOTOR)
 for screw, words in (("motor_screw", "motor's retainer screw"), ("mount_screw", "screws in the housing's feet")):
     for name, unit, field, description in (
         ("diameter", "mm", "nominal_diameter", "Nominal diameter"),

@@ -73,6 +73,8 @@ class Input:
     """(choice, field): where the default comes from when the study does not set it."""
     mode: str | None = None
     """The one mode that has it, where not all have."""
+    extras: tuple[Extra, ...] = ()
+    """What a module must have for it to be of any effect."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,6 +92,8 @@ class Choice:
     """(choice, word): where the default comes from, of a choice that stands before this one."""
     only: tuple[str, str, str] | None = None
     """(word, value, reason): a record fits only if its word has that value."""
+    extras: tuple[Extra, ...] = ()
+    """What a module must have for it to be of any effect."""
 
 
 def its_name(name: str, of: str) -> str:
