@@ -72,10 +72,10 @@ def test_angle_and_set_are_those_of_radau(spectrum: str, time: float) -> None:
 
 def test_load_that_has_just_come_on_is_shared_by_springs_and_the_branch() -> None:
     # 450 behind 919 is 302.1 N*m/rad, beside 5.61.
-    angle = hold.first_angle(LOAD, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
-    assert angle == pytest.approx(0.583 / 307.70, rel=1e-4)
+    borne = hold.first_torque(LOAD, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
+    assert borne == pytest.approx(0.583 * 302.09 / 307.70, rel=1e-4)
     later = hold.held(LOAD, 1e-9, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)]).angle
-    assert later == pytest.approx(angle, rel=1e-6)
+    assert LOAD - SPRINGS * later == pytest.approx(borne, rel=1e-6)
 
 
 def test_spectrum_that_does_not_relax_is_not_set_and_one_that_has_follows_the_link() -> None:

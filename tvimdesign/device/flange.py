@@ -18,12 +18,14 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.impedance import book as impedance
 from tvimdesign.device.layout import book as layout
-from tvimdesign.device.rows import Rule, Scalar, at_least
-from tvimdesign.physics.shapes import ring
+from tvimdesign.device.rows import Extra, Scalar, at_least
+from tvimdesign.physics.shapes import NOTHING, Section, ring
 
 WITHOUT = "none"
+WITH_FLANGE = (Extra("sensor_flange", WITHOUT),)
 
-places, weights, rules, supports = Book(layout.group), Book(bodies.group), Book(gaps.group), Book(impedance.group)
+places, weights = Book(layout.group, WITH_FLANGE), Book(bodies.group, WITH_FLANGE)
+rules, supports = Book(gaps.group, WITH_FLANGE), Book(impedance.group)
 books = (places, weights, rules, supports)
 
 places.record(
@@ -48,11 +50,9 @@ class Pattern(NamedTuple):
     pin_depth: float = 0.0
 
 
-@places.helper()
-def sensor_pattern(sensor_flange: Record | str) -> Pattern:
+@places.helper(otherwise=Pattern())
+def sensor_pattern(sensor_flange: Record) -> Pattern:
     """What the chosen pattern asks of the flange."""
-    if isinstance(sensor_flange, str):
-        return Pattern()
     value = sensor_flange.value
     return Pattern(
         screws=value("screw_count"),
@@ -97,23 +97,21 @@ def sensor_pin_depth(sensor_pattern: Pattern) -> Scalar:
 
 
 @places.output("mm")
-def flange_bore_radius(sensor_flange: Record | str, sensor_pattern: Pattern, seat_clearance: Scalar) -> Scalar:
+def flange_bore_radius(sensor_pattern: Pattern, seat_clearance: Scalar) -> Scalar:
     """Radius of the flange's bore, into which the sensor's spigot fits; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else sensor_pattern.centring_radius + seat_clearance
+    return sensor_pattern.centring_radius + seat_clearance
 
 
 @places.output("mm")
-def flange_outer_radius(sensor_flange: Record | str, sensor_pattern: Pattern, flange_wall: Scalar) -> Scalar:
+def flange_outer_radius(sensor_pattern: Pattern, flange_wall: Scalar) -> Scalar:
     """Outer radius of the flange: a wall beyond the wider of its holes; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     return sensor_pattern.pitch_radius + _half_hole(sensor_pattern) + flange_wall
 
 
 @places.output("mm")
-def flange_screw_depth(sensor_flange: Record | str, flange_screw_reach: Scalar, screw_tip_room: Scalar) -> Scalar:
+def flange_screw_depth(flange_screw_reach: Scalar, screw_tip_room: Scalar) -> Scalar:
     """Depth of the holes for the sensor's screws; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else flange_screw_reach + screw_tip_room
+    return flange_screw_reach + screw_tip_room
 
 
 def _half_hole(pattern: Pattern) -> float:
@@ -133,7 +131,6 @@ def floor_span(
 
 @weights.output("mm^3")
 def flange_volume(
-    sensor_flange: Record | str,
     sensor_pattern: Pattern,
     flange_bore_radius: Scalar,
     flange_outer_radius: Scalar,
@@ -143,8 +140,6 @@ def flange_volume(
     hub_depth: Scalar,
 ) -> Scalar:
     """Volume the flange adds to the housing: its ring less its holes and less what of it is hub already."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     in_hub = np.fmin(np.fmax(hub_radius, flange_bore_radius), flange_outer_radius)
     whole = ring(flange_bore_radius, flange_outer_radius).area * foot_height
     shared = ring(flange_bore_radius, in_hub).area * hub_depth
@@ -152,41 +147,34 @@ def flange_volume(
     return whole - shared - 0.25 * np.pi * (screws + sensor_pattern.pin**2 * sensor_pattern.pin_depth)
 
 
+@weights.helper(otherwise=NOTHING)
+def flange_moments(flange_volume: Scalar, flange_bore_radius: Scalar, flange_outer_radius: Scalar) -> Section:
+    """Volume and its polar moment about the axis, of the flange, its volume spread over its ring."""
+    return Section(flange_volume, flange_volume * 0.5 * (flange_bore_radius**2 + flange_outer_radius**2))
+
+
 # --- rules -----------------------------------------------------------------------------------------------------------
 
 
-def _where_there_is_one(reason: str) -> Rule:
-    """There must be room, where there is a flange at all."""
-    return at_least(0.0, reason, unless=("sensor_flange", WITHOUT))
-
-
-@rules.output("mm", _where_there_is_one("retainer and bearing do not go in through the sensor flange's bore"))
+@rules.output("mm", at_least(0.0, "retainer and bearing do not go in through the sensor flange's bore"))
 def flange_bore_gap(
-    sensor_flange: Record | str,
     flange_bore_radius: Scalar,
     retainer_radius: Scalar,
     seat_radius: Scalar,
     slip_clearance: Scalar,
 ) -> Scalar:
     """Room for retainer and hub's bore inside the sensor flange's bore; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     return flange_bore_radius - np.fmax(retainer_radius, seat_radius) - slip_clearance
 
 
-@rules.output(
-    "mm", _where_there_is_one("the sensor flange would close the pads' way out for wires and cold side's air")
-)
-def flange_channel_gap(
-    sensor_flange: Record | str, floor_opening_radius: Scalar, flange_outer_radius: Scalar
-) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor flange would close the pads' way out for wires and cold side's air"))
+def flange_channel_gap(floor_opening_radius: Scalar, flange_outer_radius: Scalar) -> Scalar:
     """Room between the sensor flange and the openings below the pads; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else floor_opening_radius - flange_outer_radius
+    return floor_opening_radius - flange_outer_radius
 
 
-@rules.output("mm", _where_there_is_one("the sensor flange would cover the springs' tang holes or their adjusters"))
+@rules.output("mm", at_least(0.0, "the sensor flange would cover the springs' tang holes or their adjusters"))
 def flange_spring_gap(
-    sensor_flange: Record | str,
     preload_adjuster: str,
     placement_radius: Scalar,
     spring_reach: Scalar,
@@ -196,18 +184,15 @@ def flange_spring_gap(
     flange_outer_radius: Scalar,
 ) -> Scalar:
     """Room between the sensor flange and what springs take of the floor; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     taken = spring_reach + tang_clearance if preload_adjuster == FIXED else adjuster_radius + slip_clearance
     return placement_radius - taken - flange_outer_radius
 
 
 @rules.output(
     "mm",
-    _where_there_is_one("a hole of the sensor flange would open into a pad's seat: more foot_height, or less reach"),
+    at_least(0.0, "a hole of the sensor flange would open into a pad's seat: more foot_height, or less reach"),
 )
 def flange_seat_reserve(
-    sensor_flange: Record | str,
     sensor_pattern: Pattern,
     foot_height: Scalar,
     solid_floor: Scalar,
@@ -215,45 +200,35 @@ def flange_seat_reserve(
     minimum_wall: Scalar,
 ) -> Scalar:
     """Floor left above the sensor flange's holes beyond the process's least wall; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     return foot_height + solid_floor - np.fmax(flange_screw_depth, sensor_pattern.pin_depth) - minimum_wall
 
 
-@rules.output("mm", _where_there_is_one("the sensor's screws do not reach far enough into the flange to hold"))
-def flange_thread_reserve(
-    sensor_flange: Record | str, sensor_pattern: Pattern, flange_screw_reach: Scalar, thread_engagement: Scalar
-) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor's screws do not reach far enough into the flange to hold"))
+def flange_thread_reserve(sensor_pattern: Pattern, flange_screw_reach: Scalar, thread_engagement: Scalar) -> Scalar:
     """Thread of the sensor's screws in the flange beyond what the process wants; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else flange_screw_reach - thread_engagement * sensor_pattern.thread
+    return flange_screw_reach - thread_engagement * sensor_pattern.thread
 
 
-@rules.output("mm", _where_there_is_one("the sensor flange would split outside its holes"))
-def flange_wall_reserve(sensor_flange: Record | str, flange_wall: Scalar, minimum_wall: Scalar) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor flange would split outside its holes"))
+def flange_wall_reserve(flange_wall: Scalar, minimum_wall: Scalar) -> Scalar:
     """Sensor flange outside its holes beyond the process's least wall; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else flange_wall - minimum_wall
+    return flange_wall - minimum_wall
 
 
-@rules.output("mm", _where_there_is_one("the sensor flange would split between its holes and its bore"))
-def flange_bore_wall_reserve(
-    sensor_flange: Record | str, sensor_pattern: Pattern, flange_bore_radius: Scalar, minimum_wall: Scalar
-) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor flange would split between its holes and its bore"))
+def flange_bore_wall_reserve(sensor_pattern: Pattern, flange_bore_radius: Scalar, minimum_wall: Scalar) -> Scalar:
     """Sensor flange between bore and holes beyond the process's least wall; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     return sensor_pattern.pitch_radius - _half_hole(sensor_pattern) - flange_bore_radius - minimum_wall
 
 
-@rules.output("mm", _where_there_is_one("the sensor flange would split between a screw's hole and the pin's"))
-def flange_pin_wall_reserve(sensor_flange: Record | str, sensor_pattern: Pattern, minimum_wall: Scalar) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor flange would split between a screw's hole and the pin's"))
+def flange_pin_wall_reserve(sensor_pattern: Pattern, minimum_wall: Scalar) -> Scalar:
     """Sensor flange between screw holes and pin hole beyond the process's least wall; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     apart = 2.0 * sensor_pattern.pitch_radius * np.sin(0.5 * np.pi / sensor_pattern.screws)
     return apart - 0.5 * (sensor_pattern.tap_drill + sensor_pattern.pin) - minimum_wall
 
 
-@rules.output("mm", _where_there_is_one("the sensor's spigot would meet the retainer's screw: more foot_height"))
-def flange_spigot_reserve(sensor_flange: Record | str, sensor_pattern: Pattern, retainer_gap: Scalar) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor's spigot would meet the retainer's screw: more foot_height"))
+def flange_spigot_reserve(sensor_pattern: Pattern, retainer_gap: Scalar) -> Scalar:
     """Room between the sensor's spigot and the retainer's screw; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else retainer_gap - sensor_pattern.centring_depth
+    return retainer_gap - sensor_pattern.centring_depth

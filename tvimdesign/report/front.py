@@ -196,16 +196,19 @@ def print_front(front: Front, table: Table, console: Console) -> None:
     for name in front.outputs:
         grid.add_column(f"{name} ({pretty(table.unit(name))})", justify="right", header_style="dim")
     grid.add_column("", header_style="dim")
-    for place in _rows_shown(len(front.points), front.knee):
+    shown = _rows_shown(len(front.points), front.knee)
+    for place in shown:
         values = (f"{from_si(front.points[place].values[name], table.unit(name)):.4g}" for name in front.outputs)
         what = status(front, place)
         grid.add_row(str(place + 1), *values, "" if what == "between" else what)
     console.print(grid)
     for sentence in in_words(front, table):
         console.print(sentence, soft_wrap=True)
+    here = "" if len(shown) == len(front.points) else f", {len(shown)} of them here"
+    beaten = f"; {front.dominated} more are no better in anything" if front.dominated else ""
     console.print(
-        f"[dim]{len(front.points)} points from {front.sought} designs sought; {front.dominated} more are no better in "
-        f"anything; the largest gap is {front.spread:.2g} times the mean one. Each is a whole design in front/.[/dim]"
+        f"[dim]{len(front.points)} points{here}, from {front.sought} designs sought{beaten}; the largest gap is "
+        f"{front.spread:.2g} times the mean one. Each is a whole design in front/.[/dim]"
     )
 
 

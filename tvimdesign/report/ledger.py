@@ -76,7 +76,7 @@ def _inertia() -> str:
     inertia = from_paper("inertia")
     stiffness = 4.0 * _spring_rate(from_paper("wire_diameter"))
     return (
-        f"{inertia:.3e} kg·m2 as kg·mm2; on springs of {stiffness:.2f} N·m/rad that rings at "
+        f"{inertia:.3e} kg·m² as kg·mm²; on springs of {stiffness:.2f} N·m/rad that rings at "
         f"{dynamics.natural_frequency(stiffness, inertia):.1f} Hz"
     )
 
@@ -87,7 +87,7 @@ def _motion() -> str:
     return (
         f"with K on the wrong side the springs push away from rest: a deflection would grow as exp({growth:.0f} t/s); "
         f"I theta'' + b theta' + K theta = T rings, and is critically damped at b = "
-        f"{2.0 * math.sqrt(stiffness * inertia):.4f} N·m·s/rad"
+        f"{dynamics.critical_damping(stiffness, inertia):.4f} N·m·s/rad"
     )
 
 
@@ -102,7 +102,7 @@ def _area() -> str:
     thickness = from_si(answer["pcl_thickness"], "mm")
     strain = answer["layer_strain"]
     return (
-        f"four arcs of 26 to 40 mm radius and 49 degrees give {area:.1f} mm2; K, b and heating time all hang on the "
+        f"four arcs of 26 to 40 mm radius and 49 degrees give {area:.1f} mm²; K, b and heating time all hang on the "
         f"thickness, assumed here as {thickness:g} mm: then the melt is sheared by {strain:.0%} at full stroke"
     )
 

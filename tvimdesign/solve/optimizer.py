@@ -65,7 +65,7 @@ class Optimizer:
         self.free = tuple(self._free(name) for name in numbers)
         self.margins: dict[str, float] = {}
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
-        self.problem = self._problem(self.kept_limits(limits_of(study, table)), traded)
+        self.problem = self._problem(self.kept_limits(limits_of(study, table, self.model.words)), traded)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}
@@ -112,7 +112,7 @@ class Optimizer:
         other = copy(self)
         other.study, other.model = study, model
         other.seconds = {"set_up": 0.0, "solve": 0.0}
-        other.kept_limits(limits_of(study, self.table))
+        other.kept_limits(limits_of(study, self.table, model.words))
         other._begin()
         return other
 
