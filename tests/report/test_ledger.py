@@ -7,7 +7,8 @@ import json
 import pytest
 
 from tvimdesign.report import ledger
-from tvimdesign.report.ledger import claims, findings
+from tvimdesign.report.ledger import findings
+from tvimdesign.report.paper_claims import claims
 
 
 @pytest.mark.parametrize(
