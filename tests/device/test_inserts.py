@@ -96,9 +96,29 @@ def test_inserts_are_melted_into_plastic_and_not_into_metal() -> None:
     milled = values_of("insert_ground", process="machine_6061", thread_insert="heat_set")
     assert milled["insert_ground"] < rule.value
     assert values_of("insert_ground", process="machine_6061")["insert_ground"] == rule.value
-    for word, held in (("none", set()), ("heat_set", set(RULES))):
-        study = read_study_text(f"mode: shear\nmodule: {{thread_insert: {word}}}\n", "a test")
+    # A joint that the module does not have has no inserts to hold either.
+    bare = {"insert_ground", "link_insert_misfit", "retainer_insert_misfit"}
+    for module, held in (
+        ("thread_insert: none, cover: plate, preload_adjuster: rotary", set()),
+        ("thread_insert: heat_set", bare),
+        ("thread_insert: heat_set, cover: plate", bare | {"cover_insert_misfit"}),
+        ("thread_insert: heat_set, cover: plate, preload_adjuster: rotary", set(RULES)),
+    ):
+        study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test")
         assert {limit.output for limit in limits_of(study, TABLE)} & set(RULES) == held
+
+
+def test_a_process_that_says_nothing_else_holds_no_rule_of_inserts() -> None:
+    """Whether threads are in inserts is left to the process's record where a study does not say it."""
+    study = read_study_text("mode: shear\n", "a test")
+    chosen = given(study, Catalog(), TABLE)
+    for word, held in (
+        ("none", set()),
+        ("heat_set", {"insert_ground", "link_insert_misfit", "retainer_insert_misfit"}),
+    ):
+        limits = limits_of(study, TABLE, chosen | {"thread_insert": word})
+        assert {limit.output for limit in limits} & set(RULES) == held
+    assert chosen["thread_insert"] == "none"
 
 
 @pytest.mark.parametrize("mode", MODES)

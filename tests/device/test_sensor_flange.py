@@ -18,7 +18,6 @@ MM = 1e-3
 RULES = {
     "flange_bore_gap", "flange_channel_gap", "flange_spring_gap", "flange_seat_reserve", "flange_thread_reserve",
     "flange_wall_reserve", "flange_bore_wall_reserve", "flange_pin_wall_reserve", "flange_spigot_reserve",
-    "flange_groove_gap",
 }  # fmt: skip
 GOOD = {
     "sensor_flange": "iso_9409_40_4_m6", "core_radius": "9 mm", "foot_height": "12 mm", "flange_screw_reach": "10.5 mm",

@@ -11,6 +11,10 @@ from support import USED_BY_PARTS, digits
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, Supplied, Table, table_for
+from tvimdesign.device.rows import Extra
+from tvimdesign.errors import InputError
+from tvimdesign.solve.limits import refuse_impossible
+from tvimdesign.study import read_study_text
 from tvimdesign.units import to_si
 
 TABLE = table_for("shear")
@@ -39,6 +43,39 @@ def test_default_of_an_input_lies_within_its_limits(row: Input, inputs: dict[str
     found = [value for name, value in inputs.items() if name.partition("@")[0] == row.name]
     assert found
     assert all(row.lower <= value <= row.upper for value in found)
+
+
+def test_every_extra_is_a_choice_that_has_the_word_for_none() -> None:
+    extras = {extra for row in TABLE.rows for extra in row.extras}
+    wanted = {"cover", "preload_adjuster", "sensor_flange", "motor", "encoder", "cold_side", "impedance_targets"}
+    assert {extra.choice for extra in extras} >= wanted
+    words = {row.name: row.options for row in TABLE.choices}
+    assert [extra for extra in extras if extra.without not in words[extra.choice]] == []
+
+
+OF_EXTRAS = [row.name for row in (*TABLE.choices, *TABLE.inputs) if row.extras]
+
+
+@pytest.mark.parametrize("name", OF_EXTRAS)
+def test_what_is_of_an_extra_is_refused_in_a_study_of_a_module_without_it(name: str) -> None:
+    row, study = TABLE.row(name), read_study_text("mode: shear\n", "a test")
+    value = Catalog().names(row.shelf)[0] if isinstance(row, Choice) and row.shelf else row.default
+    lacking = row.extras[0]
+    with pytest.raises(InputError, match=f"{name}: no effect, as {lacking.choice} is {lacking.without}"):
+        refuse_impossible(study.model_copy(update={"module": {name: value}}), Catalog(), TABLE)
+
+
+def test_a_row_of_an_extra_is_computed_and_held_only_where_the_module_has_it() -> None:
+    extras = (Extra("cover", "none"), Extra("motor", "none"))
+    row = Output(
+        name="gap", unit="mm", description="", group="", function=lambda width: 2.0 * width,
+        extras=extras, otherwise=7.0,
+    )  # fmt: skip
+    assert row.needs == ("cover", "motor", "width")
+    assert row.call(["plate", "a record", 3.0]) == 6.0
+    assert row.call(["none", "a record", None]) == row.call(["plate", "none", None]) == 7.0
+    assert row.exists({"cover": "plate", "motor": None})
+    assert not row.exists({"cover": "plate", "motor": "none"})
 
 
 def test_every_input_and_choice_is_used() -> None:
@@ -95,7 +132,6 @@ _BUILT: dict[str, Any] = {}
 def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
     from tvimdesign.solve.model import Model
     from tvimdesign.study import given as resolve
-    from tvimdesign.study import read_study_text
 
     if not _BUILT:
         start = resolve(read_study_text("mode: shear\n", "a test"), Catalog(), TABLE)

@@ -31,7 +31,7 @@ def part(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, An
     wanted = [
         *(f"{name}_mass" for name in ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws")),
         *(f"{name}_volume" for name in ("housing", "rotor", "link", "retainer", "spring", "pcl", "peltier")),
-        *(f"{name}_inertia" for name in ("rotor", "link", "parts")),
+        *(f"{name}_inertia" for name in ("housing", "rotor", "link", "parts")),
         *(f"{name}_length" for name in ("leg", "tang", "link")),
         *(f"{name}_level" for name in ("coil_end", "pin_top", "rotor_top", "link_bottom")),
         *(f"{name}_radius" for name in ("housing_outer", "housing_inner", "hub", "post", "rotor", "pin")),
@@ -98,7 +98,7 @@ def test_pads_cover_their_arcs(part: dict[str, Any]) -> None:
     assert part["peltier_volume"] == pytest.approx(area * part["peltier_thickness"], rel=3e-3)
 
 
-def test_housing_has_the_volume_of_its_levels(part: dict[str, Any]) -> None:
+def test_housing_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) -> None:
     p = part
     bore, outer = p["core_radius"] + p["running_clearance"], p["housing_outer_radius"]
     tang = 0.5 * p["wire_diameter"] + p["tang_clearance"]
@@ -132,7 +132,7 @@ def test_housing_has_the_volume_of_its_levels(part: dict[str, Any]) -> None:
 
     pocket, web = p["peltier_thickness"], p["floor_thickness"] - p["peltier_thickness"]
     post_top = p["coil_end_level"] + 0.5 * p["wire_diameter"]
-    volume, _ = stack_up(
+    volume, polar = stack_up(
         [
             (p["foot_height"], skirt),
             (web, lambda x, y: floor(x, y) & ~in_arcs(x, y, p, p["window_ledge"])),
@@ -145,6 +145,7 @@ def test_housing_has_the_volume_of_its_levels(part: dict[str, Any]) -> None:
         [bore, p["hub_radius"], p["housing_inner_radius"]],
     )
     assert part["housing_volume"] == pytest.approx(volume, rel=3e-3)
+    assert part["housing_inertia"] == pytest.approx(1270.0 * polar, rel=3e-3)
 
 
 def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) -> None:

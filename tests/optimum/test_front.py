@@ -13,7 +13,7 @@ from comparable import COMPRESSION, SHEAR
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.front import Front, trace_front
+from tvimdesign.solve.front import Front, completed, trace_front
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.run import Run
@@ -29,13 +29,13 @@ TIME, MASS, SIZE = "response_time", "module_mass", "envelope_volume"
 class Solved:
     """A study's optimum with what found it, to be traded again and again."""
 
-    def __init__(self, text: str) -> None:
-        """Optimise it, able to trade time, mass and size."""
+    def __init__(self, text: str, traded: tuple[str, ...] = (TIME, MASS, SIZE)) -> None:
+        """Optimise it, able to trade some of its outputs."""
         self.study = read_study_text(text, "test")
         self.built: list[tuple[Optimizer, list[Run]]] = []
         self.solution: Solution = optimize(
             self.study, Catalog(), table_for(self.study.mode), keep=lambda *kept: self.built.append(kept),
-            traded=(TIME, MASS, SIZE),
+            traded=traded,
         )  # fmt: skip
         assert self.solution.status == "optimal"
 
@@ -129,10 +129,16 @@ def test_no_point_of_two_fronts_beats_one_of_the_other(pair: Front, triple: Fron
                 assert not all(there.values[name] < point.values[name] * 0.995 for name in (TIME, MASS, SIZE))
 
 
-def test_every_point_is_a_whole_design_that_keeps_what_the_study_requires(solved: Solved, pair: Front) -> None:
-    table = table_for(solved.study.mode)
-    for point in pair.points:
+def test_every_point_is_once_completed_a_whole_design_that_keeps_what_the_study_requires(
+    solved: Solved, pair: Front
+) -> None:
+    table, whole = table_for(solved.study.mode), completed(pair, solved.trade())
+    for partly, point in zip(pair.points, whole.points, strict=True):
+        assert {TIME, MASS} <= partly.values.keys() < point.values.keys()
         assert set(table.names(solved.study.operating_points)) <= point.values.keys()
+        assert np.isfinite(point.values["stiffening_time"])
+        # What is simulated a second time with all that rides along is the same to the integration's tolerance.
+        assert point.values == pytest.approx(point.values | partly.values, rel=1e-3)
         for requirement in solved.study.require:
             assert point.values[requirement.output] >= requirement.limit * (1.0 - 1e-5)
 
@@ -216,6 +222,25 @@ def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:
     assert len(front.points) == 1
     assert "do not conflict" in front.notes[0]
     assert front.knee is None
+
+
+@pytest.mark.parametrize("asked", [5, 9])
+def test_points_that_could_not_be_told_apart_are_left_out_and_that_is_said(asked: int) -> None:
+    """Mass rises by 1.1 % along the front, stiffness falls by 1.2: of points 0.2 % apart it holds six, not nine.
+
+    Nothing here depends on a switch, so it is quick.
+    """
+    text = "mode: shear\nmodule: {stroke: 0.104 rad}\nvary: {coil_count: [4, 4.05]}\nsolver: {starts: 1}\n"
+    outputs = ("springs_mass", "spring_stiffness")
+    solved = Solved(f"{text}minimize: {{springs_mass: 1, spring_stiffness: 1}}\n", outputs)
+    front = trace_front(solved.trade(), outputs, asked)
+    numbers = np.array(_numbers(front))
+    assert np.all(np.max(np.abs(np.diff(numbers, axis=0)) / numbers[1:], axis=1) > 2e-3)
+    count = len(front.points)
+    close = f"more points than {count} would be closer than the simulation tells designs apart"
+    assert (close in front.notes) == (count < asked) == (asked == 9)
+    assert not any("jump" in note for note in front.notes)
+    assert count >= 5
 
 
 def test_listed_sizes_stay_those_of_the_optimum_and_that_is_said() -> None:

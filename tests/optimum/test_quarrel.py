@@ -68,6 +68,18 @@ def test_a_limit_that_bounds_prove_impossible_is_named_with_what_the_ranges_allo
     assert 0.8 * lightest < best <= lightest * (1.0 + 1e-6)
 
 
+def test_what_is_fixed_and_would_move_a_limit_most_is_named_and_doing_so_helps() -> None:
+    text = (
+        "mode: shear\nvary: {coil_diameter: [16 mm, 30 mm]}\n"
+        'require: {envelope_diameter: "<= 135 mm"}\nminimize: module_mass\n'
+    )
+    assert "vary placement_radius (57 mm), which moves it more than all that is varied" in _refusal(text)
+    freed = text.replace("30 mm]}", "30 mm], placement_radius: [45 mm, 57 mm]}")
+    refuse_contradiction(_study(freed), Catalog(), TABLE)
+    little = freed.replace("45 mm", "56 mm")  # nothing that is fixed moves it more now
+    assert "moves it more" not in _refusal(little)
+
+
 def test_what_a_design_keeps_is_never_refused() -> None:
     free = _answer(HEAVY.replace(', module_mass: "<= 60 g"', ""))
     just = 1e3 * free.design.values["module_mass"] * (1.0 + 1e-6)

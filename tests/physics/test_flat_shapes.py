@@ -20,15 +20,16 @@ def by_strips(height: Callable[[float], float], start: float, end: float) -> sha
     return shapes.Section(area, polar)
 
 
-def plus(first: shapes.Section, second: shapes.Section) -> shapes.Section:
-    return shapes.Section(first.area + second.area, first.polar + second.polar)
-
-
 def test_sector_is_its_thin_arcs() -> None:
     span, inner, outer = 0.85, 26e-3, 40e-3
     area = integrate(lambda r: span * r, inner, outer)
     polar = integrate(lambda r: span * r**3, inner, outer)
     assert shapes.sector(span, inner, outer) == pytest.approx((area, polar), rel=1e-9)
+
+
+def test_four_sectors_of_49_degrees_have_the_papers_contact_area() -> None:
+    # Exley et al., table I: 1579.2 mm^2. The arcs from 26 to 40 mm are the reference layout.
+    assert shapes.sector(4.0 * np.radians(49.0), 26e-3, 40e-3).area == pytest.approx(1579.2e-6, rel=5e-3)
 
 
 def test_ring_is_a_disc_less_a_disc() -> None:
@@ -51,18 +52,20 @@ def test_slot_is_its_strips(half_width: float, length: float) -> None:
     near = by_strips(lambda x: np.sqrt(max(half_width**2 - x**2, 0.0)), -half_width, 0.0)
     strip = by_strips(lambda _: half_width, 0.0, length)
     far = by_strips(lambda x: np.sqrt(max(half_width**2 - (x - length) ** 2, 0.0)), length, length + half_width)
-    assert shapes.slot(half_width, length) == pytest.approx(plus(plus(near, strip), far), rel=1e-8)
+    assert shapes.slot(half_width, length) == pytest.approx(near.plus(strip, far), rel=1e-8)
 
 
-def test_sections_repeat_and_subtract() -> None:
+def test_sections_repeat_add_subtract_and_stack() -> None:
     one, other = shapes.Section(5.0, 7.0), shapes.Section(1.0, 3.0)
     assert one.times(4) - other == shapes.Section(19.0, 25.0)
+    assert one.plus(other, other) == shapes.Section(7.0, 13.0)
+    assert shapes.stacked((one, 2.0), (other, -3.0)) == shapes.Section(7.0, 5.0)
 
 
 def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
     half_width, inner, outer = 6e-3, 71e-3, 74e-3
     expected = integrate(lambda y: np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), -half_width, half_width)
-    assert shapes.ring_notch(half_width, inner, outer) == pytest.approx(expected, rel=1e-9)
+    assert shapes.notch(half_width, inner, outer).area == pytest.approx(expected, rel=1e-9)
     # Along y the strip from R_i to R_o has the polar moment x^3/3 + x y^2 between its ends.
     ends = [lambda y, r=radius: np.sqrt(r**2 - y**2) for radius in (outer, inner)]
     polar = [integrate(lambda y, x=x: x(y) ** 3 / 3.0 + x(y) * y**2, -half_width, half_width) for x in ends]

@@ -7,24 +7,10 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from tvimdesign.physics import layer
+from tvimdesign.physics.shapes import sector
 
 SPAN, INNER, OUTER = 4.0 * 0.8546, 26e-3, 40e-3
 moduli = st.tuples(st.floats(1e2, 1e9), st.floats(1e2, 1e9))
-
-
-def test_polar_moment_is_the_integral_of_the_squared_radius() -> None:
-    expected, _ = quad(lambda r: r**2 * SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
-    assert layer.polar_moment(SPAN, INNER, OUTER) == pytest.approx(expected, rel=1e-10)
-
-
-def test_area_is_the_integral_over_the_arcs() -> None:
-    expected, _ = quad(lambda r: SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
-    assert layer.area(SPAN, INNER, OUTER) == pytest.approx(expected, rel=1e-12)
-
-
-def test_four_arcs_of_49_degrees_have_the_papers_contact_area() -> None:
-    # Exley et al., table I: 1579.2 mm^2. The arcs from 26 to 40 mm are the reference layout.
-    assert layer.area(4.0 * np.radians(49.0), INNER, OUTER) == pytest.approx(1579.2e-6, rel=5e-3)
 
 
 def test_two_slices_in_series_as_worked_by_hand() -> None:
@@ -61,5 +47,5 @@ def test_strain_of_50_mm_and_1_mm_at_the_papers_stroke_is_520_percent() -> None:
 def test_torque_at_a_traction_is_the_moment_of_a_linear_traction() -> None:
     limit = 2e6
     expected, _ = quad(lambda r: (limit * r / OUTER) * r * SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
-    found = layer.torque_at_traction(limit, layer.polar_moment(SPAN, INNER, OUTER), OUTER)
+    found = layer.torque_at_traction(limit, sector(SPAN, INNER, OUTER).polar, OUTER)
     assert found == pytest.approx(expected, rel=1e-10)

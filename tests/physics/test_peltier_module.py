@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics import peltier
@@ -92,6 +92,13 @@ def test_current_through_a_module_of_one_temperature_pumps_heat_to_the_hot_side(
     module = peltier.Module(0.05, 2.0, 0.5)
     assert peltier.hot_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 + 1.0)
     assert peltier.cold_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 - 1.0)
+
+
+def test_a_40_mm_module_with_a_well_sunk_cold_side_stalls_near_76_degrees_at_1_5_amperes() -> None:
+    # Its conductance takes back all it pumps: no layer behind it is ever warmer.
+    module, cold = peltier.from_data_sheet(*SHEETS["teci_12706"][0]), 295.15
+    stalled = brentq(lambda hot: peltier.hot_side_heat(module, 1.5, hot, cold), cold, 400.0)
+    assert stalled - 273.15 == pytest.approx(76.0, abs=1.0)
 
 
 def test_heat_flows_back_from_hot_to_cold_without_current() -> None:

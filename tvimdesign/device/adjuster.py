@@ -15,15 +15,15 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.fastening import Joint, screwed_joint
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
-from tvimdesign.device.rows import Rule, Scalar, at_least
+from tvimdesign.device.rows import Extra, Scalar, at_least
 from tvimdesign.physics.friction import disc_torque
-from tvimdesign.physics.shapes import bar_across
+from tvimdesign.physics.shapes import Section, bar_across, disc_at, ring
 
 FIXED = "fixed"
-ONLY = ("preload_adjuster", "rotary")
-JOINT = Joint("adjuster", "iso_7380_m3", "that of a rotary adjuster", "adjusters' screws", "the posts", ONLY)
+WITH_ADJUSTERS = (Extra("preload_adjuster", FIXED),)
+JOINT = Joint("adjuster", "iso_7380_m3", "that of a rotary adjuster", "adjusters' screws", "the posts", WITH_ADJUSTERS)
 
-places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
+places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group, WITH_ADJUSTERS)
 books = (places, *screwed_joint(JOINT), weights, rules)
 
 places.option(
@@ -31,24 +31,22 @@ places.option(
 )
 
 
-@places.output("deg")
-def preload_adjustment(preload_adjuster: str) -> Scalar:
+@places.output("deg", extras=WITH_ADJUSTERS)
+def preload_adjustment() -> Scalar:
     """Range over which the preload of a spring can be set: none, or all around."""
-    return 0.0 if preload_adjuster == FIXED else 2.0 * np.pi
+    return 2.0 * np.pi
 
 
-@places.output("mm")
-def adjuster_radius(
-    preload_adjuster: str, spring_reach: Scalar, tang_clearance: Scalar, minimum_wall: Scalar
-) -> Scalar:
+@places.output("mm", extras=WITH_ADJUSTERS)
+def adjuster_radius(spring_reach: Scalar, tang_clearance: Scalar, minimum_wall: Scalar) -> Scalar:
     """Radius of an adjuster's flange, which has a wall around the tang; zero where the tangs are fixed."""
-    return 0.0 if preload_adjuster == FIXED else spring_reach + tang_clearance + minimum_wall
+    return spring_reach + tang_clearance + minimum_wall
 
 
-@places.output("mm")
-def adjuster_thickness(preload_adjuster: str, floor_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
+@places.output("mm", extras=WITH_ADJUSTERS)
+def adjuster_thickness(floor_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
     """Thickness of an adjuster's flange: it leaves the floor the process's least wall; zero where tangs are fixed."""
-    return 0.0 if preload_adjuster == FIXED else floor_thickness - minimum_wall
+    return floor_thickness - minimum_wall
 
 
 @places.output("mm")
@@ -71,10 +69,10 @@ def adjuster_clamped(floor_thickness: Scalar, adjuster_thickness: Scalar) -> Sca
     return floor_thickness - adjuster_thickness
 
 
-@places.helper()
-def adjuster_screw_count(preload_adjuster: str, spring_count: Scalar) -> Scalar:
+@places.helper(extras=WITH_ADJUSTERS)
+def adjuster_screw_count(spring_count: Scalar) -> Scalar:
     """Screws of the adjusters, one each; none where the tangs are fixed."""
-    return 0.0 if preload_adjuster == FIXED else spring_count
+    return spring_count
 
 
 @places.helper()
@@ -87,8 +85,9 @@ def adjuster_screw_circle(placement_radius: Scalar) -> Scalar:
 
 
 @weights.helper()
-def spring_hole_area(
+def spring_hole_section(
     preload_adjuster: str,
+    placement_radius: Scalar,
     wire_diameter: Scalar,
     tang_clearance: Scalar,
     adjuster_radius: Scalar,
@@ -96,24 +95,31 @@ def spring_hole_area(
     adjuster_thickness: Scalar,
     adjuster_screw_clearance: Scalar,
     floor_thickness: Scalar,
-) -> Scalar:
-    """What a spring takes of the floor [m^2], on average over its thickness: the tang's hole, or pocket and screw's."""
+) -> Section:
+    """What a spring takes of the floor, on average over its thickness: the tang's hole, or pocket and screw's.
+
+    Either counts about the spring's axis, the hole of a tang without an extent of its own.
+    """
     if preload_adjuster == FIXED:
-        return np.pi * (0.5 * wire_diameter + tang_clearance) ** 2
-    pocket = (adjuster_radius + slip_clearance) ** 2 * adjuster_thickness
-    hole = (0.5 * adjuster_screw_clearance) ** 2 * (floor_thickness - adjuster_thickness)
-    return np.pi * (pocket + hole) / floor_thickness
+        area = ring(0.0, 0.5 * wire_diameter + tang_clearance).area
+    else:
+        pocket = ring(0.0, adjuster_radius + slip_clearance).area * adjuster_thickness
+        hole = ring(0.0, 0.5 * adjuster_screw_clearance).area * (floor_thickness - adjuster_thickness)
+        area = (pocket + hole) / floor_thickness
+    return Section(area, area * (placement_radius**2 + 0.5 * adjuster_radius**2))
 
 
 @weights.helper()
-def fixed_posts_volume(preload_adjuster: str, spring_count: Scalar, post_radius: Scalar, post_height: Scalar) -> Scalar:
-    """Volume of the spring posts that are part of the floor [m^3]."""
-    return 0.0 if preload_adjuster != FIXED else spring_count * np.pi * post_radius**2 * post_height
+def fixed_posts_moments(
+    preload_adjuster: str, spring_count: Scalar, post_radius: Scalar, post_height: Scalar, placement_radius: Scalar
+) -> Section:
+    """Volume and its polar moment about the axis, of the spring posts that are part of the floor."""
+    standing = spring_count * post_height if preload_adjuster == FIXED else 0.0
+    return disc_at(post_radius, placement_radius).times(standing)
 
 
-@weights.output("mm^3")
+@weights.output("mm^3", extras=WITH_ADJUSTERS)
 def adjuster_volume(
-    preload_adjuster: str,
     spring_count: Scalar,
     adjuster_radius: Scalar,
     adjuster_thickness: Scalar,
@@ -127,8 +133,6 @@ def adjuster_volume(
     driver_slot_depth: Scalar,
 ) -> Scalar:
     """Volume of all adjusters together: flange and post, less the tang's hole, the screw's and the driver's slot."""
-    if preload_adjuster == FIXED:
-        return 0.0
     flange = np.pi * (adjuster_radius**2 - (0.5 * wire_diameter + tang_clearance) ** 2) * adjuster_thickness
     post = np.pi * post_radius**2 * post_height
     hole = 0.25 * np.pi * adjuster_screw_hole**2 * adjuster_screw_depth
@@ -147,31 +151,22 @@ def adjusters_mass(
 # --- rules -----------------------------------------------------------------------------------------------------------
 
 
-def _room(reason: str) -> Rule:
-    """There must be room, where there are adjusters at all."""
-    return at_least(0.0, reason, only=ONLY)
-
-
 @rules.output(
     "mm",
-    _room("the adjusters do not go in past the housing's wall: give the springs more radial_clearance"),
+    at_least(0.0, "the adjusters do not go in past the housing's wall: give the springs more radial_clearance"),
 )
 def adjuster_wall_gap(
-    preload_adjuster: str,
     housing_inner_radius: Scalar,
     placement_radius: Scalar,
     adjuster_radius: Scalar,
     slip_clearance: Scalar,
 ) -> Scalar:
     """Room between the adjusters' pockets and the housing's wall; zero where tangs are fixed."""
-    if preload_adjuster == FIXED:
-        return 0.0
     return housing_inner_radius - placement_radius - adjuster_radius - slip_clearance
 
 
-@rules.output("mm", _room("the floor between the adjusters' pockets and the PCL is thinner than can be made"))
+@rules.output("mm", at_least(0.0, "the floor between the adjusters' pockets and the PCL is thinner than can be made"))
 def adjuster_pcl_gap(
-    preload_adjuster: str,
     placement_radius: Scalar,
     adjuster_radius: Scalar,
     slip_clearance: Scalar,
@@ -179,17 +174,14 @@ def adjuster_pcl_gap(
     minimum_wall: Scalar,
 ) -> Scalar:
     """Floor between the adjusters' pockets and the PCL beyond the least wall; zero where tangs are fixed."""
-    if preload_adjuster == FIXED:
-        return 0.0
     return placement_radius - adjuster_radius - slip_clearance - pcl_outer_radius - minimum_wall
 
 
 @rules.output(
     "mm",
-    _room("the floor between the adjusters' pockets and the mounting holes is thinner than can be made"),
+    at_least(0.0, "the floor between the adjusters' pockets and the mounting holes is thinner than can be made"),
 )
 def adjuster_mount_gap(
-    preload_adjuster: str,
     placement_radius: Scalar,
     spring_count: Scalar,
     adjuster_radius: Scalar,
@@ -198,26 +190,21 @@ def adjuster_mount_gap(
     minimum_wall: Scalar,
 ) -> Scalar:
     """Floor between adjusters' pockets and mounting holes beyond the least wall; zero where tangs are fixed."""
-    if preload_adjuster == FIXED:
-        return 0.0
     apart = 2.0 * placement_radius * np.sin(0.5 * np.pi / spring_count)
     return apart - adjuster_radius - slip_clearance - 0.5 * mount_hole - minimum_wall
 
 
 @rules.output(
     "mm",
-    _room("an adjuster's post would split around its screw: a thicker post, or a smaller screw"),
+    at_least(0.0, "an adjuster's post would split around its screw: a thicker post, or a smaller screw"),
 )
-def adjuster_post_reserve(
-    preload_adjuster: str, post_radius: Scalar, adjuster_screw_hole: Scalar, adjuster_hole_wall: Scalar
-) -> Scalar:
+def adjuster_post_reserve(post_radius: Scalar, adjuster_screw_hole: Scalar, adjuster_hole_wall: Scalar) -> Scalar:
     """Wall of an adjuster's post around its screw's hole beyond the least; zero where tangs are fixed."""
-    return 0.0 if preload_adjuster == FIXED else post_radius - 0.5 * adjuster_screw_hole - adjuster_hole_wall
+    return post_radius - 0.5 * adjuster_screw_hole - adjuster_hole_wall
 
 
-@rules.output("mm", _room("the screw's hole would reach the driver's slot: choose a shorter screw"))
+@rules.output("mm", at_least(0.0, "the screw's hole would reach the driver's slot: choose a shorter screw"))
 def adjuster_top_reserve(
-    preload_adjuster: str,
     adjuster_thickness: Scalar,
     post_height: Scalar,
     adjuster_screw_depth: Scalar,
@@ -226,12 +213,11 @@ def adjuster_top_reserve(
 ) -> Scalar:
     """Post between screw's hole and driver's slot beyond the process's least wall; zero where tangs are fixed."""
     between = adjuster_thickness + post_height - adjuster_screw_depth - driver_slot_depth
-    return 0.0 if preload_adjuster == FIXED else between - minimum_wall
+    return between - minimum_wall
 
 
-@rules.output("N*m", _room("the clamped adjusters would slip under their springs"))
+@rules.output("N*m", at_least(0.0, "the clamped adjusters would slip under their springs"))
 def adjuster_grip_reserve(
-    preload_adjuster: str,
     adjuster_friction: Scalar,
     adjuster_clamp_force: Scalar,
     adjuster_screw_clearance: Scalar,
@@ -240,7 +226,5 @@ def adjuster_grip_reserve(
     spring_winding: Scalar,
 ) -> Scalar:
     """Torque at which a clamped adjuster slips less the spring's largest; zero where tangs are fixed."""
-    if preload_adjuster == FIXED:
-        return 0.0
     grip = disc_torque(adjuster_friction, adjuster_clamp_force, 0.5 * adjuster_screw_clearance, adjuster_radius)
     return grip - spring_rate * spring_winding

@@ -15,12 +15,13 @@ from tvimdesign.device.bodies import book as bodies
 from tvimdesign.device.book import Book
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
-from tvimdesign.device.rows import Rule, Scalar, at_least
+from tvimdesign.device.rows import Extra, Rule, Scalar, at_least
 from tvimdesign.physics import structure
 from tvimdesign.physics.shapes import Section, ring
 
 BEARINGS = 2
 PLAIN = "none"
+WITH_BEARINGS = (Extra("bearing", PLAIN),)
 
 places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
 books = (places, weights, rules)
@@ -171,11 +172,9 @@ def bearing_outer_volume(bearing_outer_section: Section, bearing_width: Scalar) 
     return BEARINGS * bearing_width * bearing_outer_section.area
 
 
-@weights.output("kg/m^3")
-def bearing_density(bearing: Record | str) -> Scalar:
+@weights.output("kg/m^3", extras=WITH_BEARINGS)
+def bearing_density(bearing: Record) -> Scalar:
     """Mass of a bearing over its volume as a ring without gaps; zero without bearings."""
-    if isinstance(bearing, str):
-        return 0.0
     section = ring(0.5 * bearing.value("bore"), 0.5 * bearing.value("outer_diameter"))
     return bearing.value("mass") / (section.area * bearing.value("width"))
 
@@ -234,7 +233,7 @@ def bearing_load(
 _DENTS = "a force at the link's end that the joint just holds would dent the bearings' races"
 
 
-@rules.output("N", advice=(Rule(sense=">=", value=0.0, reason=_DENTS),))
-def bearing_load_reserve(bearing: Record | str, bearing_load: Scalar) -> Scalar:
+@rules.output("N", advice=(Rule(sense=">=", value=0.0, reason=_DENTS),), extras=WITH_BEARINGS)
+def bearing_load_reserve(bearing: Record, bearing_load: Scalar) -> Scalar:
     """Static rating of a bearing less the force on it; zero for a plain bore."""
-    return 0.0 if isinstance(bearing, str) else bearing.value("static_load_rating") - bearing_load
+    return bearing.value("static_load_rating") - bearing_load

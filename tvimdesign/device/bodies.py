@@ -6,7 +6,7 @@ import numpy as np
 
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics.shapes import Section, disc_at, ring, ring_notch, slot
+from tvimdesign.physics.shapes import Section, disc_at, notch, ring, slot, stacked
 
 book = Book("Size and weight")
 LINK_SCREWS = 4
@@ -35,8 +35,8 @@ def spring_volume(wire_length: Scalar, wire_diameter: Scalar) -> Scalar:
     return 0.25 * np.pi * wire_diameter**2 * wire_length
 
 
-@book.output("mm^3")
-def skirt_volume(
+@book.helper()
+def skirt_moments(
     housing_inner_radius: Scalar,
     housing_outer_radius: Scalar,
     foot_height: Scalar,
@@ -44,45 +44,79 @@ def skirt_volume(
     spring_count: Scalar,
     mount_boss_radius: Scalar,
     mount_hole: Scalar,
-) -> Scalar:
-    """Volume of the housing below its floor: the skirt with its notches, and the mounting feet."""
-    skirt = ring(housing_inner_radius, housing_outer_radius).area
-    notches = spring_count * ring_notch(0.5 * notch_width, housing_inner_radius, housing_outer_radius)
-    feet = spring_count * ring(0.5 * mount_hole, mount_boss_radius).area
-    return (skirt - notches + feet) * foot_height
+    placement_radius: Scalar,
+) -> Section:
+    """Volume and its polar moment about the axis, of the housing below its floor: skirt, notches and feet."""
+    skirt = ring(housing_inner_radius, housing_outer_radius)
+    notches = notch(0.5 * notch_width, housing_inner_radius, housing_outer_radius).times(spring_count)
+    foot = disc_at(mount_boss_radius, placement_radius) - disc_at(0.5 * mount_hole, placement_radius)
+    return (skirt - notches).plus(foot.times(spring_count)).times(foot_height)
 
 
 @book.output("mm^3")
-def hub_volume(
+def skirt_volume(skirt_moments: Section) -> Scalar:
+    """Volume of the housing below its floor: the skirt with its notches, and the mounting feet."""
+    return skirt_moments.area
+
+
+@book.helper()
+def hub_moments(
     hub_radius: Scalar,
     hub_top_level: Scalar,
     hub_bottom_level: Scalar,
     seat_radius: Scalar,
     lip_radius: Scalar,
     bearing_width: Scalar,
-) -> Scalar:
-    """Volume of the hub from its lower to its upper end, the floor around it not counted."""
+) -> Section:
+    """Volume and its polar moment about the axis, of the hub from its lower to its upper end."""
     seats = 2.0 * bearing_width
     between = hub_top_level - hub_bottom_level - seats
-    return ring(seat_radius, hub_radius).area * seats + ring(lip_radius, hub_radius).area * between
+    return stacked((ring(seat_radius, hub_radius), seats), (ring(lip_radius, hub_radius), between))
+
+
+@book.output("mm^3")
+def hub_volume(hub_moments: Section) -> Scalar:
+    """Volume of the hub from its lower to its upper end, the floor around it not counted."""
+    return hub_moments.area
 
 
 @book.helper()
-def bare_housing_volume(
-    skirt_volume: Scalar,
-    floor_volume: Scalar,
+def floor_moments(
+    hub_radius: Scalar,
+    housing_outer_radius: Scalar,
+    floor_thickness: Scalar,
+    spring_count: Scalar,
+    spring_hole_section: Section,
+    mount_hole: Scalar,
+    placement_radius: Scalar,
+    floor_openings: Section,
+) -> Section:
+    """Volume and its polar moment about the axis, of the floor around the hub, less holes and the mode's openings."""
+    holes = disc_at(0.5 * mount_hole, placement_radius).plus(spring_hole_section)
+    solid = ring(hub_radius, housing_outer_radius) - holes.times(spring_count)
+    return solid.times(floor_thickness) - floor_openings
+
+
+@book.helper()
+def bare_housing_moments(
+    skirt_moments: Section,
+    floor_moments: Section,
     housing_inner_radius: Scalar,
     housing_outer_radius: Scalar,
-    hub_volume: Scalar,
+    hub_moments: Section,
     rim_level: Scalar,
-    fixed_posts_volume: Scalar,
-    cover_bosses_volume: Scalar,
-    flange_volume: Scalar,
-) -> Scalar:
-    """Volume of the housing without what the mode adds [m^3]: skirt and floor, wall, hub, posts, bosses, flange."""
-    wall = ring(housing_inner_radius, housing_outer_radius).area * rim_level
-    standing = wall + hub_volume + fixed_posts_volume + cover_bosses_volume
-    return skirt_volume + floor_volume + standing + flange_volume
+    fixed_posts_moments: Section,
+    cover_bosses_moments: Section,
+    flange_moments: Section,
+) -> Section:
+    """Volume and its polar moment about the axis, of the housing without what the mode adds.
+
+    That is skirt and floor, wall, hub, posts, bosses, flange.
+    """
+    wall = ring(housing_inner_radius, housing_outer_radius).times(rim_level)
+    return wall.plus(
+        skirt_moments, floor_moments, hub_moments, fixed_posts_moments, cover_bosses_moments, flange_moments
+    )
 
 
 @book.helper()
@@ -108,7 +142,7 @@ def bare_rotor_moments(
     retainer_screw_depth: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of plate, core and pins less the screw holes."""
-    prisms = (
+    return stacked(
         (ring(core_radius, rotor_radius), rotor_thickness),
         (ring(0.0, core_radius), link_bottom_level - rotor_bottom_level),
         (ring(0.0, collar_radius), rotor_bottom_level - hub_top_level),
@@ -116,10 +150,6 @@ def bare_rotor_moments(
         (disc_at(0.5 * pin_diameter, pin_radius).times(spring_count), pin_top_level - rotor_top_level),
         (disc_at(0.5 * link_screw_hole, link_bolt_circle_radius).times(LINK_SCREWS), -link_screw_depth),
         (ring(0.0, 0.5 * retainer_screw_hole), -retainer_screw_depth),
-    )
-    return Section(
-        area=sum(section.area * height for section, height in prisms),
-        polar=sum(section.polar * height for section, height in prisms),
     )
 
 

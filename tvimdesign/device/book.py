@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeVar
 
 import yaml
 
-from tvimdesign.device.rows import Choice, Event, Input, Output, Path, Row, Rule, Stage, Steady, Swing, its_name
+from tvimdesign.device.rows import Choice, Event, Extra, Input, Output, Path, Row, Rule, Stage, Steady, Swing, its_name
 from tvimdesign.units import to_si
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -18,9 +18,10 @@ F = TypeVar("F", bound=Callable[..., Any])
 class Book:
     """Collects the rows of one group in the order they are written."""
 
-    def __init__(self, group: str) -> None:
-        """`group` is the heading under which reports list the rows."""
+    def __init__(self, group: str, extras: tuple[Extra, ...] = ()) -> None:
+        """`group` is the heading under which reports list the rows, `extras` what they are of unless they say it."""
         self.group = group
+        self.extras = extras
         self.rows: list[Row] = []
         self.anchors: dict[int, str] = {}
         """Of the rows that stand after a certain row of the group, by their place here, that row's name."""
@@ -49,6 +50,7 @@ class Book:
                     source=_of_record(record) if record else f"{entry['status']}: {entry['source']}",
                     record=record,
                     mode=entry.get("mode"),
+                    extras=(Extra(*entry["extra"]),) if "extra" in entry else (),
                 )
             )
 
@@ -70,6 +72,7 @@ class Book:
         description: str,
         only: tuple[str, str, str] | None = None,
         others: tuple[str, ...] = (),
+        extras: tuple[Extra, ...] = (),
     ) -> None:
         """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit.
 
@@ -79,7 +82,7 @@ class Book:
         word, record = (default, None) if isinstance(default, str) else ("", default)
         row = Choice(
             name=name, description=description, group=self.group, default=word, record=record, shelf=shelf, only=only,
-            options=others,
+            options=others, extras=extras,
         )  # fmt: skip
         self.rows.append(row)
 
@@ -103,8 +106,10 @@ class Book:
         hidden: bool = False,
         headline: bool = False,
         least_of: tuple[str, ...] = (),
+        extras: tuple[Extra, ...] | None = None,
+        otherwise: Any = 0.0,
     ) -> Callable[[F], F]:
-        """Add a function as a row."""
+        """Add a function as a row; in a module that lacks one of its extras it is `otherwise`."""
 
         def add(function: F) -> F:
             row = Output(
@@ -121,6 +126,8 @@ class Book:
                 rules=rules,
                 advice=advice,
                 better=directions().get(function.__name__),
+                extras=self.extras if extras is None else extras,
+                otherwise=otherwise,
             )
             self.rows.append(row)
             return function
@@ -139,7 +146,15 @@ class Book:
 
         return add
 
-    def alike(self, of: str, words: str, function: Callable[..., Any], unit: str = "", *rules: Rule) -> None:
+    def alike(
+        self,
+        of: str,
+        words: str,
+        function: Callable[..., Any],
+        unit: str = "",
+        *rules: Rule,
+        extras: tuple[Extra, ...] = (),
+    ) -> None:
         """Add a row that several things have alike, for one of them; without a unit it is an intermediate result.
 
         The function is written with `its_` for the thing in its name and in its parameters, and {it} for `words`.
@@ -153,12 +168,20 @@ class Book:
             hidden=not unit,
             rules=rules,
             of=of,
+            extras=extras,
         )
         self.rows.append(row)
 
-    def helper(self, *, per_point: bool = False, instant: bool = False) -> Callable[[F], F]:
+    def helper(
+        self,
+        *,
+        per_point: bool = False,
+        instant: bool = False,
+        extras: tuple[Extra, ...] | None = None,
+        otherwise: Any = 0.0,
+    ) -> Callable[[F], F]:
         """Add an intermediate result that other rows use and nobody asks for."""
-        return self.output("1", per_point=per_point, instant=instant, hidden=True)
+        return self.output("1", per_point=per_point, instant=instant, hidden=True, extras=extras, otherwise=otherwise)
 
     def path(
         self, stage: Stage, unit: str, reduce: Literal["integral", "maximum"], *, headline: bool = False

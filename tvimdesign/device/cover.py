@@ -16,28 +16,22 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.fastening import Joint, screwed_joint
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
-from tvimdesign.device.rows import Rule, Scalar, at_least
+from tvimdesign.device.rows import Extra, Scalar, at_least
 from tvimdesign.physics.shapes import Section, disc_at, lens, lens_corner, ring
 
-PLATE = "plate"
-ONLY = ("cover", PLATE)
-JOINT = Joint("cover", "iso_4762_m2", "the cover's screws", "cover's screws", "the housing", ONLY)
+OPEN = "none"
+WITH_COVER = (Extra("cover", OPEN),)
+JOINT = Joint("cover", "iso_4762_m2", "the cover's screws", "cover's screws", "the housing", WITH_COVER)
 
-places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
-places.option("cover", ("none", PLATE), "Whether a plate on the housing's rim closes the module around the core")
+places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group, WITH_COVER)
+places.option("cover", (OPEN, "plate"), "Whether a plate on the housing's rim closes the module around the core")
 books = (places, *screwed_joint(JOINT), weights, rules)
 
 
-@places.helper()
-def has_cover(cover: str) -> Scalar:
-    """One with a cover, zero without."""
-    return 1.0 if cover == PLATE else 0.0
-
-
-@places.helper()
-def cover_screw_count(has_cover: Scalar, spring_count: Scalar) -> Scalar:
+@places.helper(extras=WITH_COVER)
+def cover_screw_count(spring_count: Scalar) -> Scalar:
     """Screws of the cover: one between each two springs; none without a cover."""
-    return has_cover * spring_count
+    return spring_count
 
 
 @places.helper()
@@ -53,15 +47,15 @@ def cover_clamped(cover_thickness: Scalar) -> Scalar:
 
 
 @places.output("mm")
-def rim_level(has_cover: Scalar, pin_top_level: Scalar, running_clearance: Scalar) -> Scalar:
+def rim_level(cover: str, pin_top_level: Scalar, running_clearance: Scalar) -> Scalar:
     """Upper end of the housing's wall: that of the pins, and a running clearance more under a cover."""
-    return pin_top_level + has_cover * running_clearance
+    return pin_top_level if cover == OPEN else pin_top_level + running_clearance
 
 
-@places.output("mm")
-def cover_height(has_cover: Scalar, cover_thickness: Scalar) -> Scalar:
+@places.output("mm", extras=WITH_COVER)
+def cover_height(cover_thickness: Scalar) -> Scalar:
     """Thickness that the cover adds to the height of the module; zero without."""
-    return has_cover * cover_thickness
+    return cover_thickness
 
 
 @places.output("mm")
@@ -76,19 +70,17 @@ def cover_boss_radius(cover_screw_hole: Scalar, cover_screw_clearance: Scalar, c
     return 0.5 * np.fmax(cover_screw_hole, cover_screw_clearance) + cover_hole_wall
 
 
-@places.output("mm")
-def cover_corner_radius(
-    has_cover: Scalar, corner_radius: Scalar, corner_depth_ratio: Scalar, rim_level: Scalar
-) -> Scalar:
+@places.output("mm", extras=WITH_COVER)
+def cover_corner_radius(corner_radius: Scalar, corner_depth_ratio: Scalar, rim_level: Scalar) -> Scalar:
     """Radius of the corners beside the cover's bosses, which are as deep as the wall is high; zero without a cover."""
-    return has_cover * np.fmax(corner_radius, rim_level / corner_depth_ratio)
+    return np.fmax(corner_radius, rim_level / corner_depth_ratio)
 
 
 # --- weights ---------------------------------------------------------------------------------------------------------
 
 
 @weights.helper()
-def cover_bosses_volume(
+def cover_bosses_moments(
     cover_screw_count: Scalar,
     cover_boss_radius: Scalar,
     cover_corner_radius: Scalar,
@@ -96,11 +88,15 @@ def cover_bosses_volume(
     rim_level: Scalar,
     cover_screw_hole: Scalar,
     cover_screw_depth: Scalar,
-) -> Scalar:
-    """What the housing gains by the cover's bosses [m^3]: what stands inside its wall, less the screws' holes."""
+) -> Section:
+    """What the housing gains by the cover's bosses: what stands inside its wall, less the screws' holes.
+
+    Volume and its polar moment about the axis, as if all stood on the wall's inner radius.
+    """
     corners = 2.0 * lens_corner(cover_boss_radius, housing_inner_radius, cover_corner_radius)
     inside = (lens(cover_boss_radius, housing_inner_radius) + corners) * rim_level
-    return cover_screw_count * (inside - 0.25 * np.pi * cover_screw_hole**2 * cover_screw_depth)
+    volume = cover_screw_count * (inside - 0.25 * np.pi * cover_screw_hole**2 * cover_screw_depth)
+    return Section(volume, volume * housing_inner_radius**2)
 
 
 @weights.helper()
@@ -134,32 +130,28 @@ def cover_mass(cover_volume: Scalar, structure_density: Scalar) -> Scalar:
 # --- rules -----------------------------------------------------------------------------------------------------------
 
 
-def _room(reason: str) -> Rule:
-    """There must be room, where there is a cover at all."""
-    return at_least(0.0, reason, only=ONLY)
-
-
-@rules.output("mm", _room("the cover is thinner than the process can make it"))
-def cover_reserve(has_cover: Scalar, cover_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
+@rules.output("mm", at_least(0.0, "the cover is thinner than the process can make it"))
+def cover_reserve(cover_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
     """Cover beyond the process's least wall; zero without a cover."""
-    return has_cover * (cover_thickness - minimum_wall)
+    return cover_thickness - minimum_wall
 
 
-@rules.output("mm", _room("the cover's screws would break out of the housing: a thicker wall, or smaller screws"))
-def cover_wall_reserve(has_cover: Scalar, wall_thickness: Scalar, cover_boss_radius: Scalar) -> Scalar:
+@rules.output(
+    "mm", at_least(0.0, "the cover's screws would break out of the housing: a thicker wall, or smaller screws")
+)
+def cover_wall_reserve(wall_thickness: Scalar, cover_boss_radius: Scalar) -> Scalar:
     """Housing wall beyond the cover's bosses, which stand on its inner face; zero without a cover."""
-    return has_cover * (wall_thickness - cover_boss_radius)
+    return wall_thickness - cover_boss_radius
 
 
-@rules.output("mm", _room("the holes of the cover's screws would go through the floor: choose shorter screws"))
-def cover_depth_reserve(has_cover: Scalar, rim_level: Scalar, cover_screw_depth: Scalar) -> Scalar:
+@rules.output("mm", at_least(0.0, "the holes of the cover's screws would go through the floor: choose shorter screws"))
+def cover_depth_reserve(rim_level: Scalar, cover_screw_depth: Scalar) -> Scalar:
     """Bosses below the holes of the cover's screws; zero without a cover."""
-    return has_cover * (rim_level - cover_screw_depth)
+    return rim_level - cover_screw_depth
 
 
-@rules.output("mm", _room("the cover's bosses must clear the springs, and their adjusters"))
+@rules.output("mm", at_least(0.0, "the cover's bosses must clear the springs, and their adjusters"))
 def cover_spring_gap(
-    has_cover: Scalar,
     placement_radius: Scalar,
     housing_inner_radius: Scalar,
     spring_count: Scalar,
@@ -174,32 +166,30 @@ def cover_spring_gap(
     ahead = housing_inner_radius - placement_radius * np.cos(half_pitch)
     apart = np.sqrt(ahead**2 + (placement_radius * np.sin(half_pitch)) ** 2)
     taken = np.fmax(spring_reach + radial_clearance, adjuster_radius + slip_clearance)
-    return has_cover * (apart - cover_boss_radius - taken)
+    return apart - cover_boss_radius - taken
 
 
-@rules.output("mm", _room("the corners beside the cover's bosses, as round as a cutter needs, would reach the springs"))
-def cover_corner_reserve(
-    has_cover: Scalar, spring_reach: Scalar, radial_clearance: Scalar, cover_corner_radius: Scalar
-) -> Scalar:
+@rules.output(
+    "mm", at_least(0.0, "the corners beside the cover's bosses, as round as a cutter needs, would reach the springs")
+)
+def cover_corner_reserve(spring_reach: Scalar, radial_clearance: Scalar, cover_corner_radius: Scalar) -> Scalar:
     """Radius of springs with their clearance beyond that of those corners: what clears wall and boss clears them."""
-    return has_cover * (spring_reach + radial_clearance - cover_corner_radius)
+    return spring_reach + radial_clearance - cover_corner_radius
 
 
-@rules.output("mm", _room("the cover's bosses stand in the way to the screws that fix the housing"))
+@rules.output("mm", at_least(0.0, "the cover's bosses stand in the way to the screws that fix the housing"))
 def cover_mount_gap(
-    has_cover: Scalar,
     housing_inner_radius: Scalar,
     cover_boss_radius: Scalar,
     placement_radius: Scalar,
     mount_boss_radius: Scalar,
 ) -> Scalar:
     """Room between the cover's bosses and the holes above the feet; zero without a cover."""
-    return has_cover * (housing_inner_radius - cover_boss_radius - placement_radius - mount_boss_radius)
+    return housing_inner_radius - cover_boss_radius - placement_radius - mount_boss_radius
 
 
-@rules.output("mm", _room("the link would meet the heads of the cover's screws within the stroke"))
+@rules.output("mm", at_least(0.0, "the link would meet the heads of the cover's screws within the stroke"))
 def cover_link_gap(
-    has_cover: Scalar,
     housing_inner_radius: Scalar,
     spring_count: Scalar,
     stroke: Scalar,
@@ -209,4 +199,4 @@ def cover_link_gap(
 ) -> Scalar:
     """Room between the link at full stroke and the screws' heads, beyond the clearance; zero without a cover."""
     beside = housing_inner_radius * np.sin(np.pi / spring_count - stroke)
-    return has_cover * (beside - 0.5 * cover_screw_head - link_half_width - radial_clearance)
+    return beside - 0.5 * cover_screw_head - link_half_width - radial_clearance

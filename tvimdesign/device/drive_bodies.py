@@ -3,31 +3,22 @@
 from __future__ import annotations
 
 from tvimdesign.catalog import Record
-from tvimdesign.device.bearing import BEARINGS
+from tvimdesign.device.bearing import BEARINGS, bearing_inner_section, bearings_inertia
 from tvimdesign.device.bearing import bearing_density as density_as_a_ring
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
 from tvimdesign.device.drive import BASE_SCREWS
+from tvimdesign.device.fastening import its_screw_moments
 from tvimdesign.device.flange import Pattern, pattern_holes
-from tvimdesign.device.motor import Encoder, Motor
+from tvimdesign.device.motor import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics.shapes import Section, disc_at, inner_corner, ring, ring_notch, spoke
+from tvimdesign.physics.shapes import NOTHING, Section, disc_at, inner_corner, notch, ring, spoke, stacked
 
-book = Book(shared.group)
-_NOTHING = Section(0.0, 0.0)
-
-
-def _sum(*prisms: tuple[Section, Scalar]) -> Section:
-    """Volume and polar moment of flat shapes, each with its height."""
-    return Section(
-        sum(section.area * height for section, height in prisms),
-        sum(section.polar * height for section, height in prisms),
-    )
+book = Book(shared.group, WITH_MOTOR)
 
 
-@book.helper()
+@book.helper(otherwise=NOTHING)
 def motor_hub_moments(
-    drive: Motor | None,
     motor_disc_radius: Scalar,
     motor_barrel_radius: Scalar,
     motor_collar_radius: Scalar,
@@ -46,13 +37,11 @@ def motor_hub_moments(
     placement_radius: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the motor's hub; the spokes' corners count at the disc's rim."""
-    if drive is None:
-        return _NOTHING
     spokes = spoke(mount_boss_radius, motor_disc_radius, placement_radius) - disc_at(
         0.5 * mount_screw_pilot, placement_radius
     )
     corners = 2.0 * inner_corner(motor_corner_radius, motor_disc_radius, mount_boss_radius)
-    return _sum(
+    return stacked(
         (ring(0.0, motor_disc_radius), motor_plate_thickness),
         (spokes.times(spring_count), motor_plate_thickness),
         (Section(corners, corners * motor_disc_radius**2).times(spring_count), motor_plate_thickness),
@@ -71,7 +60,7 @@ def motor_hub_volume(motor_hub_moments: Section) -> Scalar:
 
 @book.output("mm^3")
 def motor_housing_volume(
-    drive: Motor | None,
+    drive: Motor,
     angle_sensor: Encoder | None,
     motor_outer_radius: Scalar,
     stator_seat_radius: Scalar,
@@ -93,8 +82,6 @@ def motor_housing_volume(
     sensor_recess_depth: Scalar,
 ) -> Scalar:
     """Volume of the motor's housing: base, wall and tube, less bore, seats, holes, recesses and wires' ways."""
-    if drive is None:
-        return 0.0
     lower = motor_retainer_level + drive.bearing_width - motor_bottom_level
     lip = stator_top_level - drive.bearing_width - motor_bottom_level - lower
     solid = (
@@ -104,20 +91,19 @@ def motor_housing_volume(
     )
     bore = ring(0.0, motor_seat_radius).area * (lower + drive.bearing_width) + ring(0.0, motor_lip_radius).area * lip
     screws = BASE_SCREWS * ring(0.0, 0.5 * mount_screw_pilot).area * motor_base_hole_depth
-    wires = ring_notch(0.5 * motor_wire_width, stator_seat_radius, motor_outer_radius) * motor_wire_depth
+    wires = notch(0.5 * motor_wire_width, stator_seat_radius, motor_outer_radius).area * motor_wire_depth
     whole = solid - bore - screws - wires - pattern_holes(base_pattern, flange_screw_depth)
     recesses: list[tuple[Scalar, Scalar]] = [(flange_bore_radius, sensor_recess_depth)] if base_pattern.screws else []
     if angle_sensor is not None:
         recesses.append((encoder_recess_radius, angle_sensor.board_height))
     for radius, height in recesses:
-        groove = 0.0 if angle_sensor is None else ring_notch(0.5 * motor_wire_width, radius, motor_outer_radius)
+        groove = 0.0 if angle_sensor is None else notch(0.5 * motor_wire_width, radius, motor_outer_radius).area
         whole -= (ring(motor_seat_radius, radius).area + groove) * height
     return whole
 
 
-@book.helper()
+@book.helper(otherwise=NOTHING)
 def motor_retainer_moments(
-    drive: Motor | None,
     motor_collar_radius: Scalar,
     motor_screw_clearance: Scalar,
     motor_sink_radius: Scalar,
@@ -125,9 +111,7 @@ def motor_retainer_moments(
     motor_retainer_thickness: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the motor's retainer."""
-    if drive is None:
-        return _NOTHING
-    return _sum(
+    return stacked(
         (ring(0.5 * motor_screw_clearance, motor_collar_radius), motor_retainer_floor),
         (ring(motor_sink_radius, motor_collar_radius), motor_retainer_thickness - motor_retainer_floor),
     )
@@ -139,21 +123,15 @@ def motor_retainer_volume(motor_retainer_moments: Section) -> Scalar:
     return motor_retainer_moments.area
 
 
-@book.helper()
+@book.helper(otherwise=NOTHING)
 def motor_screw_moments(
-    drive: Motor | None,
     motor_screw_pilot: Scalar,
     motor_screw_length: Scalar,
     motor_screw_head: Scalar,
     motor_screw_head_height: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the motor retainer's screw."""
-    if drive is None:
-        return _NOTHING
-    return _sum(
-        (ring(0.0, 0.5 * motor_screw_pilot), motor_screw_length),
-        (ring(0.0, 0.5 * motor_screw_head), motor_screw_head_height),
-    )
+    return its_screw_moments(1.0, 0.0, motor_screw_pilot, motor_screw_length, motor_screw_head, motor_screw_head_height)
 
 
 @book.output("mm^3")
@@ -162,9 +140,8 @@ def motor_screw_volume(motor_screw_moments: Section) -> Scalar:
     return motor_screw_moments.area
 
 
-@book.helper()
+@book.helper(otherwise=NOTHING)
 def mount_screw_moments(
-    drive: Motor | None,
     spring_count: Scalar,
     placement_radius: Scalar,
     mount_screw_pilot: Scalar,
@@ -173,11 +150,8 @@ def mount_screw_moments(
     mount_screw_head_height: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the screws between housing and motor hub."""
-    if drive is None:
-        return _NOTHING
-    return _sum(
-        (disc_at(0.5 * mount_screw_pilot, placement_radius).times(spring_count), mount_screw_length),
-        (disc_at(0.5 * mount_screw_head, placement_radius).times(spring_count), mount_screw_head_height),
+    return its_screw_moments(
+        spring_count, placement_radius, mount_screw_pilot, mount_screw_length, mount_screw_head, mount_screw_head_height
     )
 
 
@@ -188,70 +162,68 @@ def mount_screw_volume(mount_screw_moments: Section) -> Scalar:
 
 
 @book.output("mm^3")
-def motor_rotor_volume(drive: Motor | None) -> Scalar:
+def motor_rotor_volume(drive: Motor) -> Scalar:
     """Volume of the motor's rotor as a ring."""
-    return 0.0 if drive is None else ring(drive.rotor_bore, drive.rotor_radius).area * drive.rotor_length
+    return ring(drive.rotor_bore, drive.rotor_radius).area * drive.rotor_length
 
 
 @book.output("mm^3")
-def motor_stator_volume(drive: Motor | None) -> Scalar:
+def motor_stator_volume(drive: Motor) -> Scalar:
     """Volume of the motor's stator with its windings as a ring."""
-    return 0.0 if drive is None else ring(drive.stator_bore, drive.stator_radius).area * drive.stator_length
+    return ring(drive.stator_bore, drive.stator_radius).area * drive.stator_length
 
 
 @book.output("mm^3")
-def motor_bearing_volume(drive: Motor | None) -> Scalar:
+def motor_bearing_volume(drive: Motor) -> Scalar:
     """Volume of the motor's two bearings as rings without gaps."""
-    if drive is None:
-        return 0.0
     return BEARINGS * ring(drive.bearing_bore, drive.bearing_radius).area * drive.bearing_width
 
 
-@book.output("mm^3")
-def encoder_magnet_volume(angle_sensor: Encoder | None) -> Scalar:
+@book.output("mm^3", extras=WITH_ENCODER)
+def encoder_magnet_volume(angle_sensor: Encoder) -> Scalar:
     """Volume of the encoder's magnet."""
-    return 0.0 if angle_sensor is None else ring(0.0, angle_sensor.magnet_radius).area * angle_sensor.magnet_height
+    return ring(0.0, angle_sensor.magnet_radius).area * angle_sensor.magnet_height
 
 
-@book.output("mm^3")
-def encoder_board_volume(angle_sensor: Encoder | None) -> Scalar:
+@book.output("mm^3", extras=WITH_ENCODER)
+def encoder_board_volume(angle_sensor: Encoder) -> Scalar:
     """Volume of the encoder's board as a disc as high as board and chip."""
-    return 0.0 if angle_sensor is None else ring(0.0, angle_sensor.board_radius).area * angle_sensor.board_height
+    return ring(0.0, angle_sensor.board_radius).area * angle_sensor.board_height
 
 
 @book.output("kg/m^3")
-def motor_rotor_density(drive: Motor | None, motor_rotor_volume: Scalar) -> Scalar:
+def motor_rotor_density(drive: Motor, motor_rotor_volume: Scalar) -> Scalar:
     """Mass of the motor's rotor over that volume; zero without a motor."""
-    return 0.0 if drive is None else drive.rotor_mass / motor_rotor_volume
+    return drive.rotor_mass / motor_rotor_volume
 
 
 @book.output("kg/m^3")
-def motor_stator_density(drive: Motor | None, motor_stator_volume: Scalar) -> Scalar:
+def motor_stator_density(drive: Motor, motor_stator_volume: Scalar) -> Scalar:
     """Mass of the motor's stator over that volume; zero without a motor."""
-    return 0.0 if drive is None else drive.stator_mass / motor_stator_volume
+    return drive.stator_mass / motor_stator_volume
 
 
 @book.output("kg/m^3")
-def motor_bearing_density(drive: Motor | None, motor_bearing: Record) -> Scalar:
+def motor_bearing_density(motor_bearing: Record) -> Scalar:
     """Mass of one of the motor's bearings over its volume; zero without a motor."""
-    return 0.0 if drive is None else density_as_a_ring(motor_bearing)
+    return density_as_a_ring(motor_bearing)
 
 
-@book.output("kg/m^3")
-def encoder_magnet_density(angle_sensor: Encoder | None) -> Scalar:
+@book.output("kg/m^3", extras=WITH_ENCODER)
+def encoder_magnet_density(angle_sensor: Encoder) -> Scalar:
     """Density of the encoder's magnet; zero without an encoder."""
-    return 0.0 if angle_sensor is None else angle_sensor.magnet_density
+    return angle_sensor.magnet_density
 
 
-@book.output("kg/m^3")
-def encoder_board_density(angle_sensor: Encoder | None, encoder_board_volume: Scalar) -> Scalar:
+@book.output("kg/m^3", extras=WITH_ENCODER)
+def encoder_board_density(angle_sensor: Encoder, encoder_board_volume: Scalar) -> Scalar:
     """Mass of the encoder's board over its volume; zero without an encoder."""
-    return 0.0 if angle_sensor is None else angle_sensor.board_mass / encoder_board_volume
+    return angle_sensor.board_mass / encoder_board_volume
 
 
 @book.output("g")
 def drive_mass(
-    drive: Motor | None,
+    drive: Motor,
     angle_sensor: Encoder | None,
     structure_density: Scalar,
     motor_hub_volume: Scalar,
@@ -266,8 +238,6 @@ def drive_mass(
     encoder_magnet_volume: Scalar,
 ) -> Scalar:
     """Mass of motor, its hub, housing, retainer, bearings and screws, and encoder; zero without a motor."""
-    if drive is None:
-        return 0.0
     made = (motor_hub_volume + motor_housing_volume + motor_retainer_volume) * structure_density
     screws = motor_screw_volume * motor_screw_density + mount_screw_volume * mount_screw_density
     bought = drive.stator_mass + drive.rotor_mass + motor_bearing_volume * motor_bearing_density
@@ -284,7 +254,7 @@ def motor_hub_inertia(motor_hub_moments: Section, structure_density: Scalar) -> 
 
 @book.output("kg*mm^2")
 def drive_inertia(
-    drive: Motor | None,
+    drive: Motor,
     angle_sensor: Encoder | None,
     motor_hub_inertia: Scalar,
     motor_retainer_moments: Section,
@@ -299,12 +269,10 @@ def drive_inertia(
 
     It is on the motor's side of springs and PCL, and no part of `parts_inertia`. The rotor's is its record's.
     """
-    if drive is None:
-        return 0.0
     retainer = motor_retainer_moments.polar * structure_density
     screws = motor_screw_moments.polar * motor_screw_density + mount_screw_moments.polar * mount_screw_density
-    inner = ring(drive.bearing_bore, 0.5 * (drive.bearing_bore + drive.bearing_radius)).polar * drive.bearing_width
-    rings = BEARINGS * inner * motor_bearing_density
+    inner = bearing_inner_section(drive.bearing_bore, drive.bearing_radius)
+    rings = bearings_inertia(inner, drive.bearing_width, motor_bearing_density)
     whole = drive.rotor_inertia + motor_hub_inertia + retainer + screws + rings
     if angle_sensor is None:
         return whole

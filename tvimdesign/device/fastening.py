@@ -24,8 +24,8 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.gaps import MM
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
-from tvimdesign.device.rows import Rule, Scalar, at_least
-from tvimdesign.physics.shapes import Section, disc_at, ring
+from tvimdesign.device.rows import Extra, Rule, Scalar, at_least
+from tvimdesign.physics.shapes import Section, disc_at, ring, stacked
 
 
 class Joint(NamedTuple):
@@ -40,12 +40,12 @@ class Joint(NamedTuple):
     """Its screws, or its one screw."""
     into: str
     """The part they are screwed into."""
-    only: tuple[str, str] | None = None
-    """(option, word): the module has the joint only where that is chosen."""
+    extras: tuple[Extra, ...] = ()
+    """What the module must have to have the joint."""
 
 
 NO_INSERT = "none"
-_MELTED_IN = ("thread_insert", "heat_set")
+WITH_INSERTS = (Extra("thread_insert", NO_INSERT),)
 _FIELDS = (
     ("diameter", "mm", "nominal_diameter", "Nominal diameter"),
     ("pilot", "mm", "tap_drill", "Hole for the thread"),
@@ -60,27 +60,29 @@ def screwed_joint(joint: Joint) -> tuple[Book, Book, Book]:
     """Return the rows of a joint: its dimensions, its weights, its rules."""
     places, weights, rules = Book(layout.group), Book(bodies.group), Book(gaps.group)
     name, words = joint.name, joint.words
+    melted_in = (*WITH_INSERTS, Extra(f"{name}_insert", NO_INSERT))
     places.record(f"{name}_screw", "screws", joint.screw, f"Screw of the catalogue: {joint.about}")
     for row, unit, field, description in _FIELDS:
         places.property(f"{name}_screw_{row}", unit, (f"{name}_screw", field), f"{description} of the {words}")
     places.record(
         f"{name}_insert", "inserts", (f"{name}_screw", "insert"),
-        f"Insert for the {words} where `thread_insert` is heat_set", others=(NO_INSERT,),
+        f"Insert for the {words} where `thread_insert` is heat_set", others=(NO_INSERT,), extras=WITH_INSERTS,
     )  # fmt: skip
     places.alike(name, words, its_thread)
     places.alike(name, words, its_screw_hole, "mm")
     places.alike(name, words, its_hole_wall, "mm")
     places.alike(name, words, its_screw_depth, "mm")
-    places.alike(name, words, its_insert_length, "mm")
+    places.alike(name, words, its_insert_length, "mm", extras=joint.extras)
     weights.alike(name, words, its_screw_moments)
     weights.alike(name, words, its_screw_volume, "mm^3")
     weights.alike(name, words, its_insert_moments)
     weights.alike(name, words, its_insert_volume, "mm^3")
-    weights.alike(name, words, its_insert_density, "kg/m^3")
-    short = at_least(0.0, f"the {words} would not hold in {joint.into}: choose a longer length", only=joint.only)
-    rules.alike(name, words, its_thread_reserve, "mm", short)
+    weights.alike(name, words, its_insert_density, "kg/m^3", extras=melted_in)
+    short = at_least(0.0, f"the {words} would not hold in {joint.into}: choose a longer length")
+    rules.alike(name, words, its_thread_reserve, "mm", short, extras=joint.extras)
     other = f"the inserts for the {words} have another thread: choose {name}_insert by {name}_screw"
-    rules.alike(name, words, its_insert_misfit, "mm", Rule(sense="<=", value=0.01 * MM, reason=other, only=_MELTED_IN))
+    alike = Rule(sense="<=", value=0.01 * MM, reason=other)
+    rules.alike(name, words, its_insert_misfit, "mm", alike, extras=(*joint.extras, *melted_in))
     return places, weights, rules
 
 
@@ -128,9 +130,9 @@ def its_screw_depth(its_screw_length: Scalar, its_clamped: Scalar, screw_tip_roo
     return its_screw_length - its_clamped + screw_tip_room
 
 
-def its_insert_length(its_screw_count: Scalar, its_thread: Thread) -> Scalar:
+def its_insert_length(its_thread: Thread) -> Scalar:
     """Length of the inserts for the {it}; zero where there are none."""
-    return np.fmin(its_screw_count, 1.0) * its_thread.insert
+    return its_thread.insert
 
 
 def its_screw_moments(
@@ -142,9 +144,9 @@ def its_screw_moments(
     its_screw_head_height: Scalar,
 ) -> Section:
     """Volume of the {it} and its polar moment about the axis."""
-    shank = disc_at(0.5 * its_screw_pilot, its_screw_circle).times(its_screw_count * its_screw_length)
-    head = disc_at(0.5 * its_screw_head, its_screw_circle).times(its_screw_count * its_screw_head_height)
-    return Section(shank.area + head.area, shank.polar + head.polar)
+    shank = disc_at(0.5 * its_screw_pilot, its_screw_circle)
+    head = disc_at(0.5 * its_screw_head, its_screw_circle)
+    return stacked((shank, its_screw_count * its_screw_length), (head, its_screw_count * its_screw_head_height))
 
 
 def its_screw_volume(its_screw_moments: Section) -> Scalar:
@@ -165,29 +167,21 @@ def its_insert_volume(its_insert_moments: Section) -> Scalar:
     return its_insert_moments.area
 
 
-def its_insert_density(thread_insert: str, its_insert: Record | str, its_screw_pilot: Scalar) -> Scalar:
+def its_insert_density(its_insert: Record, its_screw_pilot: Scalar) -> Scalar:
     """Mass of an insert for the {it} over its volume as a ring that fills its hole; zero without."""
-    if thread_insert == NO_INSERT or isinstance(its_insert, str):
-        return 0.0
     value = its_insert.value
     section = ring(0.5 * its_screw_pilot, 0.5 * value("hole_diameter"))
     return value("mass") / (section.area * value("length"))
 
 
-def its_insert_misfit(
-    thread_insert: str, its_screw_count: Scalar, its_insert: Record | str, its_screw_diameter: Scalar
-) -> Scalar:
+def its_insert_misfit(its_insert: Record, its_screw_diameter: Scalar) -> Scalar:
     """How far the thread of the inserts for the {it} is from that of the screws; zero where there are none."""
-    if thread_insert == NO_INSERT or isinstance(its_insert, str):
-        return 0.0
-    return np.fmin(its_screw_count, 1.0) * np.fabs(its_insert.value("nominal_diameter") - its_screw_diameter)
+    return np.fabs(its_insert.value("nominal_diameter") - its_screw_diameter)
 
 
-def its_thread_reserve(
-    its_screw_count: Scalar, its_screw_length: Scalar, its_clamped: Scalar, its_thread: Thread
-) -> Scalar:
+def its_thread_reserve(its_screw_length: Scalar, its_clamped: Scalar, its_thread: Thread) -> Scalar:
     """Thread of the {it} beyond what holds; zero where there are none."""
-    return np.fmin(its_screw_count, 1.0) * (its_screw_length - its_clamped - its_thread.engagement)
+    return its_screw_length - its_clamped - its_thread.engagement
 
 
 def length_misfit(length: Scalar, screw: Record) -> Scalar:

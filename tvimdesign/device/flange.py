@@ -22,20 +22,24 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.impedance import book as impedance
 from tvimdesign.device.layout import book as layout
-from tvimdesign.device.motor import Encoder, Motor
-from tvimdesign.device.rows import Rule, Scalar, at_least
-from tvimdesign.physics.shapes import ring
+from tvimdesign.device.motor import WITH_ENCODER, WITH_MOTOR, Motor
+from tvimdesign.device.rows import Extra, Scalar, at_least
+from tvimdesign.physics.shapes import NOTHING, Section, ring
 
 WITHOUT = "none"
+WITH_FLANGE = (Extra("sensor_flange", WITHOUT),)
+ON_SENSOR = (*WITH_FLANGE, *WITH_MOTOR)
+"""A motor that a sensor bears."""
 
-places, weights, rules, supports = Book(layout.group), Book(bodies.group), Book(gaps.group), Book(impedance.group)
+places, weights = Book(layout.group, WITH_FLANGE), Book(bodies.group, WITH_FLANGE)
+rules, supports = Book(gaps.group, WITH_FLANGE), Book(impedance.group)
 books = (places, weights, rules, supports)
 
 places.record(
     "sensor_flange",
     "sensor_flanges",
     WITHOUT,
-    "Pattern for a torque sensor on the housing's underside, or none",
+    "Pattern for a torque sensor that the joint stands on, or none",
     others=(WITHOUT,),
 )
 
@@ -53,11 +57,9 @@ class Pattern(NamedTuple):
     pin_depth: float = 0.0
 
 
-@places.helper()
-def sensor_pattern(sensor_flange: Record | str) -> Pattern:
+@places.helper(otherwise=Pattern())
+def sensor_pattern(sensor_flange: Record) -> Pattern:
     """What the chosen pattern asks of the flange."""
-    if isinstance(sensor_flange, str):
-        return Pattern()
     value = sensor_flange.value
     return Pattern(
         screws=value("screw_count"),
@@ -108,41 +110,39 @@ def sensor_pin_depth(sensor_pattern: Pattern) -> Scalar:
 
 
 @places.output("mm")
-def flange_bore_radius(sensor_flange: Record | str, sensor_pattern: Pattern, seat_clearance: Scalar) -> Scalar:
+def flange_bore_radius(sensor_pattern: Pattern, seat_clearance: Scalar) -> Scalar:
     """Radius of the flange's bore, into which the sensor's spigot fits; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else sensor_pattern.centring_radius + seat_clearance
+    return sensor_pattern.centring_radius + seat_clearance
 
 
-@places.helper()
+@places.helper(otherwise=Pattern())
 def floor_pattern(sensor_pattern: Pattern, drive: Motor | None) -> Pattern:
     """What the flange under the floor has: nothing where a motor stands there, whose base has the pattern."""
     return sensor_pattern if drive is None else Pattern()
 
 
-@places.helper()
-def base_pattern(sensor_pattern: Pattern, drive: Motor | None) -> Pattern:
+@places.helper(extras=ON_SENSOR, otherwise=Pattern())
+def base_pattern(sensor_pattern: Pattern) -> Pattern:
     """What the base of the motor's housing has of the pattern; nothing without a motor."""
-    return Pattern() if drive is None else sensor_pattern
+    return sensor_pattern
 
 
-@places.output("mm")
+@places.output("mm", extras=ON_SENSOR)
 def sensor_recess_depth(base_pattern: Pattern, running_clearance: Scalar) -> Scalar:
     """Recess for the sensor's spigot in the base of the motor's housing; zero without motor or sensor."""
-    return base_pattern.centring_depth + running_clearance if base_pattern.screws else 0.0
+    return base_pattern.centring_depth + running_clearance
 
 
 @places.output("mm")
 def flange_outer_radius(floor_pattern: Pattern, flange_wall: Scalar) -> Scalar:
     """Outer radius of the flange: a wall beyond the wider of its holes; zero without a flange, or with a motor."""
-    if not floor_pattern.screws:
-        return 0.0
-    return floor_pattern.pitch_radius + _half_hole(floor_pattern) + flange_wall
+    return floor_pattern.pitch_radius + _half_hole(floor_pattern) + flange_wall if floor_pattern.screws else 0.0
 
 
 @places.output("mm")
-def flange_screw_depth(sensor_flange: Record | str, flange_screw_reach: Scalar, screw_tip_room: Scalar) -> Scalar:
+def flange_screw_depth(flange_screw_reach: Scalar, screw_tip_room: Scalar) -> Scalar:
     """Depth of the holes for the sensor's screws; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else flange_screw_reach + screw_tip_room
+    return flange_screw_reach + screw_tip_room
 
 
 def _half_hole(pattern: Pattern) -> float:
@@ -184,19 +184,19 @@ def pattern_holes(pattern: Pattern, screw_depth: Scalar) -> Scalar:
     return 0.25 * np.pi * (pattern.screws * pattern.tap_drill**2 * screw_depth + pattern.pin**2 * pattern.pin_depth)
 
 
+@weights.helper(otherwise=NOTHING)
+def flange_moments(flange_volume: Scalar, flange_bore_radius: Scalar, flange_outer_radius: Scalar) -> Section:
+    """Volume and its polar moment about the axis, of the flange, its volume spread over its ring."""
+    return Section(flange_volume, flange_volume * 0.5 * (flange_bore_radius**2 + flange_outer_radius**2))
+
+
 # --- rules -----------------------------------------------------------------------------------------------------------
 
 
-def _where_there_is_one(reason: str) -> Rule:
-    """There must be room, where there is a flange at all."""
-    return at_least(0.0, reason, unless=("sensor_flange", WITHOUT))
-
-
 @rules.output(
-    "mm", _where_there_is_one("what is put in through the bore for the sensor's spigot does not go: a larger pattern")
+    "mm", at_least(0.0, "what is put in through the bore for the sensor's spigot does not go: a larger pattern")
 )
 def flange_bore_gap(
-    sensor_flange: Record | str,
     drive: Motor | None,
     flange_bore_radius: Scalar,
     retainer_radius: Scalar,
@@ -206,22 +206,18 @@ def flange_bore_gap(
     slip_clearance: Scalar,
 ) -> Scalar:
     """Room in that bore around retainer and hub's bore, or the motor's bearings and board; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     if drive is not None:
         return flange_bore_radius - np.fmax(motor_seat_radius, encoder_recess_radius)
     return flange_bore_radius - np.fmax(retainer_radius, seat_radius) - slip_clearance
 
 
-@rules.output(
-    "mm", _where_there_is_one("the sensor flange would close the pads' way out for wires and cold side's air")
-)
+@rules.output("mm", at_least(0.0, "the sensor flange would close the pads' way out for wires and cold side's air"))
 def flange_channel_gap(floor_pattern: Pattern, floor_opening_radius: Scalar, flange_outer_radius: Scalar) -> Scalar:
     """Room between the sensor flange and the openings below the pads; zero without a flange, or with a motor."""
     return floor_opening_radius - flange_outer_radius if floor_pattern.screws else 0.0
 
 
-@rules.output("mm", _where_there_is_one("the sensor flange would cover the springs' tang holes or their adjusters"))
+@rules.output("mm", at_least(0.0, "the sensor flange would cover the springs' tang holes or their adjusters"))
 def flange_spring_gap(
     floor_pattern: Pattern,
     preload_adjuster: str,
@@ -239,15 +235,14 @@ def flange_spring_gap(
     return placement_radius - taken - flange_outer_radius
 
 
-@rules.output(
-    "mm",
-    _where_there_is_one(
-        "a hole for the sensor would open into a pad's seat (more foot_height, or less reach), or into the motor "
-        "(more motor_base_thickness)"
-    ),
+_OPENS = (
+    "a hole for the sensor would open into a pad's seat (more foot_height, or less reach), or into the motor (more "
+    "motor_base_thickness)"
 )
+
+
+@rules.output("mm", at_least(0.0, _OPENS))
 def flange_seat_reserve(
-    sensor_flange: Record | str,
     sensor_pattern: Pattern,
     drive: Motor | None,
     foot_height: Scalar,
@@ -257,23 +252,18 @@ def flange_seat_reserve(
     minimum_wall: Scalar,
 ) -> Scalar:
     """Floor, or motor's base, left above the holes for a sensor beyond the least wall; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     high = foot_height + solid_floor if drive is None else motor_base_thickness
     return high - np.fmax(flange_screw_depth, sensor_pattern.pin_depth) - minimum_wall
 
 
-@rules.output("mm", _where_there_is_one("the sensor's screws do not reach far enough into the flange to hold"))
-def flange_thread_reserve(
-    sensor_flange: Record | str, sensor_pattern: Pattern, flange_screw_reach: Scalar, thread_engagement: Scalar
-) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor's screws do not reach far enough into the flange to hold"))
+def flange_thread_reserve(sensor_pattern: Pattern, flange_screw_reach: Scalar, thread_engagement: Scalar) -> Scalar:
     """Thread of the sensor's screws in the flange beyond what the process wants; zero without a flange."""
-    return 0.0 if isinstance(sensor_flange, str) else flange_screw_reach - thread_engagement * sensor_pattern.thread
+    return flange_screw_reach - thread_engagement * sensor_pattern.thread
 
 
-@rules.output("mm", _where_there_is_one("the sensor flange would split outside its holes"))
+@rules.output("mm", at_least(0.0, "the sensor flange would split outside its holes"))
 def flange_wall_reserve(
-    sensor_flange: Record | str,
     sensor_pattern: Pattern,
     drive: Motor | None,
     motor_outer_radius: Scalar,
@@ -281,34 +271,26 @@ def flange_wall_reserve(
     minimum_wall: Scalar,
 ) -> Scalar:
     """Wall outside the holes for a sensor beyond the least, in a motor's base beyond `flange_wall`; zero without."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     if drive is None:
         return flange_wall - minimum_wall
     outside = motor_outer_radius - sensor_pattern.pitch_radius - _half_hole(sensor_pattern)
     return outside - np.fmax(flange_wall, minimum_wall)
 
 
-@rules.output("mm", _where_there_is_one("the sensor flange would split between its holes and its bore"))
-def flange_bore_wall_reserve(
-    sensor_flange: Record | str, sensor_pattern: Pattern, flange_bore_radius: Scalar, minimum_wall: Scalar
-) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor flange would split between its holes and its bore"))
+def flange_bore_wall_reserve(sensor_pattern: Pattern, flange_bore_radius: Scalar, minimum_wall: Scalar) -> Scalar:
     """Sensor flange between bore and holes beyond the process's least wall; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     return sensor_pattern.pitch_radius - _half_hole(sensor_pattern) - flange_bore_radius - minimum_wall
 
 
-@rules.output("mm", _where_there_is_one("the sensor flange would split between a screw's hole and the pin's"))
-def flange_pin_wall_reserve(sensor_flange: Record | str, sensor_pattern: Pattern, minimum_wall: Scalar) -> Scalar:
+@rules.output("mm", at_least(0.0, "the sensor flange would split between a screw's hole and the pin's"))
+def flange_pin_wall_reserve(sensor_pattern: Pattern, minimum_wall: Scalar) -> Scalar:
     """Sensor flange between screw holes and pin hole beyond the process's least wall; zero without a flange."""
-    if isinstance(sensor_flange, str):
-        return 0.0
     apart = 2.0 * sensor_pattern.pitch_radius * np.sin(0.5 * np.pi / sensor_pattern.screws)
     return apart - 0.5 * (sensor_pattern.tap_drill + sensor_pattern.pin) - minimum_wall
 
 
-@rules.output("mm", _where_there_is_one("the sensor's spigot would meet the retainer's screw: more foot_height"))
+@rules.output("mm", at_least(0.0, "the sensor's spigot would meet the retainer's screw: more foot_height"))
 def flange_spigot_reserve(floor_pattern: Pattern, retainer_gap: Scalar) -> Scalar:
     """Room between the sensor's spigot and the retainer's screw; zero without a flange, or with a motor."""
     return retainer_gap - floor_pattern.centring_depth if floor_pattern.screws else 0.0
@@ -316,18 +298,13 @@ def flange_spigot_reserve(floor_pattern: Pattern, retainer_gap: Scalar) -> Scala
 
 @rules.output(
     "mm",
-    _where_there_is_one("the groove for the encoder's wires would meet a hole for the sensor: turn flange_azimuth"),
+    at_least(0.0, "the groove for the encoder's wires would meet a hole for the sensor: turn flange_azimuth"),
+    extras=(*WITH_FLANGE, *WITH_ENCODER),
 )
 def flange_groove_gap(
-    base_pattern: Pattern,
-    angle_sensor: Encoder | None,
-    flange_azimuth: Scalar,
-    motor_wire_width: Scalar,
-    minimum_wall: Scalar,
+    base_pattern: Pattern, flange_azimuth: Scalar, motor_wire_width: Scalar, minimum_wall: Scalar
 ) -> Scalar:
     """Base between its holes for a sensor and the groove along x beyond the least wall; zero without that groove."""
-    if angle_sensor is None or not base_pattern.screws:
-        return 0.0
     pitch = 2.0 * np.pi / base_pattern.screws
     holes = [(index * pitch, base_pattern.tap_drill) for index in range(round(base_pattern.screws))]
     apart: Scalar = np.inf

@@ -209,7 +209,7 @@ def spring_natural_frequency(spring_stiffness: Scalar, moving_inertia: Scalar) -
 @book.output("N*m*s/rad")
 def critical_damping(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
     """Damping above which the joint on its springs no longer rings."""
-    return 2.0 * np.sqrt(spring_stiffness * moving_inertia)
+    return dynamics.critical_damping(spring_stiffness, moving_inertia)
 
 
 @book.output("1", headline=True)

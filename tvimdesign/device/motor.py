@@ -6,17 +6,20 @@ from typing import NamedTuple
 
 from tvimdesign.catalog import Record
 from tvimdesign.device.book import Book
-from tvimdesign.device.rows import Scalar
+from tvimdesign.device.rows import Extra, Scalar
 
 WITHOUT = "none"
 
-book = Book("Layout")
+WITH_MOTOR = (Extra("motor", WITHOUT),)
+WITH_ENCODER = (*WITH_MOTOR, Extra("encoder", WITHOUT))
+
+book = Book("Layout", WITH_MOTOR)
 """The layout's own room asks for the motor, so its name is not taken from there."""
 
 book.record("motor", "motors", WITHOUT, "Frameless motor that turns the module's housing, or none", others=(WITHOUT,))
-book.record("encoder", "encoders", WITHOUT, "Encoder of that motor, or none", others=(WITHOUT,))
-book.record("motor_bearing", "bearings", "ball_6802", "Ball bearings of that motor, two of a kind")
-book.record("motor_screw", "screws", "iso_7380_m3", "Screw that holds that motor's retainer")
+book.record("encoder", "encoders", WITHOUT, "Encoder of that motor, or none", others=(WITHOUT,), extras=WITH_MOTOR)
+book.record("motor_bearing", "bearings", "ball_6802", "Ball bearings of that motor, two of a kind", extras=WITH_MOTOR)
+book.record("motor_screw", "screws", "iso_7380_m3", "Screw that holds that motor's retainer", extras=WITH_MOTOR)
 for screw, words in (("motor_screw", "motor's retainer screw"), ("mount_screw", "screws in the housing's feet")):
     for name, unit, field, description in (
         ("diameter", "mm", "nominal_diameter", "Nominal diameter"),
@@ -103,85 +106,85 @@ def encoder_of(encoder: Record) -> Encoder:
     )
 
 
-@book.helper()
-def drive(motor: Record | str, motor_bearing: Record) -> Motor | None:
+@book.helper(otherwise=None)
+def drive(motor: Record, motor_bearing: Record) -> Motor:
     """The motor with its bearings; None without one."""
-    return None if isinstance(motor, str) else motor_of(motor, motor_bearing)
+    return motor_of(motor, motor_bearing)
 
 
-@book.helper()
-def angle_sensor(drive: Motor | None, encoder: Record | str) -> Encoder | None:
+@book.helper(extras=WITH_ENCODER, otherwise=None)
+def angle_sensor(encoder: Record) -> Encoder:
     """The encoder; None without one, or without a motor."""
-    return None if drive is None or isinstance(encoder, str) else encoder_of(encoder)
+    return encoder_of(encoder)
 
 
 @book.output("mm")
-def stator_radius(drive: Motor | None) -> Scalar:
+def stator_radius(drive: Motor) -> Scalar:
     """Outer radius of the motor's stator; zero without one."""
-    return 0.0 if drive is None else drive.stator_radius
+    return drive.stator_radius
 
 
 @book.output("mm")
-def stator_bore_radius(drive: Motor | None) -> Scalar:
+def stator_bore_radius(drive: Motor) -> Scalar:
     """Inner radius of the motor's stator; zero without one."""
-    return 0.0 if drive is None else drive.stator_bore
+    return drive.stator_bore
 
 
 @book.output("mm")
-def motor_rotor_radius(drive: Motor | None) -> Scalar:
+def motor_rotor_radius(drive: Motor) -> Scalar:
     """Outer radius of the motor's rotor; zero without one."""
-    return 0.0 if drive is None else drive.rotor_radius
+    return drive.rotor_radius
 
 
 @book.output("mm")
-def motor_rotor_bore_radius(drive: Motor | None) -> Scalar:
+def motor_rotor_bore_radius(drive: Motor) -> Scalar:
     """Inner radius of the motor's rotor; zero without one."""
-    return 0.0 if drive is None else drive.rotor_bore
+    return drive.rotor_bore
 
 
 @book.output("mm")
-def motor_rotor_length(drive: Motor | None) -> Scalar:
+def motor_rotor_length(drive: Motor) -> Scalar:
     """Length of the motor's rotor; zero without one."""
-    return 0.0 if drive is None else drive.rotor_length
+    return drive.rotor_length
 
 
 @book.output("mm")
-def motor_bearing_bore_radius(drive: Motor | None) -> Scalar:
+def motor_bearing_bore_radius(drive: Motor) -> Scalar:
     """Inner radius of the motor's bearings; zero without one."""
-    return 0.0 if drive is None else drive.bearing_bore
+    return drive.bearing_bore
 
 
 @book.output("mm")
-def motor_bearing_radius(drive: Motor | None) -> Scalar:
+def motor_bearing_radius(drive: Motor) -> Scalar:
     """Outer radius of the motor's bearings; zero without one."""
-    return 0.0 if drive is None else drive.bearing_radius
+    return drive.bearing_radius
 
 
 @book.output("mm")
-def motor_bearing_width(drive: Motor | None) -> Scalar:
+def motor_bearing_width(drive: Motor) -> Scalar:
     """Width of one of the motor's bearings; zero without one."""
-    return 0.0 if drive is None else drive.bearing_width
+    return drive.bearing_width
 
 
-@book.output("mm")
-def encoder_magnet_radius(angle_sensor: Encoder | None) -> Scalar:
+@book.output("mm", extras=WITH_ENCODER)
+def encoder_magnet_radius(angle_sensor: Encoder) -> Scalar:
     """Radius of the encoder's magnet; zero without one."""
-    return 0.0 if angle_sensor is None else angle_sensor.magnet_radius
+    return angle_sensor.magnet_radius
 
 
-@book.output("mm")
-def encoder_magnet_height(angle_sensor: Encoder | None) -> Scalar:
+@book.output("mm", extras=WITH_ENCODER)
+def encoder_magnet_height(angle_sensor: Encoder) -> Scalar:
     """Height of the encoder's magnet; zero without one."""
-    return 0.0 if angle_sensor is None else angle_sensor.magnet_height
+    return angle_sensor.magnet_height
 
 
-@book.output("mm")
-def encoder_board_radius(angle_sensor: Encoder | None) -> Scalar:
+@book.output("mm", extras=WITH_ENCODER)
+def encoder_board_radius(angle_sensor: Encoder) -> Scalar:
     """Radius of the encoder's board; zero without one."""
-    return 0.0 if angle_sensor is None else angle_sensor.board_radius
+    return angle_sensor.board_radius
 
 
-@book.output("mm")
-def encoder_board_height(angle_sensor: Encoder | None) -> Scalar:
+@book.output("mm", extras=WITH_ENCODER)
+def encoder_board_height(angle_sensor: Encoder) -> Scalar:
     """Height of the encoder's board with its chip; zero without one."""
-    return 0.0 if angle_sensor is None else angle_sensor.board_height
+    return angle_sensor.board_height

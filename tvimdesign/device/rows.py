@@ -16,7 +16,7 @@ are seen in a simulated release of the link, after a design is found.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal, TypeAlias
@@ -36,27 +36,21 @@ class Rule:
     reason: str
     exists_above: float | None = None
     """The value at and below which there is no such geometry, and the equations mean nothing."""
-    only: tuple[str, str] | None = None
-    """(option, word): the machine has what the limit is on only where that is chosen."""
-    unless: tuple[str, str] | None = None
-    """(option, word): the machine has what the limit is on wherever anything but that is chosen."""
-
-    def applies(self, chosen: Mapping[str, Any]) -> bool:
-        """Whether there is anything to limit with some options chosen, by name; an option left open may be any."""
-        if self.unless is not None and chosen.get(self.unless[0]) == self.unless[1]:
-            return False
-        return self.only is None or chosen.get(self.only[0], self.only[1]) == self.only[1]
 
 
-def at_least(
-    value: float,
-    reason: str,
-    exists_above: float | None = None,
-    only: tuple[str, str] | None = None,
-    unless: tuple[str, str] | None = None,
-) -> Rule:
+def at_least(value: float, reason: str, exists_above: float | None = None) -> Rule:
     """A lower limit that belongs to the machine."""
-    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above, only=only, unless=unless)
+    return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above)
+
+
+@dataclass(frozen=True)
+class Extra:
+    """Something a module has only where a study asks for it."""
+
+    choice: str
+    """The row it is chosen by."""
+    without: str
+    """The word of that choice for a module that lacks it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,6 +73,8 @@ class Input:
     """(choice, field): where the default comes from when the study does not set it."""
     mode: str | None = None
     """The one mode that has it, where not all have."""
+    extras: tuple[Extra, ...] = ()
+    """What a module must have for it to be of any effect."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,6 +92,8 @@ class Choice:
     """(choice, word): where the default comes from, of a choice that stands before this one."""
     only: tuple[str, str, str] | None = None
     """(word, value, reason): a record fits only if its word has that value."""
+    extras: tuple[Extra, ...] = ()
+    """What a module must have for it to be of any effect."""
 
 
 def its_name(name: str, of: str) -> str:
@@ -121,24 +119,37 @@ class Output:
     least_of: tuple[str, ...] = ()
     """The rows this one is the least of; a lower limit on it is put on each of them, which have no kinks."""
     rules: tuple[Rule, ...] = ()
-    """Limits that hold in every study, unless the study sets its own for this row in the same sense."""
+    """Limits that hold in every study whose module has the row's extras, unless it sets its own in the same sense."""
     advice: tuple[Rule, ...] = ()
     """Limits that are reported where they are broken, and enforced only where a study requires them."""
     better: Literal["less", "more"] | None = None
     """Which way it is better whatever the module is for; None where that depends."""
     of: str = ""
     """What has the row, where several things have it alike: `its_` in the parameters' names stands for that."""
+    extras: tuple[Extra, ...] = ()
+    """What a module must have for the row to be of anything; in one that lacks it the row is `otherwise`."""
+    otherwise: Any = 0.0
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
-        """The rows this one is computed from, `name@point` where the parameter says `name_at_point`."""
-        return tuple(
-            its_name(name, self.of).replace("_at_", "@") for name in inspect.signature(self.function).parameters
-        )
+        """The rows this one is computed from, `name@point` where the parameter says `name_at_point`.
 
-    def call(self, arguments: Iterable[Any]) -> Scalar:
-        """Apply the function to the values of `needs`, in order."""
-        return self.function(*arguments)
+        First those that say whether the module has the row's extras.
+        """
+        parameters = inspect.signature(self.function).parameters
+        named = (its_name(name, self.of).replace("_at_", "@") for name in parameters)
+        return (*(extra.choice for extra in self.extras), *named)
+
+    def call(self, arguments: Sequence[Any]) -> Scalar:
+        """Apply the function to the values of `needs`, in order; `otherwise` where the module lacks an extra."""
+        chosen, given = arguments[: len(self.extras)], arguments[len(self.extras) :]
+        if any(word == extra.without for word, extra in zip(chosen, self.extras, strict=True)):
+            return self.otherwise
+        return self.function(*given)
+
+    def exists(self, chosen: Mapping[str, Any]) -> bool:
+        """Whether there is anything to limit with some options chosen, by name; an option left open may be any."""
+        return all(chosen.get(extra.choice) != extra.without for extra in self.extras)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -256,6 +267,12 @@ class Table:
     def supplied(self) -> tuple[Event | Path | Steady, ...]:
         """The outputs that a simulation or the optimiser supplies."""
         return tuple(row for row in self.outputs if isinstance(row, Supplied))
+
+    @cached_property
+    def behind_supplied(self) -> frozenset[str]:
+        """The supplied outputs and all that depends on them, by base name."""
+        supplied = {row.name for row in self.supplied}
+        return frozenset(row.name for row in self.outputs if supplied & {row.name, *self.ancestors(row.name)})
 
     @cached_property
     def swings(self) -> tuple[Swing, ...]:

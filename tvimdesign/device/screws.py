@@ -8,7 +8,7 @@ from tvimdesign.catalog import Record
 from tvimdesign.device.bodies import LINK_SCREWS
 from tvimdesign.device.bodies import book as bodies
 from tvimdesign.device.book import Book
-from tvimdesign.device.fastening import NO_INSERT, Joint, length_misfit, screwed_joint
+from tvimdesign.device.fastening import WITH_INSERTS, Joint, length_misfit, screwed_joint
 from tvimdesign.device.gaps import MM
 from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.layout import book as layout
@@ -116,10 +116,10 @@ def inserts_inertia(
 _MELT = "heat-set inserts are melted into plastic, and this process mills: `thread_insert: none`, or print it"
 
 
-@rules.output("1", at_least(1.0, _MELT, only=("thread_insert", "heat_set")))
-def insert_ground(thread_insert: str, making_method: str) -> Scalar:
+@rules.output("1", at_least(1.0, _MELT), extras=WITH_INSERTS, otherwise=1.0)
+def insert_ground(making_method: str) -> Scalar:
     """One where there are no inserts, or the process prints the plastic they are melted into; else zero."""
-    return 1.0 if thread_insert == NO_INSERT or making_method == "printed" else 0.0
+    return 1.0 if making_method == "printed" else 0.0
 
 
 @rules.output(

@@ -12,7 +12,7 @@ from tvimdesign.catalog import Record
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Rule, Scalar
 from tvimdesign.physics import spring
-from tvimdesign.physics.transmission import leg_curvature, leg_direction, leg_ratio, output_stiffness
+from tvimdesign.physics.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness
 
 book = Book("Springs")
 
@@ -98,12 +98,11 @@ def full_stroke(
     """
     if transmission == "unity":
         return 2.0 * stroke, 2.0
-    at_rest = leg_direction(pin_radius, placement_radius, 0.0, leg_offset)
     torque: Scalar = 0.0
     stiffness: Scalar = 0.0
     for sign in (-1.0, 1.0):
         where = (pin_radius, placement_radius, sign * stroke, leg_offset)
-        wound = preload_angle + leg_direction(*where) - at_rest
+        wound = preload_angle + leg_turned(*where)
         torque = torque - sign * wound * -leg_ratio(*where)
         stiffness = stiffness + leg_ratio(*where) ** 2 + wound * leg_curvature(*where)
     return torque, stiffness
@@ -146,8 +145,7 @@ def spring_winding(
     """Largest winding of a spring: the preload and the full stroke in its winding direction."""
     if transmission == "unity":
         return preload_angle + stroke
-    at_rest = leg_direction(pin_radius, placement_radius, 0.0, leg_offset)
-    return preload_angle + leg_direction(pin_radius, placement_radius, -stroke, leg_offset) - at_rest
+    return preload_angle + leg_turned(pin_radius, placement_radius, -stroke, leg_offset)
 
 
 @book.output("rad")
@@ -157,8 +155,7 @@ def spring_unwinding(
     """Unwinding of a spring from rest over the full stroke against its winding direction."""
     if transmission == "unity":
         return stroke
-    at_rest = leg_direction(pin_radius, placement_radius, 0.0, leg_offset)
-    return at_rest - leg_direction(pin_radius, placement_radius, stroke, leg_offset)
+    return -leg_turned(pin_radius, placement_radius, stroke, leg_offset)
 
 
 @book.output("rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act"))

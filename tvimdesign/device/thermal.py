@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
+from tvimdesign.device.impedance import joint_impedance
 from tvimdesign.device.rows import Scalar, Stage
 from tvimdesign.physics import crystallization, heat, layer, peltier, polymer
 
@@ -208,5 +209,4 @@ def impedance_now(
 ) -> Scalar:
     """Magnitude of the joint's dynamic stiffness at the frequency of where the stage leads."""
     storage, loss = (modulus * moment_now / pcl_depth for modulus in layer_moduli)
-    real, imaginary = layer.series_stiffness(storage, loss, elastic_support)
-    return np.sqrt((spring_stiffness + real) ** 2 + imaginary**2)
+    return joint_impedance(spring_stiffness, layer.series_stiffness(storage, loss, elastic_support))

@@ -12,6 +12,11 @@ def natural_frequency(stiffness: Any, inertia: Any) -> Any:
     return np.sqrt(stiffness / inertia) / (2.0 * np.pi)
 
 
+def critical_damping(stiffness: Any, inertia: Any) -> Any:
+    """Damping above which nothing rings, 2 sqrt(K I) [N*m*s/rad]."""
+    return 2.0 * np.sqrt(stiffness * inertia)
+
+
 def damping_ratio(damping: Any, stiffness: Any, inertia: Any) -> Any:
-    """b/(2 sqrt(K I)) [1]; 1 is critical."""
-    return damping / (2.0 * np.sqrt(stiffness * inertia))
+    """Damping over the critical one [1]."""
+    return damping / critical_damping(stiffness, inertia)

@@ -15,6 +15,7 @@ import numpy as np
 
 from tvimdesign.physics import laplace
 from tvimdesign.physics.motion import Modes
+from tvimdesign.physics.structure import series
 
 
 class Held(NamedTuple):
@@ -45,9 +46,10 @@ def held(torque: Any, time: Any, springs: Any, structure: Any, modes: Modes) -> 
     return Held(*laplace.inverse(transforms, time, axes))
 
 
-def first_angle(torque: Any, springs: Any, structure: Any, modes: Modes) -> Any:
-    """Angle of the link [rad] when the torque has just come on, T/(K_s + S K/(S + K)), K = sum k."""
-    return torque / (springs + _branch(sum(stiffness for _, stiffness in modes), structure))
+def first_torque(torque: Any, springs: Any, structure: Any, modes: Modes) -> Any:
+    """Share of a torque [N*m] that the polymer bears when it has just come on, T B/(K_s + B); B as below."""
+    branch = _branch(structure, modes)
+    return torque * branch / (springs + branch)
 
 
 def impedance_loss(angle: Any, gap: Any, springs: Any, structure: Any, modes: Modes) -> Any:
@@ -56,10 +58,10 @@ def impedance_loss(angle: Any, gap: Any, springs: Any, structure: Any, modes: Mo
     Without the gap the turn takes (K_s + B) theta, behind it K_s theta + B (theta - g): lost is B g/((K_s + B) theta),
     with B = S K/(S + K) of structure and polymer before anything relaxes, K = sum k (textbook).
     """
-    branch = _branch(sum(stiffness for _, stiffness in modes), structure)
+    branch = _branch(structure, modes)
     return branch * gap / ((springs + branch) * angle)
 
 
-def _branch(stiffness: Any, structure: Any) -> Any:
-    """Polymer and structure in series [N*m/rad]."""
-    return structure * stiffness / (structure + stiffness)
+def _branch(structure: Any, modes: Modes) -> Any:
+    """Polymer before anything relaxes and structure in series [N*m/rad]."""
+    return series(structure, sum(stiffness for _, stiffness in modes))

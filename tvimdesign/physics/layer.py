@@ -10,16 +10,6 @@ from typing import Any
 import numpy as np
 
 
-def polar_moment(total_span: Any, inner_radius: Any, outer_radius: Any) -> Any:
-    """J = integral of r^2 dA = (phi/4)(r_o^4 - r_i^4) [m^4], phi the span of all arcs together [rad]."""
-    return 0.25 * total_span * (outer_radius**4 - inner_radius**4)
-
-
-def area(total_span: Any, inner_radius: Any, outer_radius: Any) -> Any:
-    """(phi/2)(r_o^2 - r_i^2) [m^2]."""
-    return 0.5 * total_span * (outer_radius**2 - inner_radius**2)
-
-
 def series_modulus(storage: Any, loss: Any) -> tuple[Any, Any]:
     """Storage and loss modulus [Pa] of equally thick slices that carry one shear stress: 1/G* = mean of 1/G*_i.
 

@@ -14,6 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tvimdesign.physics.structure import shear_modulus
+
 GAS_CONSTANT = 8.314462618  # J/(mol K), CODATA
 ZERO_CELSIUS = 273.15  # K
 PINNED_FREQUENCY = 2.0 * np.pi  # rad/s, 1 Hz
@@ -107,7 +109,7 @@ def solid_shear_modulus(temperature_kelvin: Any, solid: SolidModulus) -> Any:
         return solid.slope * solid.width * np.log1p(np.exp((t - solid.onset) / solid.width))
 
     modulus = solid.reference_modulus * np.exp(fall(solid.reference_temperature) - fall(temperature_kelvin))
-    return modulus / (2.0 * (1.0 + solid.poissons_ratio))
+    return shear_modulus(modulus, solid.poissons_ratio)
 
 
 def arrhenius_shift(temperature_kelvin: Any, reference: Any, activation_energy: Any) -> Any:

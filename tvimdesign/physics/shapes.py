@@ -17,9 +17,27 @@ class Section(NamedTuple):
         """The shape with another one cut out of it."""
         return Section(self.area - other.area, self.polar - other.polar)
 
+    def plus(self, *others: Section) -> Section:
+        """The shape and others together."""
+        return Section(sum((o.area for o in others), self.area), sum((o.polar for o in others), self.polar))
+
     def times(self, count: Any) -> Section:
         """Several of the shape, spread around the axis."""
         return Section(count * self.area, count * self.polar)
+
+
+NOTHING = Section(0.0, 0.0)
+
+
+def stacked(*prisms: tuple[Section, Any]) -> Section:
+    """Volume [m^3] and polar moment of volume about the axis [m^5] of flat shapes, each with its height [m].
+
+    A negative height takes the shape away.
+    """
+    return Section(
+        area=sum(section.area * height for section, height in prisms),
+        polar=sum(section.polar * height for section, height in prisms),
+    )
 
 
 def sector(span: Any, inner_radius: Any, outer_radius: Any) -> Section:
@@ -88,11 +106,6 @@ def spoke(half_width: Any, disc_radius: Any, length: Any) -> Section:
 def notch(half_width: Any, inner_radius: Any, outer_radius: Any) -> Section:
     """What a straight opening of the given half width takes from one side of a ring about the axis."""
     return _half_strip(half_width, outer_radius) - _half_strip(half_width, inner_radius)
-
-
-def ring_notch(half_width: Any, inner_radius: Any, outer_radius: Any) -> Any:
-    """Area [m^2] of such a notch."""
-    return notch(half_width, inner_radius, outer_radius).area
 
 
 def slot(half_width: Any, length: Any) -> Section:

@@ -26,6 +26,12 @@ def leg_direction(pin_radius: Any, placement_radius: Any, azimuth: Any, offset: 
     return bearing + hand * np.arcsin(offset / s)
 
 
+def leg_turned(pin_radius: Any, placement_radius: Any, azimuth: Any, offset: Any) -> Any:
+    """Angle [rad] that the leg has turned since the pin was on the line of centres (azimuth 0)."""
+    at_rest = leg_direction(pin_radius, placement_radius, 0.0, offset)
+    return leg_direction(pin_radius, placement_radius, azimuth, offset) - at_rest
+
+
 def leg_ratio(pin_radius: Any, placement_radius: Any, azimuth: Any, offset: Any, hand: float = 1.0) -> Any:
     """d(leg direction)/d(rotor angle) [1].
 

@@ -164,7 +164,7 @@ def _structure(found: Structure) -> list[str]:
     if found.slack:
         lines.append(f"  bounds prove these to hold anywhere in the ranges: {'; '.join(found.slack)}.")
     if found.slack_rules:
-        lines.append(f"  so it is with {found.slack_rules} of the machine's rules.")
+        lines.append(f"  bounds prove {found.slack_rules} of the machine's rules to hold anywhere in the ranges.")
     return lines
 
 

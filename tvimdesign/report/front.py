@@ -21,7 +21,7 @@ from tvimdesign.report.front_memory import FolderMemory
 from tvimdesign.report.plots import Drawing
 from tvimdesign.report.talk import Progress
 from tvimdesign.solve.answer import Answer
-from tvimdesign.solve.front import Front, trace_front
+from tvimdesign.solve.front import Front, completed, trace_front
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.run import Run
 from tvimdesign.solve.tradeoff import Point, Tradeoff
@@ -57,7 +57,9 @@ class FrontOfRun:
         if self.study.front is None or found.solution is None or not found.found:
             return []
         trade = Tradeoff(self.study, found.solution, *self._built[0], progress, self._memory)
-        front = self.front = trace_front(trade, self.outputs, self.study.front.points)
+        sought = trace_front(trade, self.outputs, self.study.front.points)
+        progress("simulating the whole cycle of the front's points")
+        front = self.front = completed(sought, trade)
         folder, names = self._folder, shown_names(self.study, front)
         told["front"] = plain(front, names, self.table)
         folder.write("front.csv", front_csv(front, names, self.table))
@@ -194,16 +196,19 @@ def print_front(front: Front, table: Table, console: Console) -> None:
     for name in front.outputs:
         grid.add_column(f"{name} ({pretty(table.unit(name))})", justify="right", header_style="dim")
     grid.add_column("", header_style="dim")
-    for place in _rows_shown(len(front.points), front.knee):
+    shown = _rows_shown(len(front.points), front.knee)
+    for place in shown:
         values = (f"{from_si(front.points[place].values[name], table.unit(name)):.4g}" for name in front.outputs)
         what = status(front, place)
         grid.add_row(str(place + 1), *values, "" if what == "between" else what)
     console.print(grid)
     for sentence in in_words(front, table):
         console.print(sentence, soft_wrap=True)
+    here = "" if len(shown) == len(front.points) else f", {len(shown)} of them here"
+    beaten = f"; {front.dominated} more are no better in anything" if front.dominated else ""
     console.print(
-        f"[dim]{len(front.points)} points from {front.sought} designs sought; {front.dominated} more are no better in "
-        f"anything; the largest gap is {front.spread:.2g} times the mean one. Each is a whole design in front/.[/dim]"
+        f"[dim]{len(front.points)} points{here}, from {front.sought} designs sought{beaten}; the largest gap is "
+        f"{front.spread:.2g} times the mean one. Each is a whole design in front/.[/dim]"
     )
 
 

@@ -11,12 +11,10 @@ import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cache
-from importlib import resources
-from typing import TYPE_CHECKING, Any
-
-import yaml
+from typing import TYPE_CHECKING
 
 from tvimdesign.physics import dynamics, layer, spring, transmission
+from tvimdesign.report.paper_claims import claims, from_paper
 from tvimdesign.units import from_si, to_si
 
 if TYPE_CHECKING:
@@ -31,20 +29,6 @@ class Finding:
     where: str
     computed: str
     verdict: str
-
-
-@cache
-def claims() -> dict[str, Any]:
-    """What the paper states: values with units, and the places."""
-    text = resources.files("tvimdesign.report").joinpath("paper_claims.yaml").read_text(encoding="utf-8")
-    loaded: dict[str, Any] = yaml.safe_load(text)
-    return loaded
-
-
-def from_paper(name: str) -> float:
-    """SI value of a number the paper states."""
-    entry = claims()["numbers"][name]
-    return to_si(float(entry["value"]), entry["unit"])
 
 
 def _spring_rate(wire_diameter: float) -> float:
@@ -76,7 +60,7 @@ def _inertia() -> str:
     inertia = from_paper("inertia")
     stiffness = 4.0 * _spring_rate(from_paper("wire_diameter"))
     return (
-        f"{inertia:.3e} kg·m2 as kg·mm2; on springs of {stiffness:.2f} N·m/rad that rings at "
+        f"{inertia:.3e} kg·m² as kg·mm²; on springs of {stiffness:.2f} N·m/rad that rings at "
         f"{dynamics.natural_frequency(stiffness, inertia):.1f} Hz"
     )
 
@@ -87,7 +71,7 @@ def _motion() -> str:
     return (
         f"with K on the wrong side the springs push away from rest: a deflection would grow as exp({growth:.0f} t/s); "
         f"I theta'' + b theta' + K theta = T rings, and is critically damped at b = "
-        f"{2.0 * math.sqrt(stiffness * inertia):.4f} N·m·s/rad"
+        f"{dynamics.critical_damping(stiffness, inertia):.4f} N·m·s/rad"
     )
 
 
@@ -102,7 +86,7 @@ def _area() -> str:
     thickness = from_si(answer["pcl_thickness"], "mm")
     strain = answer["layer_strain"]
     return (
-        f"four arcs of 26 to 40 mm radius and 49 degrees give {area:.1f} mm2; K, b and heating time all hang on the "
+        f"four arcs of 26 to 40 mm radius and 49 degrees give {area:.1f} mm²; K, b and heating time all hang on the "
         f"thickness, assumed here as {thickness:g} mm: then the melt is sheared by {strain:.0%} at full stroke"
     )
 
@@ -166,7 +150,7 @@ def _bisect(function: Callable[[float], float], low: float, high: float, steps: 
 
 
 def _case() -> str:
-    from tvimdesign.report.paper_case import sentence  # it takes its stated times from here
+    from tvimdesign.report.paper_case import sentence
 
     return sentence()
 

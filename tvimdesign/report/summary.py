@@ -241,14 +241,19 @@ def _print_prices(answer: Answer, table: Table, console: Console) -> None:
         columns = ("limit", "relaxed by", "lowers the objective by", *outputs)
         grid = _grid("What holds the design back", columns, right=tuple(range(1, len(columns))))
         for row in held:
-            each = (f"{row.savings[name]:.2g} %" if name in row.savings else "" for name in outputs)
-            grid.add_row(row.text, row.step, f"{row.price:.2g} %", *each)
+            each = (_saved(row.savings[name]) if name in row.savings else "" for name in outputs)
+            grid.add_row(row.text, row.step, _saved(row.price), *each)
         console.print(grid)
         for sentence in sentences(answer)[:_SENTENCES_SHOWN]:
             console.print(escape(sentence))
     room = slack_in_words(answer, table)
     if room:
         console.print(f"[dim]{escape(room)}[/dim]")
+
+
+def _saved(percent: float) -> str:
+    """A saving for people: what is less than a millionth is none."""
+    return f"{percent:.2g} %" if abs(percent) >= 1e-4 else "0 %"
 
 
 def _print_warnings(answer: Answer, table: Table, console: Console) -> None:

@@ -125,7 +125,7 @@ def answer(
         intervals=open_values, study=study.model_dump(mode="json"),
         drives={stage: drive.plain() for stage, drive in drives.items()}, solution=_plain(solution),
     )  # fmt: skip
-    checks = tuple(_check(limit, values, table, open_values) for limit in limits_of(study, table))
+    checks = tuple(_check(limit, values, table, open_values) for limit in limits_of(study, table, rig.values))
     happened = (limit for limit in advice_of(table) if _happened(limit.output, values, table))
     advice = (_check(limit, values, table, open_values) for limit in happened)
     warnings = tuple(check for check in advice if not check.kept)

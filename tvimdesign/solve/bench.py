@@ -132,7 +132,7 @@ def notes_for(found: Sequence[Case]) -> tuple[str, ...]:
 def overload_notes(rig: Rig, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
     """Where a test asks more torque [N*m] of a joint than it bears: the points, in a sentence; nothing otherwise."""
     most = float(rig.row("holding_torque"))
-    beyond = ", ".join(dict.fromkeys(case.point for case, torque in torques if torque > most))
+    beyond = " and ".join(dict.fromkeys(case.point for case, torque in torques if torque > most))
     if not beyond:
         return ()
     return (

@@ -15,6 +15,7 @@ import numpy as np
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
 from tvimdesign.errors import InfeasibleError
+from tvimdesign.solve.backend import ca
 from tvimdesign.solve.enclosure import Array, Enclosure
 from tvimdesign.solve.limits import Limit, in_words, is_constant, limits_of, on_switch, unchangeable
 from tvimdesign.solve.model import Model
@@ -52,7 +53,7 @@ def ranges_of(study: Study, catalog: Catalog, table: Table) -> Ranges:
     model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
     driven = {table.stage(stage).drive for stage in study.profile.pieces()}
     ends = {name: _ends(vary) for name, vary in study.vary.items() if name in model.index and name not in driven}
-    limits = tuple(limit for limit in limits_of(study, table) if not on_switch(table, limit.output))
+    limits = tuple(limit for limit in limits_of(study, table, model.words) if not on_switch(table, limit.output))
     low, high = (np.array([end[i] for end in ends.values()]) for i in (0, 1))
     return Ranges(table, model, tuple(ends), low, high, limits)
 
@@ -190,6 +191,23 @@ def _in_the_way(ranges: Ranges, limit: Limit) -> tuple[tuple[str, Literal["<=", 
     return tuple(end for _, end in sorted(found, key=lambda pair: -pair[0]))
 
 
+def _fixed(ranges: Ranges, limit: Limit) -> str | None:
+    """The input that could be varied and is not, where a hundredth of it moves a limit's output most of all."""
+    model, table = ranges.model, ranges.table
+    inputs = ca.SX.sym("inputs", len(model.names))
+    switch = np.full(len(model.switch_names), np.nan)  # read by none of these outputs
+    value = model.outputs([limit.output]).call([inputs, switch], True, False)[0]
+    point = model.start.copy()
+    point[[model.index[name] for name in ranges.free]] = 0.5 * (ranges.low + ranges.high)
+    slopes = np.asarray(ca.Function("slopes", [inputs], [ca.gradient(value, inputs)])(point)).ravel()
+    moved = dict(zip(model.names, np.abs(slopes * point), strict=True))
+    fixed = [row.name for row in table.inputs if row.variable and row.name in moved]
+    most = max([*ranges.free, *fixed], key=moved.__getitem__)
+    if most in ranges.free:
+        return None
+    return f"{most} ({format_quantity(float(point[model.index[most]]), table.unit(most))})"
+
+
 _ENDS_SHOWN = 3
 
 
@@ -202,6 +220,8 @@ def _in_words(found: Contradiction, ranges: Ranges) -> str:
             return unchangeable(limit, table)
         ends = "; ".join(_end(end, table) for end in found.widen[:_ENDS_SHOWN])
         widen = f"Widen what holds it there most ({ends})" if ends else "Widen a range"
+        fixed = _fixed(ranges, limit)
+        widen += f", vary {fixed}, which moves it more than all that is varied" if fixed else ""
         return (
             f"{_named(limit, table)} cannot hold: within the ranges under `vary` "
             f"{limit.output} is {_best(limit, best, table)}; bounds prove it, nothing was solved. "

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Input, Supplied, Table
+from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device.rows import Extra
 from tvimdesign.errors import InputError
 from tvimdesign.study import Study, given
 from tvimdesign.units import format_quantity, from_si, pretty, to_si
@@ -40,18 +41,23 @@ class Limit:
         return beyond / self.scale
 
 
-def limits_of(study: Study, table: Table) -> list[Limit]:
-    """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense."""
+def limits_of(study: Study, table: Table, chosen: Mapping[str, Any] | None = None) -> list[Limit]:
+    """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense.
+
+    `chosen` are records and options by name, so that rules of what the module lacks are left out; without them only
+    those are that the study itself says it lacks.
+    """
     own = [
         make_limit(table, output, r.sense, r.limit, "require")
         for r in study.require
         for output in _behind(table, r.output, r.sense)
     ]
     taken = {(limit.output, limit.sense) for limit in own}
-    options = {row.name: study.module.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    said = study.module if chosen is None else chosen
+    options = {row.name: said.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
     for row in table.outputs:
-        for rule in row.rules:
-            if (row.name, rule.sense) not in taken and rule.applies(options):
+        for rule in row.rules if row.exists(options) else ():
+            if (row.name, rule.sense) not in taken:
                 own.append(make_limit(table, row.name, rule.sense, rule.value, rule.reason))
     return own
 
@@ -64,8 +70,7 @@ def _behind(table: Table, name: str, sense: str) -> tuple[str, ...]:
 
 def on_switch(table: Table, output: str) -> bool:
     """Whether an output depends on how a switch runs."""
-    above = (output.partition("@")[0], *table.ancestors(output))
-    return any(isinstance(table.row(base), Supplied) for base in above)
+    return output.partition("@")[0] in table.behind_supplied
 
 
 def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
@@ -90,67 +95,23 @@ def refuse_impossible(study: Study, catalog: Catalog, table: Table) -> None:
     found = impossible(table.evaluate(start, rows), table)
     if found:
         raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
-    _refuse_idle(study, start)
+    _refuse_idle(study, table, start)
     if not study.vary:
         _refuse_unreachable(start, table)
 
 
-_ONLY_WITH = {
-    "cold_side": ("sink", ("sink_contact", "sink_capacity", "sink_area", "sink_coefficient")),
-    "preload_adjuster": (
-        "rotary",
-        (
-            "adjuster_screw_length",
-            "adjuster_clamp_force",
-            "adjuster_friction",
-            "driver_slot_width",
-            "driver_slot_depth",
-        ),
-    ),
-    "thread_insert": ("heat_set", ("link_insert", "retainer_insert", "adjuster_insert", "cover_insert")),
-    "cover": ("plate", ("cover_thickness", "cover_screw_length")),
-    "impedance_targets": ("stated", ("soft_impedance", "stiff_impedance")),
-}
-"""Inputs that count only where an option is chosen: option, its word, the inputs."""
-_IDLE_WITHOUT = {
-    "sensor_flange": ("none", ("flange_wall", "flange_screw_reach", "flange_azimuth")),
-    "motor": (
-        "none",
-        (
-            "encoder",
-            "motor_bearing",
-            "motor_screw",
-            "motor_screw_length",
-            "mount_screw_length",
-            "motor_plate_thickness",
-            "motor_hub_wall",
-            "motor_wall",
-            "motor_base_thickness",
-            "motor_retainer_floor",
-            "motor_sink_clearance",
-            "motor_wire_width",
-            "motor_wire_depth",
-        ),
-    ),
-    "encoder": ("none", ("encoder_magnet_spacing",)),
-}
-"""Inputs that count only where a record is chosen: choice, the word for no record, the inputs."""
-
-
-def _refuse_idle(study: Study, start: Mapping[str, Any]) -> None:
-    """Raise InputError for what the study sets to no effect."""
-    for option, (word, names) in _ONLY_WITH.items():
-        idle = [name for name in names if name in study.module or name in study.vary]
-        if idle and option in start and start[option] != word and option not in study.vary:
-            raise InputError(
-                f"{', '.join(idle)}: no effect, as {option} is {start[option]}; add `{option}: {word}` under `module`"
-            )
-    for choice, (word, names) in _IDLE_WITHOUT.items():
-        idle = [name for name in names if name in study.module or name in study.vary]
-        if idle and start[choice] == word and choice not in study.vary:
-            raise InputError(
-                f"{', '.join(idle)}: no effect, as {choice} is {word}; name one of its records under `module`"
-            )
+def _refuse_idle(study: Study, table: Table, start: Mapping[str, Any]) -> None:
+    """Raise InputError for what the study sets to no effect, as the module lacks what it is of."""
+    said: list[Choice | Input] = [*table.choices, *table.inputs]
+    said = [row for row in said if row.name in study.module or row.name in study.vary]
+    for choice in table.choices:
+        lacking = Extra(choice.name, start[choice.name])
+        idle = [row.name for row in said if lacking in row.extras]
+        if not idle or choice.name in study.vary:
+            continue
+        others = [word for word in choice.options if word != lacking.without]
+        way = "name one of its records" if choice.shelf else f"add `{choice.name}: {others[0]}`"
+        raise InputError(f"{', '.join(idle)}: no effect, as {choice.name} is {lacking.without}; {way} under `module`")
 
 
 def _refuse_unreachable(start: Mapping[str, Any], table: Table) -> None:

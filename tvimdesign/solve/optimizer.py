@@ -65,7 +65,7 @@ class Optimizer:
         self.free = tuple(self._free(name) for name in numbers)
         self.margins: dict[str, float] = {}
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
-        self.problem = self._problem(self.kept_limits(limits_of(study, table)), traded)
+        self.problem = self._problem(self.kept_limits(limits_of(study, table, self.model.words)), traded)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}
@@ -112,7 +112,7 @@ class Optimizer:
         other = copy(self)
         other.study, other.model = study, model
         other.seconds = {"set_up": 0.0, "solve": 0.0}
-        other.kept_limits(limits_of(study, self.table))
+        other.kept_limits(limits_of(study, self.table, model.words))
         other._begin()
         return other
 
@@ -129,7 +129,7 @@ class Optimizer:
         """The limits without those that nothing free can change, which are checked here and now."""
         constant = self._constant(limits)
         without_switch = dict.fromkeys(self.model.switch_names, np.inf)
-        values = self.model.values(self.model.start, without_switch) if constant else {}
+        values = self.model.some_values([limit.output for limit in constant], self.model.start, without_switch)
         for limit in constant:
             value = values[limit.output]
             if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
@@ -149,7 +149,9 @@ class Optimizer:
         """What knows the numbers of the records: where to begin, and how the vector of unknowns is read."""
         self.beginnings = Beginnings(self.problem, self.model, self.simulator, self.study.solver, self.progress)
         self.vector = Unknowns(self.problem, self.model)
-        self.start_values = self.model.values(self.model.start, self.beginnings.switch.values)
+        switch = self.beginnings.switch.values
+        self.start_values = self.model.some_values(self.problem.minimize, self.model.start, switch)
+        """What is minimised, at the study's start."""
 
     def guess(self, inputs: Array) -> Array:
         """The unknowns at a point, with the switch simulated there; with the start's where that does not end."""

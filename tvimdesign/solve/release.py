@@ -92,7 +92,7 @@ def release(rig: Rig, angle: float = ANGLE, hold: float | None = None, kelvin_vo
 
 def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
     """Where a link that rattles between its blocks was not followed until it settles."""
-    points = ", ".join(dict.fromkeys(one.case.point for one in found if not np.isfinite(one.settling)))
+    points = " and ".join(dict.fromkeys(one.case.point for one in found if not np.isfinite(one.settling)))
     if not points:
         return ()
     return (f"At {points} the link still swings where its curve ends: it settles later, if it does.",)

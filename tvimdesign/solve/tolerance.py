@@ -91,7 +91,9 @@ class Tolerancing:
             raise InputError(
                 f"{rig.study.name}: nothing spreads; give `tolerances: standard`, or tolerances of your own"
             )
-        self.limits = [limit for limit in limits_of(rig.study, rig.table) if self._moves(limit.output, names)]
+        self.limits = [
+            limit for limit in limits_of(rig.study, rig.table, rig.values) if self._moves(limit.output, names)
+        ]
         wanted = dict.fromkeys([*self._asked(), *(limit.output for limit in self.limits)])
         if not wanted:
             raise InputError(

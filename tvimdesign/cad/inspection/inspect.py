@@ -66,7 +66,7 @@ def rule_checks(design: Design) -> Iterator[Check]:
         if row.group != "Gaps" or row.name not in design.values:
             continue
         value = from_si(design.value(row.name), row.unit)
-        for rule in (rule for rule in row.rules if rule.applies(design.choices)):
+        for rule in row.rules if row.exists(design.choices) else ():
             limit = from_si(rule.value, row.unit)
             room = value - limit if rule.sense == ">=" else limit - value
             level = at_least(room, -1e-6 * max(1.0, abs(limit)), -float("inf"))

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics.shapes import Section, corners, radial_strip, ring, sector
+from tvimdesign.physics.shapes import Section, corners, radial_strip, sector
 
 book = Book(shared.group)
 
@@ -86,38 +84,31 @@ def housing_vanes_volume(
     return vane_count * (whole - pads) - slots
 
 
+@book.helper()
+def floor_openings(slot_foot_section: Scalar, pcl_mean_radius: Scalar, floor_thickness: Scalar) -> Section:
+    """What the floor has not got, volume and its polar moment: the slots, at their mean radius."""
+    return Section(slot_foot_section, slot_foot_section * pcl_mean_radius**2).times(floor_thickness)
+
+
 @book.output("mm^3")
-def floor_volume(
-    hub_radius: Scalar,
-    housing_outer_radius: Scalar,
-    floor_thickness: Scalar,
-    slot_foot_section: Scalar,
-    spring_count: Scalar,
-    spring_hole_area: Scalar,
-    mount_hole: Scalar,
-) -> Scalar:
+def floor_volume(floor_moments: Section) -> Scalar:
     """Volume of the housing's floor around the hub, less slots, tang holes and mounting holes."""
-    disc = ring(hub_radius, housing_outer_radius).area
-    holes = spring_hole_area + np.pi * (0.5 * mount_hole) ** 2
-    return (disc - spring_count * holes - slot_foot_section) * floor_thickness
+    return floor_moments.area
 
 
 @book.helper()
-def floor_openings_polar(slot_foot_section: Scalar, pcl_mean_radius: Scalar, floor_thickness: Scalar) -> Scalar:
-    """Polar moment [m^5] of what the floor has not got: the slots, at their mean radius."""
-    return slot_foot_section * pcl_mean_radius**2 * floor_thickness
-
-
-@book.helper()
-def housing_vanes_polar(housing_vanes_volume: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
-    """Polar moment [m^5] of the housing's vanes, their volume spread over their sectors."""
-    return housing_vanes_volume * 0.5 * (pcl_inner_radius**2 + pcl_outer_radius**2)
+def housing_moments(
+    bare_housing_moments: Section, housing_vanes_volume: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
+) -> Section:
+    """Volume and its polar moment about the axis, of the housing with its vanes, spread over their sectors."""
+    spread = 0.5 * (pcl_inner_radius**2 + pcl_outer_radius**2)
+    return bare_housing_moments.plus(Section(housing_vanes_volume, housing_vanes_volume * spread))
 
 
 @book.output("mm^3")
-def housing_volume(bare_housing_volume: Scalar, housing_vanes_volume: Scalar) -> Scalar:
+def housing_volume(housing_moments: Section) -> Scalar:
     """Volume of the housing: skirt and floor, wall, hub, spring posts and vanes."""
-    return bare_housing_volume + housing_vanes_volume
+    return housing_moments.area
 
 
 @book.helper()
@@ -131,7 +122,4 @@ def rotor_vanes(
 @book.helper()
 def rotor_moments(bare_rotor_moments: Section, rotor_vanes: Section, vane_height: Scalar) -> Section:
     """Volume and its polar moment about the axis, of the rotor with its vanes."""
-    return Section(
-        bare_rotor_moments.area + rotor_vanes.area * vane_height,
-        bare_rotor_moments.polar + rotor_vanes.polar * vane_height,
-    )
+    return bare_rotor_moments.plus(rotor_vanes.times(vane_height))

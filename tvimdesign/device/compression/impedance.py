@@ -242,5 +242,5 @@ def block_pressure(
     pcl_mean_radius: Scalar,
 ) -> Scalar:
     """Highest mean pressure on the blocks' faces in a hold: when the load has just come on."""
-    first = hold.first_angle(hold_torque, spring_stiffness, elastic_support, pcl_modes)
-    return block.stress(hold_torque - spring_stiffness * first, vane_count, block_area, pcl_mean_radius)
+    borne = hold.first_torque(hold_torque, spring_stiffness, elastic_support, pcl_modes)
+    return block.stress(borne, vane_count, block_area, pcl_mean_radius)

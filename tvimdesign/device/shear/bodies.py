@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from tvimdesign.device.bodies import book as shared
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
-from tvimdesign.physics import layer
-from tvimdesign.physics.shapes import Section, corners, ring, sector
+from tvimdesign.physics.shapes import Section, corners, sector, stacked
 
 book = Book(shared.group)
 
 
+@book.helper()
+def pcl_section(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Section:
+    """Plan view of all PCL arcs together."""
+    return sector(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+
+
 @book.output("mm^2", headline=True)
-def pcl_area(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+def pcl_area(pcl_section: Section) -> Scalar:
     """Contact area of all PCL arcs together."""
-    return layer.area(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+    return pcl_section.area
 
 
 @book.output("mm^3")
@@ -25,84 +28,66 @@ def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar, key_moments: Section) ->
     return pcl_area * pcl_thickness + key_moments.area
 
 
+def _rounded_sector(span: Scalar, inner_radius: Scalar, outer_radius: Scalar, corner_radius: Scalar) -> Section:
+    """Annular sector less what fillets take from its corners, which counts at the mean radius."""
+    taken = corners(corner_radius, inner_radius, outer_radius)
+    mean_radius = 0.5 * (inner_radius + outer_radius)
+    return sector(span, inner_radius, outer_radius) - Section(taken, taken * mean_radius**2)
+
+
+@book.helper()
+def pad_section(
+    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar, corner_radius: Scalar
+) -> Section:
+    """Plan view of all Peltier pads: the outline of the PCL, its corners as round as those of the pockets."""
+    return _rounded_sector(arc_span, pcl_inner_radius, pcl_outer_radius, corner_radius).times(arc_count)
+
+
 @book.output("mm^3")
-def peltier_volume(
-    pcl_area: Scalar,
-    arc_count: Scalar,
-    corner_radius: Scalar,
-    pcl_inner_radius: Scalar,
-    pcl_outer_radius: Scalar,
-    peltier_thickness: Scalar,
-) -> Scalar:
+def peltier_volume(pad_section: Section, peltier_thickness: Scalar) -> Scalar:
     """Volume of all Peltier pads together: the outline of the PCL, its corners as round as those of the pockets."""
-    rounded = arc_count * corners(corner_radius, pcl_inner_radius, pcl_outer_radius)
-    return (pcl_area - rounded) * peltier_thickness
+    return pad_section.area * peltier_thickness
 
 
 @book.helper()
-def window_area(
+def window_section(
     arc_count: Scalar,
     arc_span: Scalar,
     pcl_inner_radius: Scalar,
     pcl_outer_radius: Scalar,
     window_ledge: Scalar,
     corner_radius: Scalar,
-) -> Scalar:
-    """Area of the windows below the Peltier pads [m^2]: the arcs, smaller by the ledge on every side, and rounded."""
+) -> Section:
+    """Plan view of the windows below the Peltier pads: the arcs, smaller by the ledge on every side, and rounded."""
     span = arc_span - 2.0 * window_ledge / pcl_inner_radius
     inner, outer = pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge
-    return arc_count * (sector(span, inner, outer).area - corners(corner_radius, inner, outer))
+    return _rounded_sector(span, inner, outer, corner_radius).times(arc_count)
+
+
+@book.helper()
+def floor_openings(
+    pad_section: Section, peltier_thickness: Scalar, window_section: Section, floor_web: Scalar
+) -> Section:
+    """What the floor has not got, volume and its polar moment: pockets of the pads, and the windows below them."""
+    return stacked((pad_section, peltier_thickness), (window_section, floor_web))
 
 
 @book.output("mm^3")
-def floor_volume(
-    hub_radius: Scalar,
-    housing_outer_radius: Scalar,
-    floor_thickness: Scalar,
-    floor_web: Scalar,
-    peltier_volume: Scalar,
-    window_area: Scalar,
-    spring_count: Scalar,
-    spring_hole_area: Scalar,
-    mount_hole: Scalar,
-) -> Scalar:
+def floor_volume(floor_moments: Section) -> Scalar:
     """Volume of the housing's floor around the hub, less pad pockets, windows, tang holes and mounting holes."""
-    disc = ring(hub_radius, housing_outer_radius).area
-    holes = spring_hole_area + np.pi * (0.5 * mount_hole) ** 2
-    return (disc - spring_count * holes) * floor_thickness - peltier_volume - window_area * floor_web
+    return floor_moments.area
 
 
 @book.helper()
-def floor_openings_polar(
-    arc_count: Scalar,
-    arc_span: Scalar,
-    pcl_inner_radius: Scalar,
-    pcl_outer_radius: Scalar,
-    pcl_mean_radius: Scalar,
-    window_ledge: Scalar,
-    corner_radius: Scalar,
-    peltier_thickness: Scalar,
-    floor_web: Scalar,
-) -> Scalar:
-    """Polar moment [m^5] of what the floor has not got: pockets of the pads, and the windows below them."""
-    span = arc_span - 2.0 * window_ledge / pcl_inner_radius
-    inner, outer = pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge
-    rounded = [corners(corner_radius, *ends) for ends in ((pcl_inner_radius, pcl_outer_radius), (inner, outer))]
-    pocket = sector(arc_span, pcl_inner_radius, pcl_outer_radius).polar - rounded[0] * pcl_mean_radius**2
-    window = sector(span, inner, outer).polar - rounded[1] * pcl_mean_radius**2
-    return arc_count * (pocket * peltier_thickness + window * floor_web)
-
-
-@book.helper()
-def housing_vanes_polar() -> Scalar:
-    """Polar moment [m^5] of vanes on the floor: there are none."""
-    return 0.0
+def housing_moments(bare_housing_moments: Section) -> Section:
+    """Volume and its polar moment about the axis, of the housing: nothing is added to what all modes have."""
+    return bare_housing_moments
 
 
 @book.output("mm^3")
-def housing_volume(bare_housing_volume: Scalar) -> Scalar:
+def housing_volume(housing_moments: Section) -> Scalar:
     """Volume of the housing: skirt and floor, wall, hub and spring posts."""
-    return bare_housing_volume
+    return housing_moments.area
 
 
 @book.helper()

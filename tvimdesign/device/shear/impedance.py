@@ -9,16 +9,15 @@ from tvimdesign.device.impedance import book as shared
 from tvimdesign.device.rows import Rule, Scalar
 from tvimdesign.physics import hold, layer, structure
 from tvimdesign.physics.motion import Modes
+from tvimdesign.physics.shapes import Section
 
 book = Book(shared.group)
 
 
 @book.output("m^4")
-def layer_polar_moment(
-    arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
-) -> Scalar:
+def layer_polar_moment(pcl_section: Section) -> Scalar:
     """Polar second moment of area of the PCL layer."""
-    return layer.polar_moment(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
+    return pcl_section.polar
 
 
 @book.output("N*m/rad", per_point=True, headline=True)
@@ -107,8 +106,7 @@ def layer_torque(
     hold_torque: Scalar, spring_stiffness: Scalar, structure_stiffness: Scalar, pcl_modes: Modes
 ) -> Scalar:
     """What the layer bears in a hold when the load has just come on: the springs bear the rest."""
-    first = hold.first_angle(hold_torque, spring_stiffness, structure_stiffness, pcl_modes)
-    return hold_torque - spring_stiffness * first
+    return hold.first_torque(hold_torque, spring_stiffness, structure_stiffness, pcl_modes)
 
 
 @book.output("MPa", per_point=True)

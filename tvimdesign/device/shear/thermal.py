@@ -8,14 +8,15 @@ from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Scalar
 from tvimdesign.device.thermal import book as shared
 from tvimdesign.physics import heat
+from tvimdesign.physics.shapes import Section
 
 book = Book(shared.group)
 
 
 @book.helper()
-def cold_area(window_area: Scalar) -> Scalar:
+def cold_area(window_section: Section) -> Scalar:
     """Open area of the pads' cold sides [m^2]: the windows below them."""
-    return window_area
+    return window_section.area
 
 
 @book.helper(instant=True)

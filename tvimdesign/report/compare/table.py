@@ -15,7 +15,6 @@ from tvimdesign.study.design import Design
 from tvimdesign.units import from_si, pretty
 
 Verdict = Literal["better", "worse", "same", "open", ""]
-NEVER = math.inf
 
 
 @dataclass(frozen=True)
