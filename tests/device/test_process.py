@@ -93,6 +93,19 @@ def test_a_milled_pocket_is_no_deeper_than_its_corners_and_its_width_allow() -> 
     assert values["window_width_reserve"] == pytest.approx((0.854548 * 26 - 4 - 3) * MM, rel=1e-4)
 
 
+def test_a_cutter_comes_down_between_the_posts_and_the_wall() -> None:
+    rows = ["post_pocket_reserve", "housing_inner_radius", "placement_radius", "post_radius", "post_height"]
+    table = table_for("shear")
+    milled = table.evaluate(of_process("shear", "machine_6061"), rows)
+    gap = milled["housing_inner_radius"] - milled["placement_radius"] - milled["post_radius"]
+    assert milled["post_pocket_reserve"] == pytest.approx(4 * gap - milled["post_height"])  # four times its width
+    # Posts that turn are parts of their own: nothing is milled between them and the wall.
+    turning = table.evaluate({**of_process("shear", "machine_6061"), "preload_adjuster": "rotary"}, rows)
+    assert turning["post_pocket_reserve"] == pytest.approx(4 * gap)
+    tall = {**of_process("shear", "machine_6061"), "coil_count": 9.25}
+    assert table.evaluate(tall, rows)["post_pocket_reserve"] < 0.0
+
+
 def test_a_milled_slot_between_pads_is_no_deeper_than_its_corners_and_its_width_allow() -> None:
     inputs = of_process("compression", "machine_6061", floor_thickness="4 mm", block_height="3.5 mm")
     table = table_for("compression")

@@ -151,6 +151,23 @@ def adjusters_mass(
 # --- rules -----------------------------------------------------------------------------------------------------------
 
 
+_NARROW = "a cutter does not come down between posts and wall: more radial_clearance, or springs that are less tall"
+
+
+@rules.output("mm", at_least(0.0, _NARROW), extras=())
+def post_pocket_reserve(
+    preload_adjuster: str,
+    housing_inner_radius: Scalar,
+    placement_radius: Scalar,
+    post_radius: Scalar,
+    post_height: Scalar,
+    pocket_depth_ratio: Scalar,
+) -> Scalar:
+    """Depth the place between the floor's posts and the wall may have for its width beyond the one it has."""
+    deep = post_height if preload_adjuster == FIXED else 0.0
+    return pocket_depth_ratio * (housing_inner_radius - placement_radius - post_radius) - deep
+
+
 @rules.output(
     "mm",
     at_least(0.0, "the adjusters do not go in past the housing's wall: give the springs more radial_clearance"),
