@@ -6,9 +6,11 @@ tvimdesign's compiled equations; the one by hand has only the problem's numbers.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from by_hand import ByHand, by_hand
@@ -19,6 +21,7 @@ from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
+from tvimdesign.solve import model, stage_model
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.simulate import Simulator
@@ -232,11 +235,29 @@ def openmdao(reference: Reference, begin: Array) -> Found:
 # --- AeroSandbox ---
 
 
-def aerosandbox(_: Reference, begin: Array) -> Found:
-    """AeroSandbox's Opti with Radau collocation written by its user, from a simulated trajectory."""
+@contextmanager
+def arrays_of_casadi() -> Iterator[None]:
+    """Equations that are written meanwhile are written with CasADi's own arrays, not with tvimdesign's quicker ones."""
+
+    def array(column: Any) -> Any:
+        return np.reshape(column, (column.numel(),))
+
+    with patch.object(model, "symbols", array), patch.object(stage_model, "symbols", array):
+        yield
+
+
+def aerosandbox(reference: Reference, begin: Array) -> Found:
+    """AeroSandbox's Opti with Radau collocation written by its user, from a simulated trajectory.
+
+    Its user writes the equations as symbols too, of the kind that CasADi has for numpy's functions; which limits hang
+    on nothing free, and numbers of records, are known.
+    """
     import aerosandbox as asb
 
-    reference = Reference(study())  # its user writes the equations as symbols too
+    with arrays_of_casadi():
+        written = reference.written_anew()
+        stage, algebra = written.stages["softening"], reference.algebra(written)
+        rates, gap, initial = stage.rates, stage.watch([reference.event]), stage.initial
     ca.GlobalOptions.setNumpyMode(0)  # AeroSandbox does not know the symbols of the other mode
     opti = asb.Opti()
     elements, (points, derivative, _) = 8, radau()
@@ -247,19 +268,19 @@ def aerosandbox(_: Reference, begin: Array) -> Found:
     for i, place in enumerate(reference.places):
         entries[place] = ca.exp(logs[i])
     inputs = ca.vertcat(*entries)
-    start, drive = reference.stage.initial(inputs), inputs[reference.current]
+    start, drive = initial(inputs), inputs[reference.current]
     warm = _heated(reference, begin, elements * len(points))
     states = ca.reshape(opti.variable(init_guess=warm.ravel(order="F")), *warm.shape)
-    rates = reference.stage.rates.map(warm.shape[1])(
+    slopes_there = rates.map(warm.shape[1])(
         states, ca.repmat(drive, 1, warm.shape[1]), ca.repmat(inputs, 1, warm.shape[1])
     )
     for element in range(elements):
         columns = slice(element * len(points), (element + 1) * len(points))
         before = start if element == 0 else states[:, element * len(points) - 1]
         slopes = ca.mtimes(ca.horzcat(before, states[:, columns]), derivative)
-        opti.subject_to(ca.vec(slopes - ca.exp(log_time) / elements * rates[:, columns]) == 0)
-    opti.subject_to(reference.stage.watch([reference.event])(states[:, -1], drive, inputs) == 0)
-    rows = reference.algebra_function(inputs, ca.exp(log_time))
+        opti.subject_to(ca.vec(slopes - ca.exp(log_time) / elements * slopes_there[:, columns]) == 0)
+    opti.subject_to(gap(states[:, -1], drive, inputs) == 0)
+    rows = algebra(inputs, ca.exp(log_time))
     opti.subject_to(rows[1:] <= 0)
     opti.minimize(rows[0])
     found = opti.solve(verbose=False, max_iter=500)

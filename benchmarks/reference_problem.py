@@ -19,6 +19,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.limits import impossible
+from tvimdesign.solve.model import Model
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.study import Study, read_study
 
@@ -62,19 +63,24 @@ class Reference:
         self.stage = model.stages["softening"]
         self._state, self._inputs = ca.SX.sym("state", self.stage.state_size), ca.SX.sym("inputs", len(model.names))
         self.current = model.index["current"]
-        self.algebra_function = self._algebra_function()
-        """(inputs, time) -> objective, then every limit's residual, kept where <= 0."""
-        self._algebra = Quick(self.algebra_function)
+        self._algebra = Quick(self.algebra(model))
         self._heat = self._heat_functions()
 
-    def _algebra_function(self) -> Any:
+    def algebra(self, model: Model) -> Any:
+        """The function (inputs, time) -> objective, then every limit's residual, kept where <= 0."""
         wanted = list(dict.fromkeys([*self.weights, *(limit.output for limit in self.limits)]))
         time = ca.SX.sym("time")
-        switch = ca.vertcat(*(time if name == self.event else np.nan for name in self.model.switch_names))
-        values = self.model.outputs(wanted)(self._inputs, switch)
+        switch = ca.vertcat(*(time if name == self.event else np.nan for name in model.switch_names))
+        values = model.outputs(wanted)(self._inputs, switch)
         objective = sum(weight * values[wanted.index(name)] for name, weight in self.weights.items())
         rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
         return ca.Function("algebra", [self._inputs, time], [ca.vertcat(objective, *rows)])
+
+    def written_anew(self) -> Model:
+        """The model as symbols of CasADi's own arrays, nothing of it written yet: how its users write equations."""
+        known = self.model
+        given = {**dict(zip(known.names, known.start.tolist(), strict=True)), **known.words}
+        return Model(known.table, given, known.points, known.cells)
 
     def _heat_functions(self) -> tuple[Quick, Quick, Quick]:
         drive = self._inputs[self.current]

@@ -13,7 +13,7 @@ from comparable import COMPRESSION, SHEAR
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.front import Front, trace_front
+from tvimdesign.solve.front import Front, completed, trace_front
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.run import Run
@@ -129,10 +129,16 @@ def test_no_point_of_two_fronts_beats_one_of_the_other(pair: Front, triple: Fron
                 assert not all(there.values[name] < point.values[name] * 0.995 for name in (TIME, MASS, SIZE))
 
 
-def test_every_point_is_a_whole_design_that_keeps_what_the_study_requires(solved: Solved, pair: Front) -> None:
-    table = table_for(solved.study.mode)
-    for point in pair.points:
+def test_every_point_is_once_completed_a_whole_design_that_keeps_what_the_study_requires(
+    solved: Solved, pair: Front
+) -> None:
+    table, whole = table_for(solved.study.mode), completed(pair, solved.trade())
+    for partly, point in zip(pair.points, whole.points, strict=True):
+        assert {TIME, MASS} <= partly.values.keys() < point.values.keys()
         assert set(table.names(solved.study.operating_points)) <= point.values.keys()
+        assert np.isfinite(point.values["stiffening_time"])
+        # What is simulated a second time with all that rides along is the same to the integration's tolerance.
+        assert point.values == pytest.approx(point.values | partly.values, rel=1e-3)
         for requirement in solved.study.require:
             assert point.values[requirement.output] >= requirement.limit * (1.0 - 1e-5)
 

@@ -10,7 +10,8 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.physics import hold, laplace
 from tvimdesign.physics.motion import Modes
-from tvimdesign.solve.backend import as_array, ca
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.symbols import symbols
 
 SPRINGS, STRUCTURE, LOAD = 5.61, 919.0, 0.583
 MELT = [(2.07e-2, 82.0), (6.5e-3, 104.0), (2.07e-3, 131.0), (6.5e-4, 165.0), (2.07e-4, 207.0), (6.5e-5, 261.0)]
@@ -105,7 +106,7 @@ def test_symbols_and_arrays_give_what_floats_give() -> None:
 
     names = ca.SX.sym("load, time, springs, stiffness", 4)
     numbers = np.array([[0.583, 1.0], [3.0, 0.4], [5.61, 9.0], [150.0, 4e4]])
-    found = ca.Function("found", [names], [ca.vertcat(*rows(*as_array(names)))])
+    found = ca.Function("found", [names], [ca.vertcat(*rows(*symbols(names)))])
     arrays = rows(*numbers)
     for i in range(2):
         floats = [float(row) for row in rows(*(float(number) for number in numbers[:, i]))]

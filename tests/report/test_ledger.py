@@ -6,8 +6,9 @@ import json
 
 import pytest
 
-from tvimdesign.report import ledger
-from tvimdesign.report.ledger import claims, findings
+from tvimdesign.report import ledger, paper_claims
+from tvimdesign.report.ledger import findings
+from tvimdesign.report.paper_claims import claims
 
 
 @pytest.mark.parametrize(
@@ -39,7 +40,7 @@ def test_every_claim_has_a_place_a_computation_and_a_verdict() -> None:
 
 def test_the_numbers_follow_the_stated_inputs(monkeypatch: pytest.MonkeyPatch) -> None:
     thicker = {**claims(), "numbers": {**claims()["numbers"], "wire_diameter": {"value": 4.826, "unit": "mm"}}}
-    monkeypatch.setattr(ledger, "claims", lambda: thicker)
+    monkeypatch.setattr(paper_claims, "claims", lambda: thicker)
     assert "22.43" in findings()[0].computed or "22.44" in findings()[0].computed  # 2^4 times 1.4023
 
 

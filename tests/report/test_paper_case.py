@@ -12,7 +12,7 @@ from support import ROOT
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report import paper_case
-from tvimdesign.report.ledger import claims
+from tvimdesign.report.paper_claims import claims
 from tvimdesign.solve.limits import limits_of
 from tvimdesign.solve.simulate import Simulator
 from tvimdesign.study import Study, given, read_study, read_study_text

@@ -18,7 +18,8 @@ def reference() -> Reference:
 
 
 def test_the_functions_of_the_rivals_are_those_of_the_product(reference: Reference) -> None:
-    values = reference.optimizer.start_values
+    switch = reference.optimizer.beginnings.switch.values
+    values = reference.model.values(reference.model.start, switch)
     assert lsoda(1e-9)(reference, reference.begin) == pytest.approx(values["response_time"], rel=1e-4)
     rows = reference.rows(reference.begin, values["response_time"])
     assert rows[0] == pytest.approx(3.0)  # three outputs, each over its value at the start

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
+from functools import cache
 from pathlib import Path
 
 from tvimdesign.catalog.record import Record
@@ -59,13 +60,22 @@ class Catalog:
         """Return a record, read once; raises CatalogError naming every problem of its file."""
         if (shelf, name) not in self._records:
             path = self.path(shelf, name)
-            record, problems = build_record(shelf, name, _shown(path), read_tree(path))
-            if len(problems) > _MOST_PROBLEMS:
-                problems[_MOST_PROBLEMS:] = [f"{_shown(path)}: and {len(problems) - _MOST_PROBLEMS} more"]
-            if problems:
-                raise CatalogError("\n".join(problems))
-            self._records[shelf, name] = record
+            read = _read_shipped if path.is_relative_to(_SHIPPED) else _read
+            self._records[shelf, name] = read(shelf, name, path)
         return self._records[shelf, name]
+
+
+def _read(shelf: str, name: str, path: Path) -> Record:
+    record, problems = build_record(shelf, name, _shown(path), read_tree(path))
+    if len(problems) > _MOST_PROBLEMS:
+        problems[_MOST_PROBLEMS:] = [f"{_shown(path)}: and {len(problems) - _MOST_PROBLEMS} more"]
+    if problems:
+        raise CatalogError("\n".join(problems))
+    return record
+
+
+_read_shipped = cache(_read)
+"""Shipped records do not change while the program runs: one reading serves every catalogue."""
 
 
 def check_records(catalog: Catalog) -> list[str]:

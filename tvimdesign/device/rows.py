@@ -269,6 +269,12 @@ class Table:
         return tuple(row for row in self.outputs if isinstance(row, Supplied))
 
     @cached_property
+    def behind_supplied(self) -> frozenset[str]:
+        """The supplied outputs and all that depends on them, by base name."""
+        supplied = {row.name for row in self.supplied}
+        return frozenset(row.name for row in self.outputs if supplied & {row.name, *self.ancestors(row.name)})
+
+    @cached_property
     def swings(self) -> tuple[Swing, ...]:
         """The outputs that are seen in a simulated release."""
         return tuple(row for row in self.outputs if isinstance(row, Swing))

@@ -21,7 +21,7 @@ from tvimdesign.report.front_memory import FolderMemory
 from tvimdesign.report.plots import Drawing
 from tvimdesign.report.talk import Progress
 from tvimdesign.solve.answer import Answer
-from tvimdesign.solve.front import Front, trace_front
+from tvimdesign.solve.front import Front, completed, trace_front
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.run import Run
 from tvimdesign.solve.tradeoff import Point, Tradeoff
@@ -57,7 +57,9 @@ class FrontOfRun:
         if self.study.front is None or found.solution is None or not found.found:
             return []
         trade = Tradeoff(self.study, found.solution, *self._built[0], progress, self._memory)
-        front = self.front = trace_front(trade, self.outputs, self.study.front.points)
+        sought = trace_front(trade, self.outputs, self.study.front.points)
+        progress("simulating the whole cycle of the front's points")
+        front = self.front = completed(sought, trade)
         folder, names = self._folder, shown_names(self.study, front)
         told["front"] = plain(front, names, self.table)
         folder.write("front.csv", front_csv(front, names, self.table))

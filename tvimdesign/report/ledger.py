@@ -11,12 +11,10 @@ import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cache
-from importlib import resources
-from typing import TYPE_CHECKING, Any
-
-import yaml
+from typing import TYPE_CHECKING
 
 from tvimdesign.physics import dynamics, layer, spring, transmission
+from tvimdesign.report.paper_claims import claims, from_paper
 from tvimdesign.units import from_si, to_si
 
 if TYPE_CHECKING:
@@ -31,20 +29,6 @@ class Finding:
     where: str
     computed: str
     verdict: str
-
-
-@cache
-def claims() -> dict[str, Any]:
-    """What the paper states: values with units, and the places."""
-    text = resources.files("tvimdesign.report").joinpath("paper_claims.yaml").read_text(encoding="utf-8")
-    loaded: dict[str, Any] = yaml.safe_load(text)
-    return loaded
-
-
-def from_paper(name: str) -> float:
-    """SI value of a number the paper states."""
-    entry = claims()["numbers"][name]
-    return to_si(float(entry["value"]), entry["unit"])
 
 
 def _spring_rate(wire_diameter: float) -> float:
@@ -166,7 +150,7 @@ def _bisect(function: Callable[[float], float], low: float, high: float, steps: 
 
 
 def _case() -> str:
-    from tvimdesign.report.paper_case import sentence  # it takes its stated times from here
+    from tvimdesign.report.paper_case import sentence
 
     return sentence()
 

@@ -17,7 +17,8 @@ import numpy as np
 
 from tvimdesign.report import paper_case
 from tvimdesign.report.folder import ResultsFolder
-from tvimdesign.report.ledger import from_paper, published_model
+from tvimdesign.report.ledger import published_model
+from tvimdesign.report.paper_claims import from_paper
 from tvimdesign.report.plots import Drawing, PlotProcess
 from tvimdesign.report.talk import talk, wide_console
 from tvimdesign.solve.level_set import PLACES, LevelSet, level_set

@@ -19,7 +19,7 @@ import yaml
 from tvimdesign.catalog import Catalog
 from tvimdesign.catalog.record import Entry
 from tvimdesign.device import Input, table_for
-from tvimdesign.report.ledger import from_paper
+from tvimdesign.report.paper_claims import from_paper
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.sensitivity import Array, Influence, Pair, Span, ratio
 from tvimdesign.study import given, read_study_text

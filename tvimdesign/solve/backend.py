@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import os
-from typing import Any
-
-import numpy as np
 
 # Two BLAS threads double the CPU time of systems this small and gain nothing; said before CasADi loads its libraries.
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -16,9 +13,4 @@ import casadi as ca  # noqa: E402  # the threads are set before it loads
 # Equations are written with numpy's functions; this makes CasADi answer to them.
 ca.GlobalOptions.setNumpyMode(1)
 
-__all__ = ["as_array", "ca"]
-
-
-def as_array(column: Any) -> Any:
-    """A column of symbols as the one-dimensional array that the equations take; its entries are scalars."""
-    return np.reshape(column, (column.numel(),))
+__all__ = ["ca"]

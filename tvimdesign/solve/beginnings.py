@@ -27,7 +27,7 @@ class Beginnings:
         """Simulate the study's own start, which is in `model`, as far as the problem needs it."""
         self.problem, self.model, self.simulator = problem, model, simulator
         self.options, self.progress = options, progress
-        self.switch = simulator.run(model.start, stages=problem.stages)
+        self.switch = problem.simulated(simulator, model.start)
         """The switch of the study's own start."""
         self.passed_over = {"switch never ends": 0, "no such module": 0}
         """Points at which no search began, by the reason."""
@@ -77,7 +77,7 @@ class Beginnings:
         """The switch at a point, None where it does not end."""
         try:
             known = inputs is self.model.start
-            switch = self.switch if known else self.simulator.run(inputs, stages=self.problem.stages)
+            switch = self.switch if known else self.problem.simulated(self.simulator, inputs)
         except SimulationError:
             return None
         return switch if all(np.isfinite(switch.values[event]) for event in self.problem.events) else None

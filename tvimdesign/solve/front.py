@@ -69,6 +69,15 @@ def trace_front(trade: Tradeoff, outputs: Sequence[str], count: int) -> Front:
     return _Tracer(trade, tuple(outputs), count).front()
 
 
+def completed(front: Front, trade: Tradeoff) -> Front:
+    """A front whose points have every output, those too that no goal and no limit hangs on."""
+    found = [trade.completed(point) for point in front.points]
+    failures = tuple(one for one in found if isinstance(one, Failure))
+    return replace(
+        front, points=tuple(one for one in found if isinstance(one, Point)), failures=(*front.failures, *failures)
+    )
+
+
 class _Tracer:
     """One front on its way."""
 

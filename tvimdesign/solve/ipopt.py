@@ -22,10 +22,10 @@ _USUAL = {
 }
 _WARM = {
     "warm_start_init_point": "yes",
-    "mu_init": 1e-6,
-    "warm_start_bound_push": 1e-5,
-    "warm_start_mult_bound_push": 1e-5,
-    "warm_start_slack_bound_push": 1e-5,
+    "mu_init": 1e-7,
+    "warm_start_bound_push": 1e-6,
+    "warm_start_mult_bound_push": 1e-6,
+    "warm_start_slack_bound_push": 1e-6,
 }
 _WARM_ITERATIONS = 30
 """A warm start takes five to ten iterations or goes nowhere; who asks for one then starts from further back."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Choice, Input, Supplied, Table
+from tvimdesign.device import Choice, Input, Table
 from tvimdesign.device.rows import Extra
 from tvimdesign.errors import InputError
 from tvimdesign.study import Study, given
@@ -70,8 +70,7 @@ def _behind(table: Table, name: str, sense: str) -> tuple[str, ...]:
 
 def on_switch(table: Table, output: str) -> bool:
     """Whether an output depends on how a switch runs."""
-    above = (output.partition("@")[0], *table.ancestors(output))
-    return any(isinstance(table.row(base), Supplied) for base in above)
+    return output.partition("@")[0] in table.behind_supplied
 
 
 def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:

@@ -129,7 +129,7 @@ class Optimizer:
         """The limits without those that nothing free can change, which are checked here and now."""
         constant = self._constant(limits)
         without_switch = dict.fromkeys(self.model.switch_names, np.inf)
-        values = self.model.values(self.model.start, without_switch) if constant else {}
+        values = self.model.some_values([limit.output for limit in constant], self.model.start, without_switch)
         for limit in constant:
             value = values[limit.output]
             if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
@@ -149,7 +149,9 @@ class Optimizer:
         """What knows the numbers of the records: where to begin, and how the vector of unknowns is read."""
         self.beginnings = Beginnings(self.problem, self.model, self.simulator, self.study.solver, self.progress)
         self.vector = Unknowns(self.problem, self.model)
-        self.start_values = self.model.values(self.model.start, self.beginnings.switch.values)
+        switch = self.beginnings.switch.values
+        self.start_values = self.model.some_values(self.problem.minimize, self.model.start, switch)
+        """What is minimised, at the study's start."""
 
     def guess(self, inputs: Array) -> Array:
         """The unknowns at a point, with the switch simulated there; with the start's where that does not end."""

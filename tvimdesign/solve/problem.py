@@ -7,7 +7,7 @@ was built. Unknowns that are positive throughout are logarithms of their ratio t
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.errors import InputError
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.drive import ramp_time
+from tvimdesign.solve.drive import Drive, ramp_time
 from tvimdesign.solve.limits import Limit
 from tvimdesign.solve.model import Model
+from tvimdesign.solve.simulate import Simulator, Switch
 from tvimdesign.solve.transcription import Block, at_each, stage_block
 
 Array = NDArray[np.float64]
@@ -179,9 +180,21 @@ class Problem:
             found = mine + found
         return found
 
+    def simulated(self, simulator: Simulator, inputs: Array, drives: Mapping[str, Drive] | None = None) -> Switch:
+        """The working cycle at some inputs, as far as the problem needs it."""
+        return simulator.run(inputs, drives, stages=self._stages, wanted=self._needed)
+
     @cached_property
-    def stages(self) -> set[str]:
-        """The stages that must be simulated to know what the problem needs."""
+    def known(self) -> list[str]:
+        """The outputs, by full name, that are known once that is simulated."""
+        table, needed = self.model.table, {*self.events, *self._needed}
+        unknown = {row.name for row in table.supplied if row.name not in needed}
+        return [
+            name for name in self.model.output_names if not unknown & {name.partition("@")[0], *table.ancestors(name)}
+        ]
+
+    @cached_property
+    def _stages(self) -> set[str]:
         rows = [self.model.table.row(name) for name in (*self.events, *self._needed)]
         return {row.stage for row in rows if isinstance(row, Event | Path | Steady)}
 

@@ -88,11 +88,13 @@ class Simulator:
         drives: Mapping[str, Drive] | None = None,
         stages: Collection[str] | None = None,
         stretches: Mapping[str, float] | None = None,
+        wanted: Collection[str] | None = None,
     ) -> Switch:
         """Simulate the named stages (all unless given) and those they start from; the rest has infinite values.
 
         `drives` are currents by stage where they are not the constant ones of the inputs; `stretches` the lengths [s]
-        of time, by stage, that are sampled at a time at first.
+        of time, by stage, that are sampled at a time at first. Of the stages' rows only those that are
+        `wanted` need be sought (all unless given), as steady states and each event take time of their own.
         """
         values = dict.fromkeys(self.model.switch_names, np.inf)
         trajectories: dict[str, Trajectory] = {}
@@ -108,9 +110,10 @@ class Simulator:
             simulator = self._stage(name)
             stretch = (stretches or {}).get(name, FIRST_STRETCH)
             state = before.states[:, -1] if before else None
-            found, trajectories[name] = simulator.run(inputs, drive, state, stretch)
+            found, trajectories[name] = simulator.run(inputs, drive, state, stretch, wanted)
             values |= found
-            balance = simulator.balance(inputs, trajectories[name]) if np.isfinite(found[stage.ends]) else None
+            settles = np.isfinite(found[stage.ends]) and simulator.stays(wanted)
+            balance = simulator.balance(inputs, trajectories[name]) if settles else None
             if balance is not None:
                 balances[name] = balance
                 values |= simulator.steady_values(inputs, balance)
@@ -195,10 +198,12 @@ class _StageSimulator:
         return ca.vertcat(self.stage.rates(state, drive, inputs), self.stage.watch(watched)(state, drive, inputs))
 
     def run(
-        self, inputs: Array, drive: Drive, before: Array | None, stretch: float
+        self, inputs: Array, drive: Drive, before: Array | None, stretch: float, wanted: Collection[str] | None
     ) -> tuple[dict[str, float], Trajectory]:
-        """Simulate until every event has happened, nothing changes any more, or the horizon is over."""
-        found = _Found(dict.fromkeys(self._events, np.inf))
+        """Simulate until every event that is wanted has happened, nothing changes any more, or the horizon is over."""
+        ends = self.stage.stage.ends
+        sought = [name for name in self._events if wanted is None or name in wanted or name == ends]
+        found = _Found(dict.fromkeys(sought, np.inf))
         horizon = float(inputs[self.model.index["horizon"]])
         begin, constants = self._begin(inputs, before)
         time, length = 0.0, stretch
@@ -255,7 +260,7 @@ class _StageSimulator:
         time = when[0]
         seen: list[tuple[Array, float, Array]] = []
         for i, name in enumerate(self._events):
-            if np.isfinite(found.times[name]) or not np.any(watched[i] >= 0.0):
+            if np.isfinite(found.times.get(name, 0.0)) or not np.any(watched[i] >= 0.0):
                 continue
             same = [known[1:] for known in seen if np.array_equal(known[0], watched[i])]
             share, state = same[0] if same else self._crossing(stretch, constants, when, i, watched[i])
@@ -275,11 +280,19 @@ class _StageSimulator:
         steps = len(self._shares) - 1
         within = np.linspace(currents[first - 1], currents[first], steps + 1)
         close = self._stretch(stretch[:, first - 1], constants, length / steps, within)
-        near = self._watch(close, constants, within)[event]
-        last = max(int(np.argmax(near >= 0.0)), 1)
-        part = near[last - 1] / (near[last - 1] - near[last])
-        share = (first - 1 + (last - 1 + part) / steps) / steps
-        return float(share * length), close[:, last - 1] + part * (close[:, last] - close[:, last - 1])
+
+        def near(place: int) -> float:
+            return float(self._watched(close[: self.stage.state_size, place], within[place], constants)[event])
+
+        # Looking at a sample costs as much as integrating up to it, so few are looked at: by halves.
+        low, high = (0, near(0)), (steps, near(steps))
+        while high[0] - low[0] > 1:
+            middle = (low[0] + high[0]) // 2
+            value = near(middle)
+            low, high = (low, (middle, value)) if value >= 0.0 else ((middle, value), high)
+        part = low[1] / (low[1] - high[1])
+        share = (first - 1 + (low[0] + part) / steps) / steps
+        return float(share * length), close[:, low[0]] + part * (close[:, high[0]] - close[:, low[0]])
 
     def _summary(
         self, found: _Found, pieces: list[tuple[Array, Array, Array]], constants: Array, drive: Drive
@@ -299,7 +312,7 @@ class _StageSimulator:
             watched = np.column_stack([watched[:, keep], np.asarray(now).ravel()])
         size = self.stage.state_size
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
-        values = dict(found.times)
+        values = dict.fromkeys(self._events, np.inf) | found.times
         for row, sampled in zip(self.stage.paths, watched[len(self._events) :], strict=True):
             # What a stage that never ends adds up to has no end either.
             whole = integrals.get(row.name, np.max(sampled))
@@ -307,29 +320,37 @@ class _StageSimulator:
         return values, Trajectory(times=times, states=states[:size], currents=drive.at(times))
 
     @cached_property
-    def _balances(self) -> tuple[Any, ...]:
-        """Finders of the state and current at which everything stays, with the ending event at zero.
-
-        Newton's full steps first: with shorter ones it may stop dead where half of the layer has molten.
-        """
+    def _standing(self) -> Any:
+        """The function (state and current, inputs) that is zero where everything stays and the ending event is due."""
         size = self.stage.state_size
         unknowns = ca.SX.sym("unknowns", size + 1)
         inputs = ca.SX.sym("inputs", len(self.model.names))
         state, drive = unknowns[:size], unknowns[size]
         gap = self.stage.watch([self.stage.stage.ends])(state, drive, inputs)
         equations = ca.vertcat(self.stage.rates(state, drive, inputs), gap)
-        standing = ca.Function("standing", [unknowns, inputs], [equations])
-        full = {"line_search": False, "max_iter": MOST_STEPS}
-        return tuple(ca.rootfinder("balance", "newton", standing, options) for options in (full, {}))
+        return ca.Function("standing", [unknowns, inputs], [equations])
+
+    @cached_property
+    def _by_full_steps(self) -> Any:
+        """Newton's method as it is: with shorter steps it may stop dead where half of the layer has molten."""
+        options = {"line_search": False, "max_iter": MOST_STEPS}
+        return ca.rootfinder("balance", "newton", self._standing, options)
+
+    @cached_property
+    def _by_shorter_steps(self) -> Any:
+        return ca.rootfinder("balance", "newton", self._standing)
+
+    def stays(self, wanted: Collection[str] | None) -> bool:
+        """Whether a steady state at the stage's end is of use."""
+        return any(wanted is None or row.name in wanted for row in self.stage.steadies)
 
     def balance(self, inputs: Array, trajectory: Trajectory) -> Array | None:
-        """State and current that stay where the stage ended; None where the stage has no use of it or none exists."""
-        if not self.stage.steadies:
-            return None
+        """State and current that stay where the stage ended; None where none exists."""
         begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
-        for balance in self._balances:
-            with suppress(RuntimeError):  # Newton finds none: with such a cold side there is none
-                return np.asarray(balance(begin, inputs)).ravel()
+        with suppress(RuntimeError):
+            return np.asarray(self._by_full_steps(begin, inputs)).ravel()
+        with suppress(RuntimeError):  # Newton finds none: with such a cold side there is none
+            return np.asarray(self._by_shorter_steps(begin, inputs)).ravel()
         return None
 
     def steady_values(self, inputs: Array, balance: Array) -> dict[str, float]:

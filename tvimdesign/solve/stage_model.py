@@ -9,7 +9,8 @@ from typing import Any
 from tvimdesign.device import Event, Path, Stage, Steady, Table
 from tvimdesign.device.rows import DRIVE, STAGE, STATE
 from tvimdesign.physics import heat
-from tvimdesign.solve.backend import as_array, ca
+from tvimdesign.solve.backend import ca
+from tvimdesign.solve.symbols import symbols
 
 _BY_JACOBIAN = {"enable_forward": False}
 """Derivatives of what is mapped over the points go by its sparse Jacobian: a fifth of IPOPT's time less than by
@@ -28,7 +29,7 @@ class StageModel:
         self.steadies = tuple(row for row in table.supplied if isinstance(row, Steady) and row.stage == stage.name)
         self._inputs = inputs
         self._drive = ca.SX.sym("drive_current")
-        self._known = {**known, STAGE: stage, DRIVE: as_array(self._drive)[0]}
+        self._known = {**known, STAGE: stage, DRIVE: symbols(self._drive)[0]}
         self._cells = cells
 
     @cached_property
@@ -39,7 +40,7 @@ class StageModel:
     @cached_property
     def _instant(self) -> dict[str, Any]:
         state = ca.SX.sym("state", self.state_size)
-        known = {**self._known, "stack_now": self._stack, STATE: as_array(state)}
+        known = {**self._known, "stack_now": self._stack, STATE: symbols(state)}
         rows = [row.name for row in (*self.events, *self.paths, *self.steadies)]
         wanted = ("stack_profile", "state_rates", "impedance_now", *rows)
         return {"state": state, **self.table.evaluate_instant(known, wanted)}
@@ -65,7 +66,7 @@ class StageModel:
     def begin(self) -> Any:
         """The function (state at the end of the stage before, inputs) -> state this one starts from."""
         before = ca.SX.sym("before", len(self._initial(self._stack._replace(freezing=None))))
-        state = heat.with_history(as_array(before), self._stack) if self._stack.freezing else before
+        state = heat.with_history(symbols(before), self._stack) if self._stack.freezing else before
         return ca.Function("begin", [before, self._inputs], [ca.vertcat(state)])
 
     @cached_property

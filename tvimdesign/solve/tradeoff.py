@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.errors import SimulationError
 from tvimdesign.solve.account import SWITCH_TOLERANCE
+from tvimdesign.solve.drive import Drive
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.limits import in_words, on_switch
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
@@ -36,7 +37,8 @@ class Point:
     where: str
     """Which point it is, in words."""
     values: dict[str, float]
-    """Every input and output in SI by full name."""
+    """Every input and, of the outputs, those that its goal and limits hang on, in SI by full name; once it is
+    completed, every output."""
     drives: dict[str, Any]
     trace: Trace | None = field(default=None, repr=False, compare=False)
     """What the solver left behind, for a neighbour to begin from."""
@@ -133,6 +135,16 @@ class Tradeoff:
         self.found.append(found)
         return replace(found, where=point.where, root=other.root)
 
+    def completed(self, point: Point) -> Point | Failure:
+        """A point with the whole working cycle simulated: every output of it, whether the problem needs it or not."""
+        inputs = self._inputs(point)
+        drives = {stage: Drive.from_plain(plain) for stage, plain in point.drives.items()}
+        try:
+            switch = self.optimizer.simulator.run(inputs, drives)
+        except SimulationError as error:
+            return Failure(point.where, str(error))
+        return replace(point, values=point.values | self.optimizer.model.values(inputs, switch.values))
+
     def _search(self, goal: Goal, where: str, near: Point | None, guess: Trace | None) -> Point | Failure:
         found: Point | Failure = Failure(where, "nothing to begin from")
         if guess is not None:
@@ -190,14 +202,15 @@ class Tradeoff:
 
     def _simulated(self, run: Run, goal: Goal, where: str) -> Point | str:
         """The design simulated and held against every limit again; in words which one it breaks."""
-        optimizer = self.optimizer
+        optimizer, problem = self.optimizer, self.optimizer.problem
         try:
-            switch = optimizer.simulator.run(run.inputs, run.drives)
+            switch = problem.simulated(optimizer.simulator, run.inputs, run.drives)
         except SimulationError as error:
             return str(error)
-        values = optimizer.model.values(run.inputs, switch.values)
+        every = optimizer.model.values(run.inputs, switch.values)
+        values = {name: every[name] for name in problem.known}
         table = optimizer.table
-        for limit in optimizer.problem.limits:
+        for limit in problem.limits:
             tolerance = SWITCH_TOLERANCE if on_switch(table, limit.output) else ALGEBRAIC_TOLERANCE
             if not limit.residual(values[limit.output]) <= tolerance:
                 value = format_quantity(values[limit.output], table.unit(limit.output))

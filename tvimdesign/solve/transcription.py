@@ -9,7 +9,7 @@ Source: Biegler, Nonlinear Programming (2010), ch. 10.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -62,7 +62,7 @@ class Block:
         """[s]"""
         return self.ramp + self.pieces_time
 
-    @property
+    @cached_property
     def unknowns(self) -> Any:
         """MX, states column by column, then the log time."""
         return ca.vertcat(ca.vec(self.states), self.log_time)

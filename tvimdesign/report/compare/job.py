@@ -28,7 +28,7 @@ from tvimdesign.report.tables import check_row
 from tvimdesign.report.trouble import complaint
 from tvimdesign.report.why import binding
 from tvimdesign.solve.answer import Answer, answer
-from tvimdesign.solve.front import Front, trace_front, undominated
+from tvimdesign.solve.front import Front, completed, trace_front, undominated
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.rig import rig_of_design
 from tvimdesign.solve.run import Run
@@ -130,7 +130,7 @@ class Job:
         trade = Tradeoff(self.study, best.solution, *self._built[0], self.say)
         first, *others = front_outputs(self.study, self.table)
         for second in others:
-            front = trace_front(trade, (first, second), self.points)
+            front = completed(trace_front(trade, (first, second), self.points), trade)
             self.found["fronts"].append(self._plain(front, trade.optimum))
 
     @staticmethod
