@@ -276,6 +276,8 @@ def test_rows_lists_what_a_study_may_say(tvimdesign: Command) -> None:
     names = {row["name"] for row in rows}
     assert {"wire_diameter", "spring_material", "joint_stiffness@point", "response_time"} <= names
     assert all(row["description"] for row in rows)
+    (wall,) = (row for row in rows if row["name"] == "motor_wall")
+    assert wall["description"].endswith("of no effect while motor is none")
     blocks = {row["name"] for row in json.loads(tvimdesign("rows", "--mode", "compression", "--json").stdout)}
     assert {"block_depth", "vane_count", "joint_stiffness@point", "response_time"} <= blocks
     assert "pcl_thickness" not in blocks

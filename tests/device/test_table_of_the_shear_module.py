@@ -51,6 +51,8 @@ def test_every_extra_is_a_choice_that_has_the_word_for_none() -> None:
     assert {extra.choice for extra in extras} >= wanted
     words = {row.name: row.options for row in TABLE.choices}
     assert [extra for extra in extras if extra.without not in words[extra.choice]] == []
+    # What is zero in a module without an extra is no geometry that does not exist.
+    assert not any(rule.exists_above is not None for row in TABLE.outputs if row.extras for rule in row.rules)
 
 
 OF_EXTRAS = [row.name for row in (*TABLE.choices, *TABLE.inputs) if row.extras]

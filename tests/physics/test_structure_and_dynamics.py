@@ -67,3 +67,10 @@ def test_a_force_beyond_two_bearings_is_balanced_by_them_in_force_and_moment() -
     far, near = np.linalg.solve([[1.0, 1.0], [0.0, spread]], [-force, -force * (height + spread)])
     assert structure.overhung_load(force, height, spread) == pytest.approx(-near)
     assert far > 0.0  # the farther one pulls the other way
+
+
+def test_pure_shear_at_the_shear_yield_has_the_equivalent_stress_of_the_tensile_yield() -> None:
+    # Mises: sqrt(3/2 s:s) of the deviator, here of shear alone in two planes of the tensor.
+    shear = structure.shear_yield(47.5e6)
+    tensor = np.array([[0.0, shear, 0.0], [shear, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    assert np.sqrt(1.5 * np.sum(tensor**2)) == pytest.approx(47.5e6, rel=1e-12)

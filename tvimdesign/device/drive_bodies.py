@@ -224,7 +224,6 @@ def encoder_board_density(angle_sensor: Encoder, encoder_board_volume: Scalar) -
 @book.output("g")
 def drive_mass(
     drive: Motor,
-    angle_sensor: Encoder | None,
     structure_density: Scalar,
     motor_hub_volume: Scalar,
     motor_housing_volume: Scalar,
@@ -236,14 +235,16 @@ def drive_mass(
     motor_bearing_volume: Scalar,
     motor_bearing_density: Scalar,
     encoder_magnet_volume: Scalar,
+    encoder_magnet_density: Scalar,
+    encoder_board_volume: Scalar,
+    encoder_board_density: Scalar,
 ) -> Scalar:
     """Mass of motor, its hub, housing, retainer, bearings and screws, and encoder; zero without a motor."""
     made = (motor_hub_volume + motor_housing_volume + motor_retainer_volume) * structure_density
     screws = motor_screw_volume * motor_screw_density + mount_screw_volume * mount_screw_density
     bought = drive.stator_mass + drive.rotor_mass + motor_bearing_volume * motor_bearing_density
-    if angle_sensor is None:
-        return made + screws + bought
-    return made + screws + bought + encoder_magnet_volume * angle_sensor.magnet_density + angle_sensor.board_mass
+    encoder = encoder_magnet_volume * encoder_magnet_density + encoder_board_volume * encoder_board_density
+    return made + screws + bought + encoder
 
 
 @book.output("kg*mm^2")
@@ -255,7 +256,6 @@ def motor_hub_inertia(motor_hub_moments: Section, structure_density: Scalar) -> 
 @book.output("kg*mm^2")
 def drive_inertia(
     drive: Motor,
-    angle_sensor: Encoder | None,
     motor_hub_inertia: Scalar,
     motor_retainer_moments: Section,
     structure_density: Scalar,
@@ -264,6 +264,9 @@ def drive_inertia(
     mount_screw_moments: Section,
     mount_screw_density: Scalar,
     motor_bearing_density: Scalar,
+    encoder_magnet_radius: Scalar,
+    encoder_magnet_height: Scalar,
+    encoder_magnet_density: Scalar,
 ) -> Scalar:
     """Moment of inertia of what the motor turns below the housing: rotor, hub, retainer, screws, inner rings, magnet.
 
@@ -273,9 +276,5 @@ def drive_inertia(
     screws = motor_screw_moments.polar * motor_screw_density + mount_screw_moments.polar * mount_screw_density
     inner = bearing_inner_section(drive.bearing_bore, drive.bearing_radius)
     rings = bearings_inertia(inner, drive.bearing_width, motor_bearing_density)
-    whole = drive.rotor_inertia + motor_hub_inertia + retainer + screws + rings
-    if angle_sensor is None:
-        return whole
-    return (
-        whole + ring(0.0, angle_sensor.magnet_radius).polar * angle_sensor.magnet_height * angle_sensor.magnet_density
-    )
+    magnet = ring(0.0, encoder_magnet_radius).polar * encoder_magnet_height * encoder_magnet_density
+    return drive.rotor_inertia + motor_hub_inertia + retainer + screws + rings + magnet

@@ -9,9 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.catalog import Record
+from tvimdesign.device.bodies import LINK_SCREWS
 from tvimdesign.device.book import Book
 from tvimdesign.device.rows import Rule, Scalar
-from tvimdesign.physics import crystallization, dynamics, layer, motion, polymer, structure
+from tvimdesign.physics import crystallization, dynamics, layer, motion, peg, polymer, structure
 
 book = Book("Impedance")
 
@@ -227,7 +228,7 @@ def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -
 @book.output("N*m")
 def core_holding_torque(structure_layer_strength: Scalar, core_radius: Scalar) -> Scalar:
     """Torque at which the core yields in torsion, its screw holes not counted."""
-    return structure.shaft_torque(structure_layer_strength / np.sqrt(3.0), core_radius)
+    return structure.shaft_torque(structure.shear_yield(structure_layer_strength), core_radius)
 
 
 @book.output("N*m")
@@ -235,8 +236,8 @@ def link_holding_torque(
     structure_strength: Scalar, link_screw_pilot: Scalar, link_thickness: Scalar, link_bolt_circle_radius: Scalar
 ) -> Scalar:
     """Torque at which the four screws of the output link start to press into it, friction not counted."""
-    bearing = structure_strength * link_screw_pilot * link_thickness
-    return 4.0 * bearing * link_bolt_circle_radius
+    bearing = peg.bearing_force(structure_strength, link_screw_pilot, link_thickness)
+    return LINK_SCREWS * bearing * link_bolt_circle_radius
 
 
 @book.output(

@@ -15,6 +15,11 @@ def shear_modulus(youngs_modulus: Any, poissons_ratio: Any) -> Any:
     return youngs_modulus / (2.0 * (1.0 + poissons_ratio))
 
 
+def shear_yield(tensile_yield: Any) -> Any:
+    """Shear stress at which a body yields [Pa], sigma/sqrt(3) (Shigley, section 5-5, distortion energy)."""
+    return tensile_yield / np.sqrt(3.0)
+
+
 def shaft_stiffness(modulus: Any, radius: Any, length: Any) -> Any:
     """Round bar, G pi r^4/(2 L) [N*m/rad]."""
     return modulus * np.pi * radius**4 / (2.0 * length)

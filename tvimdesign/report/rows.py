@@ -66,6 +66,12 @@ def _plain(row: Row) -> dict[str, Any]:
     return _entry(row, "output", row.unit, "", rules, name)
 
 
+def _only_with(row: Row) -> str:
+    """What an input or a choice counts for nothing without; an output's description says what it is then."""
+    idle = () if isinstance(row, Output) else row.extras
+    return "".join(f"; of no effect while {extra.choice} is {extra.without}" for extra in idle)
+
+
 def _entry(row: Row, kind: str, unit: str, default: str, allowed: str, name: str = "") -> dict[str, Any]:
     return {
         "name": name or row.name,
@@ -74,6 +80,6 @@ def _entry(row: Row, kind: str, unit: str, default: str, allowed: str, name: str
         "default": default,
         "allowed": allowed,
         "group": row.group,
-        "description": row.description,
+        "description": row.description + _only_with(row),
         "source": row.source if isinstance(row, Input) else "",
     }

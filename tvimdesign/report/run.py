@@ -8,10 +8,13 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rich.markup import escape
+
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Table, table_for
 from tvimdesign.errors import GeometryError, InfeasibleError, InputError, TvimError
 from tvimdesign.files import write_whole
+from tvimdesign.report.doubts import doubts
 from tvimdesign.report.folder import ResultsFolder
 from tvimdesign.report.talk import Progress, talk, wide_console
 from tvimdesign.study import Study, read_study
@@ -42,9 +45,10 @@ def check_study(path: Path, *, proof: bool = True) -> Study:
 
 
 def describe(study: Study) -> str:
-    """One line on what a valid study asks."""
+    """One line on what a valid study asks, then one for each of its records that contradicts itself."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
-    return f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
+    asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
+    return "\n".join([asked, *doubts(study, catalog_of(study), table_for(study.mode))])
 
 
 def run_study(
@@ -70,7 +74,7 @@ def run_study(
         found = answer(study, catalog, table, progress, keep=front.keep, traded=front.outputs)
         shown = plot_data(found, table) if drawing and found.found else {}
         plotted = [Drawing(name, name, data) for name, data in shown.items()]
-        told = _told(found, table)
+        told = _told(found, table) | {"doubts": doubts(study, catalog, table)}
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
@@ -155,6 +159,8 @@ def _sensitivities(
 
 
 def _print_rest(told: dict[str, Any], front: FrontOfRun) -> None:
+    for doubt in told["doubts"]:
+        wide_console().print(f"[yellow]In doubt:[/yellow] {escape(doubt)}", soft_wrap=True)
     names = told.get("sensitivities_left_out")
     if names:
         said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(names)}."

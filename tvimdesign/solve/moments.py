@@ -8,13 +8,13 @@ Source: Taylor series of moments, e.g. JCGM 100:2008 (GUM), 5.1.2 with its note.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import sqrt
 from typing import Any
 
 import numpy as np
 
 from tvimdesign.solve.backend import ca
 from tvimdesign.solve.model import Model
+from tvimdesign.solve.spread import deviation_of
 from tvimdesign.study import Tolerance
 
 _NOTHING = 1e-12
@@ -58,4 +58,4 @@ def _deviation(model: Model, tolerance: Tolerance, value: Any, inputs: Any) -> A
         size = ca.SX(tolerance.plus_minus or 0.0)
     if tolerance.adjustable:
         size = ca.fmin(size, tolerance.adjusted_to or 0.0)
-    return size / (tolerance.sigma if tolerance.distribution == "normal" else sqrt(3.0))
+    return deviation_of(size, tolerance.distribution, tolerance.sigma)

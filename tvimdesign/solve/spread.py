@@ -31,6 +31,11 @@ RARE = 0.00135
 """Share of a normal distribution beyond three standard deviations on one side."""
 
 
+def deviation_of(plus_minus: Any, distribution: str, sigma: float) -> Any:
+    """Standard deviation of what lies within `plus_minus`: that many sigma of a normal one, 1/sqrt(3) of a uniform."""
+    return plus_minus / (sigma if distribution == "normal" else math.sqrt(3.0))
+
+
 @dataclass(frozen=True)
 class Contributor:
     """One input that spreads, SI: its value as drawn, and how far it may lie from that to either side."""
@@ -47,7 +52,7 @@ class Contributor:
     @property
     def deviation(self) -> float:
         """Standard deviation."""
-        return self.plus_minus / (self.sigma if self.distribution == "normal" else math.sqrt(3.0))
+        return float(deviation_of(self.plus_minus, self.distribution, self.sigma))
 
     def ppf(self, share: Any) -> Array:
         """Value below which a share of all parts lies."""

@@ -82,7 +82,7 @@ def layer_holding_torque(
     pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
 ) -> Scalar:
     """Torque at which the frozen layer's bond, or its shear yield, gives way at its outer rim."""
-    traction = np.fmin(pcl_bond_strength, pcl_tensile_yield / np.sqrt(3.0))
+    traction = np.fmin(pcl_bond_strength, structure.shear_yield(pcl_tensile_yield))
     return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
 
 

@@ -16,7 +16,7 @@ from tvimdesign.device.gaps import book as gaps
 from tvimdesign.device.impedance import book as impedance
 from tvimdesign.device.layout import book as layout
 from tvimdesign.device.rows import Scalar, at_least
-from tvimdesign.physics import peg
+from tvimdesign.physics import peg, structure
 from tvimdesign.physics.shapes import Section, disc_at
 
 places, strengths, weights, rules = (
@@ -73,7 +73,7 @@ def key_holding_torque(
     Sheared off, or pressed into their pockets' walls, whichever comes first. It does not add to what the bond holds,
     which gives way at a smaller displacement.
     """
-    shear = peg.shear_force(pcl_tensile_yield / np.sqrt(3.0), key_diameter)
+    shear = peg.shear_force(structure.shear_yield(pcl_tensile_yield), key_diameter)
     bearing = peg.bearing_force(pcl_tensile_yield, key_diameter, key_depth)
     return arc_count * key_count * np.fmin(shear, bearing) * key_circle_radius
 

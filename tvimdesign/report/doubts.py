@@ -1,0 +1,32 @@
+"""What the records a study chooses say against themselves: a data sheet whose ratings do not agree."""
+
+from __future__ import annotations
+
+from tvimdesign.catalog import Catalog, Record
+from tvimdesign.device import Table
+from tvimdesign.physics import peltier
+from tvimdesign.study import Study, given
+
+ALIKE = 0.1
+"""Share by which ratings of a Peltier module may differ from what the others make of them: makers round that far."""
+_RATED = ("seebeck", "resistance", "conductance", "hot_side_temperature", "max_cooling_power")
+
+
+def doubts(study: Study, catalog: Catalog, table: Table) -> list[str]:
+    """A sentence for each chosen record that contradicts itself."""
+    records = [record for record in given(study, catalog, table).values() if isinstance(record, Record)]
+    return [said for record in records if record.shelf == "peltiers" and (said := _of_module(record))]
+
+
+def _of_module(record: Record) -> str:
+    """What is wrong with a Peltier module's cooling power; nothing where it agrees or where the record has none."""
+    if not set(_RATED) <= record.entries.keys():
+        return ""
+    *parameters, hot, stated = (record.value(name) for name in _RATED)
+    computed = float(peltier.max_cooling_power(peltier.Module(*parameters), hot))
+    if abs(computed / stated - 1.0) <= ALIKE:
+        return ""
+    return (
+        f"{record.title}: Seebeck coefficient and resistance make a largest cooling power of {computed:.3g} W, the "
+        f"sheet says {stated:.3g} W; its cooling may be off by as much. Measure one, or take the lower."
+    )
