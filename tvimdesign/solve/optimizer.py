@@ -191,7 +191,6 @@ class Optimizer:
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        lower, upper = self.vector.bounds(within or {})
         solver = self._solver(warm is not None)
         if warm is not None:
             unknowns = warm.unknowns
@@ -199,19 +198,22 @@ class Optimizer:
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         goal = goal or Goal(self.study.minimize)
-        equations = self.problem.equation_count
-        limits, rest = len(self.problem.limits), self.problem.slope_count + self.problem.peak_count
-        answer = solver(
-            **arguments, p=self.parameters(goal), lbx=lower, ubx=upper,
-            lbg=np.concatenate([np.zeros(equations), np.full(limits + len(self.problem.traded) + rest, -np.inf)]),
-            ubg=np.concatenate([
-                np.zeros(equations), self._limits_less_margins(), goal.room(self.problem.traded), np.zeros(rest),
-            ]),
-        )  # fmt: skip
+        answer = solver(**arguments, p=self.parameters(goal), **self.ends(within or {}, goal))
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
         run = self.record(answer, solver.stats(), inputs, seconds)
         return replace(run, within=within or {})
+
+    def ends(self, within: Mapping[str, Ends], goal: Goal) -> dict[str, Array]:
+        """Ends of the unknowns and of the rows for one run, as nlpsol names them."""
+        lower, upper = self.vector.bounds(within)
+        equations = np.zeros(self.problem.equation_count)
+        room, rest = goal.room(self.problem.traded), np.zeros(self.problem.slope_count + self.problem.peak_count)
+        most = np.concatenate([self._limits_less_margins(), room, rest])
+        return {
+            "lbx": lower, "ubx": upper,
+            "lbg": np.concatenate([equations, np.full(len(most), -np.inf)]), "ubg": np.concatenate([equations, most]),
+        }  # fmt: skip
 
     def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
         """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it."""

@@ -12,7 +12,7 @@ from tvimdesign.errors import InfeasibleError, InputError
 from tvimdesign.solve.account import account
 from tvimdesign.solve.branch import BranchAndBound
 from tvimdesign.solve.contradiction import at_a_glance, refuse_contradiction
-from tvimdesign.solve.enumeration import enumerate_all
+from tvimdesign.solve.enumeration import account_for_all
 from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.quarrel import make_peace
@@ -146,10 +146,8 @@ def _choose(trees: Sequence[Tree], records: int, asked: SolverOptions) -> tuple[
     found, proof = dict(search.found), Work()
     pruned, improved = search.pruned, 0.0
     if asked.prove:
-        every = _enumerated(trees, proof)
-        improved = _improvement(found, every)
-        found = {key: min((one[key] for one in (found, every) if key in one), key=order) for key in {**found, **every}}
-        pruned = 0
+        found, pruned = _proven(trees, search.found, asked.alternatives, proof)
+        improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
     shown = ranked[: asked.alternatives]
     combinations = trees[0].sizes.count * records
@@ -179,13 +177,18 @@ def _chosen(runs: Sequence[tuple[Tree, Run]], records: int, asked: SolverOptions
     )  # fmt: skip
 
 
-def _enumerated(trees: Sequence[Tree], work: Work) -> _Found:
-    every: _Found = {}
+def _proven(trees: Sequence[Tree], found: _Found, keep: int, work: Work) -> tuple[_Found, int]:
+    """All combinations accounted for: designs, those that were found included, and how many are ruled out by bounds."""
+    every, bounded = dict(found), 0
     for tree in trees:
         own, tree.work = tree.work, work
-        every |= {(tree.place, box): run for box, run in enumerate_all(tree).items()}
+        known = {box: run for (place, box), run in every.items() if place == tree.place}
+        accounted = account_for_all(tree, keep, known)
+        every |= {(tree.place, box): run for box, run in accounted.found.items()}
+        bounded += accounted.bounded
+        work.screened += accounted.broken
         tree.work = own
-    return every
+    return every, bounded
 
 
 def _improvement(found: _Found, every: _Found) -> float:

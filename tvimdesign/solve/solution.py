@@ -119,7 +119,7 @@ class Choosing:
     between: Standard | None
     """The best design with every listed number free between its smallest and its largest size; None where none is."""
     proven: bool
-    """Whether every combination was solved, and not only those the bounds leave."""
+    """Whether every combination was solved or has a bound of its own, and not only those branch and bound leaves."""
     improved: float
     """Share by which that found better than branch and bound did; zero where they agree."""
     work: Work
