@@ -18,7 +18,7 @@ from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.quarrel import make_peace
 from tvimdesign.solve.reach import refuse_unreachable
 from tvimdesign.solve.run import Progress, Run
-from tvimdesign.solve.solution import Choosing, Quarrel, Solution, Standard, Work
+from tvimdesign.solve.solution import Choosing, Quarrel, Solution, Standard, Work, YieldReached
 from tvimdesign.solve.tree import Tree, order
 from tvimdesign.study import SolverOptions, Study
 
@@ -76,7 +76,7 @@ def optimize(
     passed_over = sum((Counter(tree.optimizer.beginnings.passed_over) for tree in trees), Counter[str]())
     solution = replace(
         account(tree.optimizer, run, starts, seconds), constant=tree.stepping_stone.found(), choosing=choosing,
-        quarrel=quarrel, passed_over=dict(passed_over),
+        quarrel=quarrel, passed_over=dict(passed_over), yield_reached=_yield_reached(tree.optimizer, run),
     )  # fmt: skip
     return replace(solution, status="infeasible: this design breaks its limits least") if quarrel else solution
 
@@ -90,6 +90,15 @@ def _robust(tree: Tree, run: Run) -> Run:
     begun = run.start
     found.start = replace(found.start, choices=begun.choices, begin=begun.begin)
     return found
+
+
+def _yield_reached(optimizer: Optimizer, run: Run) -> YieldReached | None:
+    """What modules drawn at random keep of the best run, where a yield is asked for."""
+    robust = optimizer.study.robust
+    if robust is None or robust.share is None or not run.start.converged:
+        return None
+    drawn = optimizer.yields.at(run.inputs)
+    return YieldReached(drawn.residuals.shape[1], drawn.shares, drawn.together.share)
 
 
 def _reconciled(tree: Tree, best: Run, tried: list[Run], progress: Progress) -> tuple[Run, Quarrel | None]:

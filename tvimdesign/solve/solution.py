@@ -169,6 +169,17 @@ class Constant:
 
 
 @dataclass(frozen=True)
+class YieldReached:
+    """What modules drawn at random keep of a design of which a yield was asked for."""
+
+    modules: int
+    shares: dict[str, float]
+    """Share of them that keeps each limit, by its name."""
+    together: float
+    """Share of them that keeps all."""
+
+
+@dataclass(frozen=True)
 class Solution:
     """The best design found, with the account of how. `inputs` is in the order of `model.names`."""
 
@@ -191,6 +202,8 @@ class Solution:
     """How the listed choices were searched; None where none is listed."""
     passed_over: dict[str, int] = field(default_factory=dict)
     """Points drawn at which no search began, by the reason."""
+    yield_reached: YieldReached | None = None
+    """What of a yield that was asked for is reached; None where none is."""
     quarrel: Quarrel | None = None
     """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 
