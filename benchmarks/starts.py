@@ -1,4 +1,4 @@
-"""The reference problem from many Sobol starts by the product's own multistart: how many converge, what became of others.
+"""The reference problem from many Sobol starts by the product's own multistart: how many converge.
 
 A start that does not converge is told with its diagnosis; points at which no search begins are counted by the reason.
 """
@@ -34,12 +34,8 @@ def main() -> None:
     converged = [start for start in starts if start.converged]
     iterations = sum(start.iterations for start in starts) / len(starts)
     again = sum(start.second_try for start in starts)
-    print(
-        f"{len(converged)} of {count} starts converged in {seconds:.1f} s of processor, {iterations:.1f} iterations each"
-    )
-    print(
-        f"{again} of them only from a design that keeps all limits; passed over: {tree.optimizer.beginnings.passed_over}"
-    )
+    print(f"{len(converged)} of {count} starts converged in {seconds:.1f} s, {iterations:.1f} iterations a start")
+    print(f"{again} only from a design that keeps all limits; passed over: {tree.optimizer.beginnings.passed_over}")
     for optimum in tree.optima:
         reached = sum(same_optimum(start, optimum.start) for start in converged)
         print(f"objective {optimum.start.objective:.8f}: {reached}")
