@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tvimdesign.solve.branch import GAP
-from tvimdesign.solve.least_cost import LeastCost
 from tvimdesign.solve.listed import Box
 from tvimdesign.solve.run import Run
 from tvimdesign.solve.tree import Tree
@@ -50,6 +49,8 @@ def enumerate_all(tree: Tree) -> dict[Box, Run]:
 
 def account_for_all(tree: Tree, keep: int, known: Mapping[Box, Run]) -> Enumeration:
     """The best `keep` combinations, as far as bounds are bounds; designs of some are `known` from a search."""
+    from tvimdesign.solve.least_cost import LeastCost  # with the compiler, which other runs do without
+
     every = Enumeration(dict(known))
     tree.optimizer.progress(f"proof: bounds of {tree.sizes.count} combinations")
     least = LeastCost(tree)
