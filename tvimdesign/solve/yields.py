@@ -72,10 +72,10 @@ class Yields:
 
     def at(self, inputs: Array) -> Drawn:
         """Draw modules of the design with these inputs."""
-        if self._many is None:
-            return Drawn((), np.zeros((0, MODULES)))
         model = self._optimizer.model
         contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
+        if self._many is None or not contributors:  # nothing moves any limit
+            return Drawn((), np.zeros((0, MODULES)))
         places = [self._moving.index(contributor.name) for contributor in contributors]
         drawn = np.array([inputs[model.index[name]] for name in self._moving])
         many, pace = self._many, self._many.pace_at(inputs)
