@@ -63,7 +63,9 @@ def run(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with a front where an earlier run in that folder was stopped.")
     ] = False,
-    prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
+    prove: Annotated[
+        bool, typer.Option("--prove", help="Solve or bound every combination of listed choices as well.")
+    ] = False,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""

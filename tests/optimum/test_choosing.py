@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from choosing import LISTED, by_brute_force, listed
 
@@ -11,11 +12,14 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.errors import InputError
 from tvimdesign.report.choosing import choosing_data, price_in_words, tally_in_words
+from tvimdesign.solve.enumeration import account_for_all, enumerate_all
+from tvimdesign.solve.least_cost import LeastCost
 from tvimdesign.solve.listed import listed_sizes
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.screen import Screen
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.solution import Choosing, Solution
+from tvimdesign.solve.solution import Choosing, Solution, Work
+from tvimdesign.solve.tree import Tree
 from tvimdesign.study import Study, given
 
 TABLE = table_for("shear")
@@ -57,10 +61,11 @@ def _chosen(solution: Solution) -> Choosing:
     return solution.choosing
 
 
-def _agrees(study: Study, solution: Solution, starts: int = 3) -> None:
-    """Hold the best combinations against brute force, and the tally against itself."""
+def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], float] | None = None) -> None:
+    """Hold the best combinations against each solved `alone` from three starts, and the tally against itself."""
     choosing = _chosen(solution)
-    expected = sorted(by_brute_force(study, solution.reference, starts).items(), key=lambda one: one[1])
+    alone = alone or by_brute_force(study, solution.reference, 3)
+    expected = sorted(alone.items(), key=lambda one: one[1])
     assert solution.status == "optimal"
     for found, (sizes, objective) in zip(choosing.best, expected, strict=False):
         assert found.objective == pytest.approx(objective, rel=1e-6)
@@ -79,8 +84,16 @@ def found() -> Solution:
     return _solve(listed())
 
 
-def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(found: Solution) -> None:
-    _agrees(listed(), found, starts=1)
+@pytest.fixture(scope="module")
+def alone(found: Solution) -> dict[tuple[float, ...], float]:
+    """Every combination solved alone, from the study's start."""
+    return by_brute_force(listed(), found.reference, starts=1)
+
+
+def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(
+    found: Solution, alone: dict[tuple[float, ...], float]
+) -> None:
+    _agrees(listed(), found, alone)
 
 
 @pytest.mark.slow
@@ -109,15 +122,43 @@ def test_a_re_solve_takes_a_few_iterations(found: Solution) -> None:
     assert work.warm_iterations <= 8 * work.warm
 
 
-def test_a_proof_solves_every_combination_and_finds_the_same(found: Solution) -> None:
+def test_a_proof_accounts_for_every_combination_and_finds_the_same(found: Solution) -> None:
     proven = _chosen(_solve(listed(LISTED.replace("solver: {", "solver: {prove: true, "))))
-    searched = _chosen(found)
     assert proven.proven
-    assert proven.pruned == 0
     assert proven.improved <= 1e-6
-    assert [one.choices for one in proven.best] == [one.choices for one in searched.best]
-    assert proven.solved == searched.combinations - proven.without_design > searched.solved
+    assert [one.choices for one in proven.best] == [one.choices for one in _chosen(found).best]
+    assert proven.solved + proven.pruned + proven.without_design == proven.combinations
+    assert proven.pruned > 0
     assert "All were then solved" in tally_in_words(proven)
+
+
+def test_no_combination_costs_less_than_its_bound(alone: dict[tuple[float, ...], float]) -> None:
+    """And near the best the bounds are close: far more is ruled out by them than is solved."""
+    study = listed()
+    tree = Tree(0, Optimizer(study, Catalog(), TABLE), {}, listed_sizes(study, TABLE), Work())
+    tree.starts()
+    least = LeastCost(tree)
+    least.find(math.inf)
+    bounds = {tuple(low for low, _ in tree.sizes.ends(box).values()): k for k, box in enumerate(least.boxes)}
+    for sizes, objective in alone.items():
+        (k,) = (k for one, k in bounds.items() if one == pytest.approx(sizes))
+        assert least.bounds[k] <= objective * (1.0 + 1e-6)
+        assert not least.broken[k]
+    ruled_out = np.sum(least.broken | (least.bounds >= min(alone.values())))
+    assert ruled_out >= 0.8 * len(least.boxes)
+
+
+def test_solving_each_and_accounting_for_all_come_to_the_same(found: Solution) -> None:
+    """Without a search before, and each combination solved against those that bounds leave."""
+    study = listed(LISTED.replace("1.9 mm, to: 2.4 mm", "2 mm, to: 2.2 mm"))
+    tree = Tree(0, Optimizer(study, Catalog(), TABLE, found.reference), {}, listed_sizes(study, TABLE), Work())
+    tree.starts()
+    each, every = enumerate_all(tree), account_for_all(tree, 2, {})
+    best = sorted(run.start.objective for run in each.values())[:2]
+    assert sorted(run.start.objective for run in every.found.values())[:2] == pytest.approx(best, rel=1e-6)
+    assert len(every.found) < len(each)
+    assert len(each) <= len(every.found) + every.bounded <= tree.sizes.count - every.broken
+    assert every.below <= 1e-6
 
 
 @pytest.mark.slow

@@ -4,14 +4,23 @@ from __future__ import annotations
 
 from statistics import NormalDist
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
+from tvimdesign.report.front import kept_at
+from tvimdesign.report.summary import _robustness
 from tvimdesign.report.trouble import complaint
 from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.solve.front import Front, trace_front
+from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.rig import rig_of_design
+from tvimdesign.solve.run import Run
+from tvimdesign.solve.search import optimize
 from tvimdesign.solve.tolerance import Spread, Tolerancing
+from tvimdesign.solve.tradeoff import Tradeoff
 from tvimdesign.study import read_study_text
 
 ALGEBRAIC = """
@@ -61,6 +70,48 @@ def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price() -> None:
 def test_a_yield_asks_for_the_same_as_its_deviations() -> None:
     _, spread = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
     assert _share(spread, "spring_stiffness") == pytest.approx(0.9, abs=5e-3)
+
+
+def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
+    """A uniform tolerance ends at 1.73 deviations: 2.33 of them keep every module, at a price nobody asked for."""
+    uniform = ALGEBRAIC.replace("0.05 mm", "{plus_minus: 0.12 mm, distribution: uniform}", 1)
+    sigma, all_kept = _solved(f"{uniform}robust: {{sigma: {NormalDist().inv_cdf(0.99):.6f}}}\n")
+    asked, spread = _solved(f"{uniform}robust: {{yield: 99 %}}\n")
+    assert _share(all_kept, "spring_stiffness") == 1.0
+    assert _share(spread, "spring_stiffness") == pytest.approx(0.99, abs=2e-3)
+    assert asked.design.values["springs_mass"] < 0.97 * sigma.design.values["springs_mass"]
+    assert asked.solution is not None
+    reached = asked.solution.yield_reached
+    assert reached is not None
+    assert reached.shares["spring_stiffness >="] == pytest.approx(0.99, abs=2e-3)
+    assert reached.together <= min(reached.shares.values())
+    (told,) = _robustness(asked)
+    assert "keep the worst of them (spring_stiffness >=)" in told
+
+
+@pytest.mark.slow
+def test_every_point_of_a_front_keeps_limits_on_times_by_as_much_as_the_optimum_does() -> None:
+    study = read_study_text(f"{TIMED}robust: {{sigma: 1.5}}\n", "a test")
+    traded = ("peak_power", "response_time")
+    # Its optimum is far from the limit on the time, where the time spreads less: that margin is too small for others.
+    study = study.model_copy(update={"minimize": {"peak_power": 1.0, "response_time": 10.0}})
+    built: list[tuple[Optimizer, list[Run]]] = []
+    solution = optimize(
+        study, Catalog(), table_for("shear"), keep=lambda *kept: built.append(kept), traded=traded
+    )  # fmt: skip
+    front = trace_front(Tradeoff(study, solution, *built[0]), traded, 3)
+    assert len(front.points) == 3
+    optimizer, asked = built[0][0], NormalDist().cdf(1.5)
+    shares = [drawn.shares for drawn in map(optimizer.yields.at, _inputs(optimizer, front))]
+    assert min(min(one.values()) for one in shares) >= asked - 0.015
+    # The least power takes the longest: it rests on the limit on the time, away from it by what that spreads there.
+    assert shares[0]["response_time <="] == pytest.approx(asked, abs=0.015)
+    assert shares[-1]["response_time <="] == 1.0
+    assert kept_at(optimizer, front)[-1] == pytest.approx(asked, abs=0.02)
+
+
+def _inputs(optimizer: Optimizer, front: Front) -> list[NDArray[np.float64]]:
+    return [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
 
 
 def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:

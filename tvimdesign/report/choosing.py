@@ -55,17 +55,20 @@ def tally_in_words(choosing: Choosing) -> str:
         said.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}.")
     if runs and choosing.proven and choosing.improved > _BETTER:
         said.append(
-            f"All were then solved, and one is {choosing.improved:.2%} better than branch and bound found: it is the "
-            "answer. More `solver.starts` make bounds better."
+            f"All were then solved or bounded, and one is {choosing.improved:.2%} better than branch and bound found: "
+            "it is the answer. More `solver.starts` make branch and bound better."
         )
     elif runs and choosing.proven:
         said.append(
-            f"All were then solved ({_count(choosing.proof.warm + choosing.proof.cold, 'run')}): the same best."
+            f"All were then solved ({_count(choosing.proof.warm + choosing.proof.cold, 'run')}) or cannot cost less by "
+            "bounds of their own: the same best."
         )
     elif runs:
         if choosing.inside > _BETTER:
             said.append(f"A design in a box of sizes was {choosing.inside:.1%} better than the bound of the box.")
-        said.append("Bounds are local optima, good as far as the starts go; `--prove` solves every combination.")
+        said.append(
+            "Bounds are local optima, good as far as the starts go; `--prove` solves or bounds every combination."
+        )
     return " ".join(said)
 
 

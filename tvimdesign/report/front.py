@@ -41,6 +41,8 @@ class FrontOfRun:
         self.study, self.table = study, table
         self.outputs: tuple[str, ...] = study.front.of if study.front else ()
         self.front: Front | None = None
+        self.kept: list[float] = []
+        """Of a robust study, the share of modules drawn at random that keep all limits, for each point."""
         self._folder = folder
         self._memory = FolderMemory(folder, study) if study.front else None
         self._built: list[tuple[Optimizer, list[Run]]] = []
@@ -60,9 +62,10 @@ class FrontOfRun:
         sought = trace_front(trade, self.outputs, self.study.front.points)
         progress("simulating the whole cycle of the front's points")
         front = self.front = completed(sought, trade)
+        self.kept = kept_at(trade.optimizer, front) if self.study.robust else []
         folder, names = self._folder, shown_names(self.study, front)
-        told["front"] = plain(front, names, self.table)
-        folder.write("front.csv", front_csv(front, names, self.table))
+        told["front"] = plain(front, names, self.table, self.kept)
+        folder.write("front.csv", front_csv(front, names, self.table, self.kept))
         folder.write_json("front.json", told["front"])
         for number, point in enumerate(front.points, start=1):
             design = design_of(point, number, found)
@@ -78,7 +81,7 @@ class FrontOfRun:
     def show(self, console: Console) -> None:
         """Print it."""
         if self.front:
-            print_front(self.front, self.table, console)
+            print_front(self.front, self.table, console, self.kept)
 
 
 def design_of(point: Point, number: int, found: Answer) -> Design:
@@ -97,14 +100,23 @@ def shown_names(study: Study, front: Front) -> list[str]:
     return list(dict.fromkeys([*front.outputs, *study.minimize, *numbers]))
 
 
-def front_csv(front: Front, names: Sequence[str], table: Table) -> str:
+def kept_at(optimizer: Optimizer, front: Front) -> list[float]:
+    """The share of modules drawn at random that keep all limits, for each point."""
+    inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
+    return [optimizer.yields.at(one).together.share for one in inputs]
+
+
+def front_csv(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> str:
     """A line for each point, in units."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["point", "status", *(f"{name} [{pretty(table.unit(name))}]" for name in names)])
+    heads = [f"{name} [{pretty(table.unit(name))}]" for name in names]
+    writer.writerow(["point", "status", *heads, *(["yield"] if kept else [])])
     for number, point in enumerate(front.points, start=1):
         values = (from_si(point.values[name], table.unit(name)) for name in names)
-        writer.writerow([number, status(front, number - 1), *(f"{value:.8g}" for value in values)])
+        writer.writerow(
+            [number, status(front, number - 1), *(f"{value:.8g}" for value in values), *kept[number - 1 : number]]
+        )
     return stream.getvalue()
 
 
@@ -115,7 +127,7 @@ def status(front: Front, place: int) -> str:
     return front.points[place].where if front.points[place].where.startswith("least ") else "between"
 
 
-def plain(front: Front, names: Sequence[str], table: Table) -> dict[str, Any]:
+def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> dict[str, Any]:
     """The front as plain data, in units; null is never."""
 
     def shown(point: Point, name: str) -> float | None:
@@ -129,6 +141,7 @@ def plain(front: Front, names: Sequence[str], table: Table) -> dict[str, Any]:
             {
                 "number": number, "status": status(front, number - 1), "design": f"front/{number:02d}.design.json",
                 "values": {name: shown(point, name) for name in names},
+                **({"yield": kept[number - 1]} if kept else {}),
             }
             for number, point in enumerate(front.points, start=1)
         ],
@@ -188,19 +201,26 @@ def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:
     }
 
 
-def print_front(front: Front, table: Table, console: Console) -> None:
+def print_front(front: Front, table: Table, console: Console, kept: Sequence[float] = ()) -> None:
     """A short table, and the front in words."""
     title = f"Front of {' against '.join(front.outputs)}"
     grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
     grid.add_column("point", justify="right", header_style="dim")
     for name in front.outputs:
         grid.add_column(f"{name} ({pretty(table.unit(name))})", justify="right", header_style="dim")
+    if kept:
+        grid.add_column("yield", justify="right", header_style="dim")
     grid.add_column("", header_style="dim")
     shown = _rows_shown(len(front.points), front.knee)
     for place in shown:
         values = (f"{from_si(front.points[place].values[name], table.unit(name)):.4g}" for name in front.outputs)
         what = status(front, place)
-        grid.add_row(str(place + 1), *values, "" if what == "between" else what)
+        grid.add_row(
+            str(place + 1),
+            *values,
+            *(f"{one:.1%}" for one in kept[place : place + 1]),
+            "" if what == "between" else what,
+        )
     console.print(grid)
     for sentence in in_words(front, table):
         console.print(sentence, soft_wrap=True)

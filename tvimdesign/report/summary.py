@@ -39,12 +39,8 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     console.print(f"[bold]{escape(design.name)}[/bold]  ({design.mode} mode)")
     console.print(_verdict(answer))
     console.print(_in_short(answer, table))
-    robust = design.study.get("robust")
-    if robust and answer.found:
-        console.print(
-            f"Limits are kept by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
-            "room they show below; `tvimdesign tolerate` checks that on many modules."
-        )
+    for sentence in _robustness(answer):
+        console.print(sentence)
     if not answer.found:
         _print_variables(answer, table, console, "Where the solver ended; this is not a design")
         return
@@ -63,6 +59,23 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     console.print(grid)
     _print_checks(answer, table, console)
     _print_prices(answer, table, console)
+
+
+def _robustness(answer: Answer) -> list[str]:
+    """How far within its limits a robust design is, and what modules drawn at random keep of them."""
+    robust, reached = answer.design.study.get("robust"), answer.solution.yield_reached if answer.solution else None
+    if not robust or not answer.found:
+        return []
+    if reached is None or not reached.shares:
+        return [
+            f"Limits are kept by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
+            "room they show below; `tvimdesign tolerate` checks that on many modules."
+        ]
+    least = min(reached.shares, key=lambda name: reached.shares[name])
+    return [
+        f"Asked was that each limit be kept by {robust['share']:.4g} of the modules. Of {reached.modules} drawn at "
+        f"random {reached.shares[least]:.2%} keep the worst of them ({least}), {reached.together:.2%} keep all."
+    ]
 
 
 def _print_variables(answer: Answer, table: Table, console: Console, title: str) -> None:

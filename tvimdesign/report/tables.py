@@ -6,6 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 from tvimdesign.device import Input, Output, Table
@@ -135,7 +136,7 @@ def check_row(check: Check, table: Table) -> dict[str, Any]:
 
 def results(answer: Answer, table: Table) -> dict[str, Any]:
     """Everything a script wants to know: every number in its unit, every check, how it was found."""
-    design = answer.design
+    design, reached = answer.design, answer.solution.yield_reached if answer.solution else None
     return {
         "name": design.name,
         "mode": design.mode,
@@ -153,6 +154,7 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
             name: _entry(name, value, design, table) for name, value in answer.constant_current.items()
         },
         "best_constant_currents": _best_constant(answer, table),
+        "yield_reached": asdict(reached) if reached else None,
         "choosing": choosing_data(answer.solution.choosing if answer.solution else None, table),
         "solution": _all_finite(design.solution),
     }

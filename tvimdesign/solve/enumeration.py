@@ -1,7 +1,18 @@
-"""Every combination of listed sizes solved, from its neighbour and afresh: slow, and a proof of the rest."""
+"""Every combination of listed sizes accounted for: solved from its neighbour and afresh, or shown to be no better.
+
+The least that each can cost is known first (`least_cost`); the cheapest is solved, and so on until no other can be
+better than those found. Without that, all are solved: slow, and what the bounds are held against.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tvimdesign.solve.branch import GAP
 from tvimdesign.solve.listed import Box
 from tvimdesign.solve.run import Run
 from tvimdesign.solve.tree import Tree
@@ -10,17 +21,67 @@ _TOLD = 100
 """Combinations between two words of progress."""
 
 
+@dataclass
+class Enumeration:
+    """What became of every combination of one tree."""
+
+    found: dict[Box, Run] = field(default_factory=dict)
+    """The best design of those that were solved and have one."""
+    bounded: int = 0
+    """Those that can cost no less than what was found."""
+    broken: int = 0
+    """Those whose arithmetic limits cannot be kept, seen while they were bounded."""
+    below: float = 0.0
+    """Largest share by which a design was better than its bound: zero if bounds were bounds."""
+
+
 def enumerate_all(tree: Tree) -> dict[Box, Run]:
-    """The best design of every combination that has one."""
+    """The best design of every combination that has one, each solved."""
     found: dict[Box, Run] = {}
     for number, box in enumerate(tree.sizes.each()):
         if number % _TOLD == 0:
             tree.optimizer.progress(f"proof: combination {number + 1} of {tree.sizes.count}")
-        nearest = min(found, key=lambda other: _steps(other, box), default=None)
-        run = tree.thoroughly(box, found[nearest] if nearest else None)
+        run = tree.thoroughly(box, _nearest(found, box))
         if run is not None:
             found[box] = run
     return found
+
+
+def account_for_all(tree: Tree, keep: int, known: Mapping[Box, Run]) -> Enumeration:
+    """The best `keep` combinations, as far as bounds are bounds; designs of some are `known` from a search."""
+    from tvimdesign.solve.least_cost import LeastCost  # with the compiler, which other runs do without
+
+    every = Enumeration(dict(known))
+    tree.optimizer.progress(f"proof: bounds of {tree.sizes.count} combinations")
+    least = LeastCost(tree)
+    least.find(_cutoff(every.found, keep))
+    every.broken = int(np.sum(least.broken))
+    order = [k for k in np.argsort(least.bounds, kind="stable") if not least.broken[k]]
+    for number, k in enumerate(order):
+        box, bound, cutoff = least.boxes[k], float(least.bounds[k]), _cutoff(every.found, keep)
+        if bound >= cutoff:
+            every.bounded = sum(least.boxes[left] not in every.found for left in order[number:])
+            break
+        if number % _TOLD == 0:
+            tree.optimizer.progress(f"proof: {number} combinations solved, at most {len(order) - number} left")
+        others = {one: run for one, run in every.found.items() if one != box}
+        found = [tree.warmly(box, _nearest(others, box), cutoff), every.found.get(box)]
+        best = min((run for run in found if run is not None), key=lambda run: run.start.objective, default=None)
+        if best is not None:
+            every.found[box] = best
+            every.below = max(every.below, (bound - best.start.objective) / abs(best.start.objective))
+    return every
+
+
+def _cutoff(found: Mapping[Box, Run], keep: int) -> float:
+    """What a combination must cost less than to be among the best."""
+    objectives = sorted(run.start.objective for run in found.values())
+    return objectives[keep - 1] * (1.0 - GAP) if len(objectives) >= keep else math.inf
+
+
+def _nearest(found: Mapping[Box, Run], box: Box) -> Run | None:
+    nearest = min(found, key=lambda other: _steps(other, box), default=None)
+    return found[nearest] if nearest is not None else None
 
 
 def _steps(one: Box, other: Box) -> int:

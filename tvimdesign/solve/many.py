@@ -32,14 +32,25 @@ class ManyModules:
         seen = np.ones(len(model.switch_names))
         places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
         self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
-        if self.switch:
-            cycle = Simulator(model).run(model.start, stages=list(self.switch.stages))
-            slow = _SLOW * float(model.start[model.index["horizon"]])
-            ends = {name: cycle.values[stage.stage.ends] for name, stage in model.stages.items()}
-            self._pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+        self._simulator = Simulator(model)
+        self._pace = self.pace_at(model.start)
 
-    def __call__(self, columns: Array, workers: int = 1) -> Array:
-        """One row for each output; infinite or no number where something never happens."""
+    def pace_at(self, inputs: Array) -> Pace | None:
+        """How the design with these inputs goes through its cycle; None where nothing hangs on that."""
         if self.switch is None:
+            return None
+        model = self._simulator.model
+        cycle = self._simulator.run(inputs, stages=list(self.switch.stages))
+        slow = _SLOW * float(inputs[model.index["horizon"]])
+        ends = {name: cycle.values[stage.stage.ends] for name, stage in model.stages.items()}
+        return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+
+    def __call__(self, columns: Array, workers: int = 1, pace: Pace | None = None) -> Array:
+        """One row for each output; infinite or no number where something never happens.
+
+        `pace` is that of another design than the one it was compiled at, where the columns are modules of that.
+        """
+        pace = pace or self._pace
+        if self.switch is None or pace is None:
             return self._arithmetic(columns, workers)
-        return self._arithmetic(stacked(columns, self.switch(columns, self._pace, workers)), workers)
+        return self._arithmetic(stacked(columns, self.switch(columns, pace, workers)), workers)

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,6 +28,9 @@ from tvimdesign.solve.simulate import Simulator
 from tvimdesign.solve.solution import Start
 from tvimdesign.solve.unknowns import Unknowns
 from tvimdesign.study import ProfileOptions, Range, Study, given
+
+if TYPE_CHECKING:
+    from tvimdesign.solve.yields import Yields
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
@@ -110,6 +113,7 @@ class Optimizer:
             return None
         model.start = np.array([float(numbers[name]) for name in model.names])
         other = copy(self)
+        other.__dict__.pop("yields", None)  # compiled with other numbers
         other.study, other.model = study, model
         other.seconds = {"set_up": 0.0, "solve": 0.0}
         other.kept_limits(limits_of(study, self.table, model.words))
@@ -171,6 +175,13 @@ class Optimizer:
         written = self.problem.function
         return ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
 
+    @cached_property
+    def yields(self) -> Yields:
+        """How many modules keep the limits, at any design of this problem."""
+        from tvimdesign.solve.yields import Yields
+
+        return Yields(self)
+
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:
             known = self._solvers.values()
@@ -193,7 +204,6 @@ class Optimizer:
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        lower, upper = self.vector.bounds(within or {})
         solver = self._solver(warm is not None)
         if warm is not None:
             unknowns = warm.unknowns
@@ -201,19 +211,22 @@ class Optimizer:
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         goal = goal or Goal(self.study.minimize)
-        equations = self.problem.equation_count
-        limits, rest = len(self.problem.limits), self.problem.slope_count + self.problem.peak_count
-        answer = solver(
-            **arguments, p=self.parameters(goal), lbx=lower, ubx=upper,
-            lbg=np.concatenate([np.zeros(equations), np.full(limits + len(self.problem.traded) + rest, -np.inf)]),
-            ubg=np.concatenate([
-                np.zeros(equations), self._limits_less_margins(), goal.room(self.problem.traded), np.zeros(rest),
-            ]),
-        )  # fmt: skip
+        answer = solver(**arguments, p=self.parameters(goal), **self.ends(within or {}, goal))
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
         run = self.record(answer, solver.stats(), inputs, seconds)
         return replace(run, within=within or {})
+
+    def ends(self, within: Mapping[str, Ends], goal: Goal) -> dict[str, Array]:
+        """Ends of the unknowns and of the rows for one run, as nlpsol names them."""
+        lower, upper = self.vector.bounds(within)
+        equations = np.zeros(self.problem.equation_count)
+        room, rest = goal.room(self.problem.traded), np.zeros(self.problem.slope_count + self.problem.peak_count)
+        most = np.concatenate([self._limits_less_margins(), room, rest])
+        return {
+            "lbx": lower, "ubx": upper,
+            "lbg": np.concatenate([equations, np.full(len(most), -np.inf)]), "ubg": np.concatenate([equations, most]),
+        }  # fmt: skip
 
     def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
         """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it."""

@@ -1,7 +1,8 @@
 """A robust optimum: how far within its limits a design must stay so that modules that spread keep them.
 
 Limits on algebraic outputs stay inside by expressions of the problem itself. Times, energies and peaks follow from the
-working cycle; their spread comes from its exact derivatives at the optimum found, which is then sought again.
+working cycle; their spread comes from its exact derivatives at the optimum found, which is then sought again. Where a
+yield is asked for, modules drawn at random correct what deviations alone say of an output that is no normal one.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from tvimdesign.solve import spread
 from tvimdesign.solve.contributors import contributors_of
 from tvimdesign.solve.elasticity import elasticities
+from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.limits import Limit, on_switch
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.moments import moments
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 ROUNDS = 6
 _SETTLED = 1e-3
 """Change of a margin, as a share of its limit's scale, below which it is settled."""
+_PRESSING = 1e-6
+"""Multiplier from which on a limit holds the design, objectives a share of its scale."""
 
 
 def reserves_of(model: Model, study: Study, limits: Sequence[Limit]) -> Callable[[Any], dict[str, Any]]:
@@ -50,11 +54,20 @@ def reserves_of(model: Model, study: Study, limits: Sequence[Limit]) -> Callable
     return reserves
 
 
-def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends]) -> Run:
-    """Seek the optimum `within` ends again until limits on what the cycle supplies are kept as robustly as the others.
+def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None = None) -> Run:
+    """Seek the optimum `within` ends again until limits on what the cycle supplies are kept as robustly as the others,
+    and where a yield is asked for until so many modules keep each limit.
 
     Returns the last run, converged or not; without such limits, the run as it is.
     """
+    run = _settled(optimizer, run, within, goal)
+    assert optimizer.study.robust is not None
+    share = optimizer.study.robust.share
+    return run if share is None else _reached(optimizer, run, within, goal, share)
+
+
+def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None) -> Run:
+    """By deviations: margins of the limits on what the cycle supplies."""
     for _ in range(ROUNDS):
         if not run.start.converged:
             return run
@@ -65,10 +78,46 @@ def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends]) -> Run:
         if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
             return run
         optimizer.progress("staying within the limits on times by what they spread")
-        run = optimizer.solve(within, warm=run)
-        if not run.start.converged:
-            run = optimizer.solve(within, begin=run.inputs)
+        run = _again(optimizer, run, within, goal)
     return run
+
+
+def _reached(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None, share: float) -> Run:
+    """By modules drawn: a limit that fewer keep gets what they miss it by for a margin; one that holds the design and
+    that more keep gives back what it has too much.
+    """
+    for _ in range(ROUNDS):
+        if not run.start.converged:
+            return run
+        drawn = optimizer.yields.at(run.inputs)
+        beyond = drawn.beyond(share)
+        pressing = _pressing(optimizer, run)
+        moved = {
+            name: value for name, value in beyond.items()
+            if value > _SETTLED or (value < -_SETTLED and name in pressing)
+        }  # fmt: skip
+        if not moved:
+            return run
+        if not all(np.isfinite(value) for value in moved.values()):  # a time that never comes in too many modules
+            return run
+        optimizer.progress("staying within the limits by what modules drawn at random miss them by")
+        optimizer.margins = {name: optimizer.margins.get(name, 0.0) + moved.get(name, 0.0)
+                             for name in {**optimizer.margins, **moved}}  # fmt: skip
+        run = _again(optimizer, run, within, goal)
+    return run
+
+
+def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
+    """The limits that hold a design."""
+    first, limits = optimizer.problem.equation_count, optimizer.problem.limits
+    of_limits = run.multipliers[first : first + len(limits)]
+    return {limit.name for limit, multiplier in zip(limits, of_limits, strict=True) if multiplier > _PRESSING}
+
+
+def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None) -> Run:
+    """The optimum with other margins, warm from the one before and else from its inputs."""
+    found = optimizer.solve(within, warm=run, goal=goal)
+    return found if found.start.converged else optimizer.solve(within, begin=run.inputs, goal=goal)
 
 
 def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:

@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.solve.arithmetic import Arithmetic
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.limits import on_switch
+from tvimdesign.solve.ipopt import NLP
 from tvimdesign.solve.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
 from tvimdesign.solve.run import Ends
 
@@ -28,19 +29,13 @@ class Screen:
     def __init__(self, optimizer: Optimizer) -> None:
         """Write the problem; nothing is solved yet."""
         self._optimizer = optimizer
-        problem, model = optimizer.problem, optimizer.model
-        limits = [limit for limit in problem.limits if not on_switch(optimizer.table, limit.output)]
-        unknowns, inputs = ca.MX.sym("free", len(problem.free)), ca.MX.sym("inputs", len(model.names))
-        worst = ca.MX.sym("worst")
-        wanted = list(dict.fromkeys(limit.output for limit in limits))
-        switch = np.full(len(model.switch_names), np.nan)  # read by none of them
-        values = model.outputs(wanted)(problem.with_unknowns(inputs, unknowns), switch) if wanted else ca.MX(0, 1)
-        broken = [limit.residual(values[wanted.index(limit.output)]) - worst for limit in limits]
+        unknowns, worst = ca.MX.sym("free", len(optimizer.free)), ca.MX.sym("worst")
+        _, residuals = Arithmetic(optimizer).values(unknowns)
         function = ca.Function(
-            "screen", [ca.vertcat(unknowns, worst), inputs], [worst, ca.vertcat(*broken)], ["x", "p"], ["f", "g"]
-        ).expand()
+            "screen", [ca.vertcat(unknowns, worst), ca.MX.sym("none", 0)], [worst, residuals - worst], *NLP
+        )
         options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
-        self._solver: Any = ca.nlpsol("screen", "ipopt", function, options)
+        self._solver: Any = ca.nlpsol("screen", "ipopt", function.expand(), options)
 
     def impossible(self, within: Mapping[str, Ends], begin: Array) -> bool:
         """Whether the limits are broken at the best point that a search from some inputs comes to.
@@ -52,7 +47,7 @@ class Screen:
         lower, upper = (ends[:count] for ends in optimizer.vector.bounds(within))
         start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
         found = self._solver(
-            x0=np.append(np.clip(start, lower, upper), 0.1), p=optimizer.model.start,
-            lbx=np.append(lower, 0.0), ubx=np.append(upper, np.inf), lbg=-np.inf, ubg=0.0,
+            x0=np.append(np.clip(start, lower, upper), 0.1), lbg=-np.inf, ubg=0.0,
+            lbx=np.append(lower, 0.0), ubx=np.append(upper, np.inf),
         )  # fmt: skip
         return bool(self._solver.stats()["success"]) and float(found["f"]) > ALGEBRAIC_TOLERANCE

@@ -12,13 +12,13 @@ from tvimdesign.errors import InfeasibleError, InputError
 from tvimdesign.solve.account import account
 from tvimdesign.solve.branch import BranchAndBound
 from tvimdesign.solve.contradiction import at_a_glance, refuse_contradiction
-from tvimdesign.solve.enumeration import enumerate_all
+from tvimdesign.solve.enumeration import account_for_all
 from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
 from tvimdesign.solve.optimizer import Optimizer
 from tvimdesign.solve.quarrel import make_peace
 from tvimdesign.solve.reach import refuse_unreachable
 from tvimdesign.solve.run import Progress, Run
-from tvimdesign.solve.solution import Choosing, Quarrel, Solution, Standard, Work
+from tvimdesign.solve.solution import Choosing, Quarrel, Solution, Standard, Work, YieldReached
 from tvimdesign.solve.tree import Tree, order
 from tvimdesign.study import SolverOptions, Study
 
@@ -76,7 +76,7 @@ def optimize(
     passed_over = sum((Counter(tree.optimizer.beginnings.passed_over) for tree in trees), Counter[str]())
     solution = replace(
         account(tree.optimizer, run, starts, seconds), constant=tree.stepping_stone.found(), choosing=choosing,
-        quarrel=quarrel, passed_over=dict(passed_over),
+        quarrel=quarrel, passed_over=dict(passed_over), yield_reached=_yield_reached(tree.optimizer, run),
     )  # fmt: skip
     return replace(solution, status="infeasible: this design breaks its limits least") if quarrel else solution
 
@@ -90,6 +90,15 @@ def _robust(tree: Tree, run: Run) -> Run:
     begun = run.start
     found.start = replace(found.start, choices=begun.choices, begin=begun.begin)
     return found
+
+
+def _yield_reached(optimizer: Optimizer, run: Run) -> YieldReached | None:
+    """What modules drawn at random keep of the best run, where a yield is asked for."""
+    robust = optimizer.study.robust
+    if robust is None or robust.share is None or not run.start.converged:
+        return None
+    drawn = optimizer.yields.at(run.inputs)
+    return YieldReached(drawn.residuals.shape[1], drawn.shares, drawn.together.share)
 
 
 def _reconciled(tree: Tree, best: Run, tried: list[Run], progress: Progress) -> tuple[Run, Quarrel | None]:
@@ -146,10 +155,8 @@ def _choose(trees: Sequence[Tree], records: int, asked: SolverOptions) -> tuple[
     found, proof = dict(search.found), Work()
     pruned, improved = search.pruned, 0.0
     if asked.prove:
-        every = _enumerated(trees, proof)
-        improved = _improvement(found, every)
-        found = {key: min((one[key] for one in (found, every) if key in one), key=order) for key in {**found, **every}}
-        pruned = 0
+        found, pruned = _proven(trees, search.found, asked.alternatives, proof)
+        improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
     shown = ranked[: asked.alternatives]
     combinations = trees[0].sizes.count * records
@@ -179,13 +186,18 @@ def _chosen(runs: Sequence[tuple[Tree, Run]], records: int, asked: SolverOptions
     )  # fmt: skip
 
 
-def _enumerated(trees: Sequence[Tree], work: Work) -> _Found:
-    every: _Found = {}
+def _proven(trees: Sequence[Tree], found: _Found, keep: int, work: Work) -> tuple[_Found, int]:
+    """All combinations accounted for: designs, those that were found included, and how many are ruled out by bounds."""
+    every, bounded = dict(found), 0
     for tree in trees:
         own, tree.work = tree.work, work
-        every |= {(tree.place, box): run for box, run in enumerate_all(tree).items()}
+        known = {box: run for (place, box), run in every.items() if place == tree.place}
+        accounted = account_for_all(tree, keep, known)
+        every |= {(tree.place, box): run for box, run in accounted.found.items()}
+        bounded += accounted.bounded
+        work.screened += accounted.broken
         tree.work = own
-    return every
+    return every, bounded
 
 
 def _improvement(found: _Found, every: _Found) -> float:

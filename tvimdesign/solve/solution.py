@@ -119,7 +119,7 @@ class Choosing:
     between: Standard | None
     """The best design with every listed number free between its smallest and its largest size; None where none is."""
     proven: bool
-    """Whether every combination was solved, and not only those the bounds leave."""
+    """Whether every combination was solved or has a bound of its own, and not only those branch and bound leaves."""
     improved: float
     """Share by which that found better than branch and bound did; zero where they agree."""
     work: Work
@@ -169,6 +169,17 @@ class Constant:
 
 
 @dataclass(frozen=True)
+class YieldReached:
+    """What modules drawn at random keep of a design of which a yield was asked for."""
+
+    modules: int
+    shares: dict[str, float]
+    """Share of them that keeps each limit, by its name."""
+    together: float
+    """Share of them that keeps all."""
+
+
+@dataclass(frozen=True)
 class Solution:
     """The best design found, with the account of how. `inputs` is in the order of `model.names`."""
 
@@ -191,6 +202,8 @@ class Solution:
     """How the listed choices were searched; None where none is listed."""
     passed_over: dict[str, int] = field(default_factory=dict)
     """Points drawn at which no search began, by the reason."""
+    yield_reached: YieldReached | None = None
+    """What of a yield that was asked for is reached; None where none is."""
     quarrel: Quarrel | None = None
     """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 

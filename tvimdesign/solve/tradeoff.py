@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
@@ -82,6 +82,8 @@ class Tradeoff:
             for name, vary in optimizer.study.vary.items()
             if isinstance(vary, Options)
         }
+        self._margins = dict(optimizer.margins)
+        """Those of the optimum: every point begins with them, so that it hangs on no point before."""
         self._fixed = {name: (size, size) for name, size in chosen.items()}
         self.listed = [name for name, vary in study.vary.items() if isinstance(vary, Options)]
         self.reference = {name: abs(solution.values[name]) or 1.0 for name in optimizer.problem.traded}
@@ -193,12 +195,27 @@ class Tradeoff:
     def _checked(self, runs: Sequence[Run], goal: Goal, where: str) -> Point | Failure:
         """The best of some runs that keeps every limit when it is simulated, or why there is none."""
         reason = f"not converged: {meaning(runs[-1].start.status).words}" if runs else "nothing to begin from"
-        for run in sorted((run for run in runs if run.start.converged), key=lambda run: run.start.objective):
+        for run in self._robust(
+            sorted((run for run in runs if run.start.converged), key=lambda r: r.start.objective), goal
+        ):
             checked = self._simulated(run, goal, where)
             if isinstance(checked, Point):
                 return checked
             reason = checked
         return Failure(where, reason)
+
+    def _robust(self, runs: Sequence[Run], goal: Goal) -> Iterator[Run]:
+        """Runs as they are; of a robust study sought again, from the optimum's margins to their own."""
+        if not self.optimizer.study.robust:
+            yield from runs
+            return
+        from tvimdesign.solve.reserves import settle
+
+        for run in runs:
+            settled = settle(self.optimizer, run, self._fixed, goal)
+            self.optimizer.margins = dict(self._margins)
+            if settled.start.converged:
+                yield settled
 
     def _simulated(self, run: Run, goal: Goal, where: str) -> Point | str:
         """The design simulated and held against every limit again; in words which one it breaks."""

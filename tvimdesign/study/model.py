@@ -84,7 +84,9 @@ class SolverOptions(_Part):
     max_iterations: int = Field(300, ge=1, le=100_000, description="iterations before the solver gives up")
     tolerance: float = Field(1e-8, ge=1e-14, le=1e-2, description="relative tolerance of convergence")
     alternatives: int = Field(5, ge=1, le=100, description="combinations of listed choices that are told, best first")
-    prove: bool = Field(False, description="solve every combination of listed choices, not only those bounds leave")
+    prove: bool = Field(
+        False, description="solve or bound every combination of listed choices, not only those branch and bound leaves"
+    )
 
 
 class ProfileOptions(_Part):

@@ -1,0 +1,48 @@
+"""The reference problem from many Sobol starts by the product's own multistart: how many converge.
+
+A start that does not converge is told with its diagnosis; points at which no search begins are counted by the reason.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+from reference_problem import study
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.solve.listed import listed_sizes
+from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.solution import Work, same_optimum
+from tvimdesign.solve.statuses import meaning
+from tvimdesign.solve.tree import Tree
+
+
+def main() -> None:
+    """Print the count."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--starts", type=int, default=200)
+    count = parser.parse_args().starts
+    asked = study()
+    asked = asked.model_copy(update={"solver": asked.solver.model_copy(update={"starts": count})})
+    table = table_for(asked.mode)
+    begin = time.process_time()
+    tree = Tree(0, Optimizer(asked, Catalog(), table), {}, listed_sizes(asked, table), Work())
+    starts = [run.start for run in tree.starts()]
+    seconds = time.process_time() - begin
+    converged = [start for start in starts if start.converged]
+    iterations = sum(start.iterations for start in starts) / len(starts)
+    again = sum(start.second_try for start in starts)
+    print(f"{len(converged)} of {count} starts converged in {seconds:.1f} s, {iterations:.1f} iterations a start")
+    print(f"{again} only from a design that keeps all limits; passed over: {tree.optimizer.beginnings.passed_over}")
+    for optimum in tree.optima:
+        reached = sum(same_optimum(start, optimum.start) for start in converged)
+        print(f"objective {optimum.start.objective:.8f}: {reached}")
+    for start in starts:
+        if not start.converged:
+            print(f"{start.status}: {meaning(start.status).words}; begun at {start.begin}")
+
+
+if __name__ == "__main__":
+    main()
