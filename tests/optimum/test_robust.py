@@ -21,6 +21,7 @@ from tvimdesign.solve.run import Run
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.tolerance import Spread, Tolerancing
 from tvimdesign.solve.tradeoff import Tradeoff
+from tvimdesign.solve.yields import yields_of
 from tvimdesign.study import read_study_text
 
 ALGEBRAIC = """
@@ -102,7 +103,7 @@ def test_every_point_of_a_front_keeps_limits_on_times_by_as_much_as_the_optimum_
     front = trace_front(Tradeoff(study, solution, *built[0]), traded, 3)
     assert len(front.points) == 3
     optimizer, asked = built[0][0], NormalDist().cdf(1.5)
-    shares = [drawn.shares for drawn in map(optimizer.yields.at, _inputs(optimizer, front))]
+    shares = [drawn.shares for drawn in map(yields_of(optimizer).at, _inputs(optimizer, front))]
     assert min(min(one.values()) for one in shares) >= asked - 0.015
     # The least power takes the longest: it rests on the limit on the time, away from it by what that spreads there.
     assert shares[0]["response_time <="] == pytest.approx(asked, abs=0.015)

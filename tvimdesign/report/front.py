@@ -103,7 +103,9 @@ def shown_names(study: Study, front: Front) -> list[str]:
 def kept_at(optimizer: Optimizer, front: Front) -> list[float]:
     """The share of modules drawn at random that keep all limits, for each point."""
     inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
-    return [optimizer.yields.at(one).together.share for one in inputs]
+    from tvimdesign.solve.yields import yields_of  # it loads the compiler
+
+    return [yields_of(optimizer).at(one).together.share for one in inputs]
 
 
 def front_csv(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -28,9 +28,6 @@ from tvimdesign.solve.simulate import Simulator
 from tvimdesign.solve.solution import Start
 from tvimdesign.solve.unknowns import Unknowns
 from tvimdesign.study import ProfileOptions, Range, Study, given
-
-if TYPE_CHECKING:
-    from tvimdesign.solve.yields import Yields
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
@@ -113,7 +110,6 @@ class Optimizer:
             return None
         model.start = np.array([float(numbers[name]) for name in model.names])
         other = copy(self)
-        other.__dict__.pop("yields", None)  # compiled with other numbers
         other.study, other.model = study, model
         other.seconds = {"set_up": 0.0, "solve": 0.0}
         other.kept_limits(limits_of(study, self.table, model.words))
@@ -174,13 +170,6 @@ class Optimizer:
         """The problem as one function."""
         written = self.problem.function
         return ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
-
-    @cached_property
-    def yields(self) -> Yields:
-        """How many modules keep the limits, at any design of this problem."""
-        from tvimdesign.solve.yields import Yields
-
-        return Yields(self)
 
     def _solver(self, warm: bool) -> Any:
         if warm not in self._solvers:

@@ -83,7 +83,7 @@ def optimize(
 
 def _robust(tree: Tree, run: Run) -> Run:
     """The best run, sought again so that limits on times, too, are kept by modules that spread; told as its start."""
-    from tvimdesign.solve.reserves import settle
+    from tvimdesign.solve.robust import settle
 
     sizes = {name: (float(size), float(size)) for name, size in run.start.choices.items() if name in tree.sizes.names}
     found = settle(tree.optimizer, run, sizes)
@@ -97,7 +97,9 @@ def _yield_reached(optimizer: Optimizer, run: Run) -> YieldReached | None:
     robust = optimizer.study.robust
     if robust is None or robust.share is None or not run.start.converged:
         return None
-    drawn = optimizer.yields.at(run.inputs)
+    from tvimdesign.solve.yields import yields_of  # it loads the compiler
+
+    drawn = yields_of(optimizer).at(run.inputs)
     return YieldReached(drawn.residuals.shape[1], drawn.shares, drawn.together.share)
 
 

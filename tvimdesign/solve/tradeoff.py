@@ -209,7 +209,7 @@ class Tradeoff:
         if not self.optimizer.study.robust:
             yield from runs
             return
-        from tvimdesign.solve.reserves import settle
+        from tvimdesign.solve.robust import settle
 
         for run in runs:
             settled = settle(self.optimizer, run, self._fixed, goal)

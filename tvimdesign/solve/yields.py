@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,8 +52,8 @@ class Yields:
 
     def __init__(self, optimizer: Optimizer) -> None:
         """Compile. A current that follows a profile is not a number: limits on its stages are left out."""
-        self._optimizer, table = optimizer, optimizer.table
-        study = optimizer.study
+        study, table = optimizer.study, optimizer.table
+        self._study, self._catalog, self._table, self._model = study, optimizer.catalog, table, optimizer.model
         spreading = [name for name in study.tolerances if name in optimizer.model.index]
         self._moving = list(dict.fromkeys([*spreading, *(free.name for free in optimizer.free)]))
         bases = {name.partition("@")[0] for name in spreading}
@@ -66,13 +67,12 @@ class Yields:
         self._many = ManyModules(self._rig(start), self._moving, self._outputs) if self._outputs else None
 
     def _rig(self, values: Mapping[str, Any]) -> Rig:
-        optimizer = self._optimizer
-        numbers = {name: float(values[name]) for name in optimizer.model.names}
-        return Rig(optimizer.study, optimizer.catalog, optimizer.table, {**numbers, **optimizer.model.words})
+        numbers = {name: float(values[name]) for name in self._model.names}
+        return Rig(self._study, self._catalog, self._table, {**numbers, **self._model.words})
 
     def at(self, inputs: Array) -> Drawn:
         """Draw modules of the design with these inputs."""
-        model = self._optimizer.model
+        model = self._model
         contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
         if self._many is None or not contributors:  # nothing moves any limit
             return Drawn((), np.zeros((0, MODULES)))
@@ -85,7 +85,19 @@ class Yields:
             every[places] = columns
             return many(every, pace=pace)
 
-        values = spread.monte_carlo(outputs, contributors, MODULES, self._optimizer.study.solver.seed).values
+        values = spread.monte_carlo(outputs, contributors, MODULES, self._study.solver.seed).values
         with np.errstate(invalid="ignore"):
             residuals = [limit.residual(values[self._outputs.index(limit.output)]) for limit in self.limits]
         return Drawn(self.limits, np.array(residuals))
+
+
+def yields_of(optimizer: Optimizer) -> Yields:
+    """How many modules keep the limits at any design of a problem: compiled when first asked for, then kept as long as
+    the problem is.
+    """
+    if optimizer not in _COMPILED:
+        _COMPILED[optimizer] = Yields(optimizer)
+    return _COMPILED[optimizer]
+
+
+_COMPILED: WeakKeyDictionary[Optimizer, Yields] = WeakKeyDictionary()
