@@ -17,6 +17,7 @@ from cad_designs import CASES, design_of
 from ezdxf.document import Drawing
 from ezdxf.entities import Dimension
 from ezdxf.math import Vec3
+from ezdxf.tools.text_size import text_size
 
 from tvimdesign.cad.assembly import drawn_parts, place
 from tvimdesign.cad.assembly_note import assembly_note
@@ -124,7 +125,8 @@ def test_a_drawing_is_sound_dxf_in_millimetres_at_true_size(drawings: dict[str, 
 def no_text_lies_on_another(kind: str, document: Drawing) -> None:
     boxes = []
     for entity in document.modelspace().query("TEXT"):
-        width, height = 0.62 * entity.dxf.height * len(entity.dxf.text), entity.dxf.height
+        size = text_size(entity)
+        width, height = size.width, size.cap_height
         place = entity.get_placement()
         x, y = place[1].x, place[1].y
         if "CENTER" in place[0].name:
