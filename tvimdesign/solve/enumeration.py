@@ -47,6 +47,29 @@ def enumerate_all(tree: Tree) -> dict[Box, Run]:
     return found
 
 
+class _Valleys:
+    """Designs of combinations by the optimum with all sizes free that they descend from, neighbour by neighbour."""
+
+    def __init__(self, tree: Tree) -> None:
+        """Nothing is solved yet."""
+        self._tree = tree
+        self._found: list[dict[Box, Run]] = [{} for _ in tree.optima]
+
+    def solved(self, box: Box, cutoff: float) -> list[Run | None]:
+        """The design of a combination in every valley whose optimum is below a cutoff: none in it is below that.
+
+        From everywhere else as well where there is no such valley.
+        """
+        runs = []
+        for optimum, found in zip(self._tree.optima, self._found, strict=True):
+            if optimum.start.objective < cutoff:
+                run, _ = self._tree.exactly(box, _nearest(found, box) or optimum)
+                if run is not None:
+                    found[box] = run
+                runs.append(run)
+        return runs or [self._tree.thoroughly(box, None)]
+
+
 def account_for_all(tree: Tree, keep: int, known: Mapping[Box, Run]) -> Enumeration:
     """The best `keep` combinations, as far as bounds are bounds; designs of some are `known` from a search."""
     from tvimdesign.solve.least_cost import LeastCost  # with the compiler, which other runs do without
@@ -56,6 +79,7 @@ def account_for_all(tree: Tree, keep: int, known: Mapping[Box, Run]) -> Enumerat
     least = LeastCost(tree)
     least.find(_cutoff(every.found, keep))
     every.broken = int(np.sum(least.broken))
+    valleys = _Valleys(tree)
     order = [k for k in np.argsort(least.bounds, kind="stable") if not least.broken[k]]
     for number, k in enumerate(order):
         box, bound, cutoff = least.boxes[k], float(least.bounds[k]), _cutoff(every.found, keep)
@@ -64,8 +88,7 @@ def account_for_all(tree: Tree, keep: int, known: Mapping[Box, Run]) -> Enumerat
             break
         if number % _TOLD == 0:
             tree.optimizer.progress(f"proof: {number} combinations solved, at most {len(order) - number} left")
-        others = {one: run for one, run in every.found.items() if one != box}
-        found = [tree.warmly(box, _nearest(others, box), cutoff), every.found.get(box)]
+        found = [*valleys.solved(box, cutoff), every.found.get(box)]
         best = min((run for run in found if run is not None), key=lambda run: run.start.objective, default=None)
         if best is not None:
             every.found[box] = best

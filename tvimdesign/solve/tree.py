@@ -126,16 +126,6 @@ class Tree:
         best = min(runs, key=order)
         return self._named(best, box) if best.start.converged else None
 
-    def warmly(self, box: Box, near: Run | None, cutoff: float) -> Run | None:
-        """The best design of one combination, warm from a run nearby and from every optimum that is below a cutoff: a
-        design of its own valley is no better than an optimum with all sizes free. `thoroughly` where all of them fail.
-        """
-        ends = self.sizes.ends(box)
-        promising = [run for run in self.optima if run.start.objective < cutoff]
-        runs = [self._solved(ends, warm=run) for run in (*promising, near) if run is not None]
-        best = min(runs, key=order, default=None)
-        return self._named(best, box) if best is not None and best.start.converged else self.thoroughly(box, None)
-
     def _screened(self, ends: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
         """Whether the limits that depend on no switch cannot be kept, from the first of some inputs and the last."""
         if not all(self._screen.impossible(ends, begin) for begin in (begins[0], begins[-1])):
