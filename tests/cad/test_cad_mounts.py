@@ -111,7 +111,7 @@ def test_a_motor_goes_together_in_the_order_of_the_note_and_its_screws_are_reach
 @pytest.mark.slow
 def test_a_rotor_that_does_not_clear_its_stator_is_found() -> None:
     design = design_of("driven", DRIVEN)
-    wide = design.model_copy(update={"values": design.values | {"motor_rotor_radius": 23.2e-3}})
+    wide = design.model_copy(update={"values": design.values | {"motor_rotor_radius": 25.0e-3}})
     found = [check.name for check in interference_checks(build(wide), "at rest") if not check.ok]
     assert found == ["motor_rotor | motor_stator at rest"]
 
