@@ -99,3 +99,15 @@ def test_a_problem_without_calls_has_derivatives_too() -> None:
     x, p = ca.MX.sym("x", 2), ca.MX.sym("p")
     problem = ca.Function("problem", [x, p], [ca.sin(x[0]) * p, ca.vertcat(x[0] * x[1] ** 2, x[1])])
     assert_same(problem, np.array([0.3, 0.7]), np.array([2.0]))
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_call_may_have_several_results(count: int) -> None:
+    x, p, entry = ca.MX.sym("x", 2), ca.MX.sym("p"), ca.SX.sym("entry", 2)
+    one = ca.Function("one", [entry], [ca.vertcat(ca.sin(entry[0]), entry[1] ** 2)])
+    two = ca.Function("two", [entry], [entry[0] * entry[1], ca.vertcat(entry[0] ** 3, entry[1])])
+    every = two if count == 1 else two.map(count)
+    # Its arguments hang on another call: what is not opened up would lose that way.
+    product, cubes = every.call([ca.repmat(one.call([x], False, True)[0], 1, count)], False, True)
+    problem = ca.Function("problem", [x, p], [p * ca.sum2(product), ca.vec(cubes)])
+    assert_same(problem, np.array([0.3, 0.7]), np.array([2.0]))

@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate, chain
 from typing import Any
 
 import numpy as np
@@ -136,22 +137,38 @@ class _Call:
 
 
 def _opened(expressions: Sequence[Any], x: Any, p: Any) -> tuple[list[Any], list[_Call]]:
-    """Expressions with a symbol in place of every call's result, and the calls in the order they are made."""
+    """Expressions with a symbol in place of every call's results, and the calls in the order they are made."""
     graph = ca.Function("graph", [x, p], expressions)
     steps = range(graph.n_instructions())
     nodes = [graph.instruction_MX(k) for k in steps if graph.instruction_id(k) == ca.OP_CALL]
-    results = [ca.MX.sym("result", *node.get_output(0).shape) for node in nodes]
+    outputs = [[node.get_output(i) for i in range(node.which_function().n_out())] for node in nodes]
+    results = [ca.MX.sym("result", sum(one.size1() for one in own), own[0].size2()) for own in outputs]
+    parts = [ca.vertsplit(result, _ends(own)) for result, own in zip(results, outputs, strict=True)]
     arguments = [[_once(node.dep(i)) for i in range(node.n_dep())] for node in nodes]
     known = [*expressions, *(one for each in arguments for one in each)]
-    opened = ca.graph_substitute(known, [node.get_output(0) for node in nodes], results)
+    opened = ca.graph_substitute(known, [*chain(*outputs)], [*chain(*parts)])
     left = iter(opened[len(expressions) :])
     calls = []
     for node, result, own in zip(nodes, results, arguments, strict=True):
         function = node.which_function()
         mapped = function.is_a("Map")
-        point = function.get_function("f") if mapped else function
+        point = _with_one_result(function.get_function("f") if mapped else function)
         calls.append(_Call(point, result.size2() if mapped else 1, [next(left) for _ in own], result))
     return opened[: len(expressions)], calls
+
+
+def _ends(outputs: Sequence[Any]) -> list[int]:
+    """Where results begin that stand one below the other, and where the last one ends."""
+    return [0, *accumulate(one.size1() for one in outputs)]
+
+
+def _with_one_result(function: Any) -> Any:
+    """A function whose results stand one below the other."""
+    if function.n_out() == 1:
+        return function
+    kind: Any = ca.SX if function.is_a("SXFunction") else ca.MX
+    arguments = [kind.sym("argument", function.sparsity_in(i)) for i in range(function.n_in())]
+    return ca.Function(function.name(), arguments, [ca.vertcat(*function.call(arguments, True, False))])
 
 
 def _once(argument: Any) -> Any:
