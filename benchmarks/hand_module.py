@@ -71,7 +71,7 @@ def _moduli(kelvin: float) -> tuple[float, float]:
 
 (COLD_STORAGE, COLD_LOSS), (HOT_STORAGE, HOT_LOSS) = _moduli(303.15), _moduli(373.15)
 
-OUTPUTS, RESIDUALS, HEAT = 3, 36, 10
+OUTPUTS, RESIDUALS, HEAT = 3, 37, 10
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
 and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
 switch.
@@ -230,6 +230,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[33] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
     g[34] = -(2.0 * post - FEATURE_LEAST) / 0.01
     g[35] = -(t + FLOOR - WALL_LEAST) / 0.01
+    g[36] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
     # what the switch needs: current, area, layer, pads, windows, plate beside the arcs, core and link
     beside_area = PI * rotor**2 - area
     edge = ARCS * (2.0 * (outer - INNER) + span * (INNER + outer))
