@@ -71,15 +71,21 @@ schema: $(STAMP)  ## write the study's JSON Schema from the table, and the usual
 	$(BIN)/python -m tvimdesign.study.schema
 	$(BIN)/python -m tvimdesign.units
 
-# What is large is left out: STL beside 3MF, and of the compression module print files, drawings and the assembly.
-cad: $(STAMP)  ## write the reference parts in cad/ from the studies of the paper's modules
-	$(BIN)/tvimdesign run studies/paper_shear.yaml --out results/reference --overwrite --no-plots
-	$(BIN)/tvimdesign run studies/paper_compression.yaml --out results/reference_compression --overwrite --no-plots
-	rm -rf cad/paper_shear cad/paper_compression
-	mkdir -p cad/paper_shear cad/paper_compression
-	cp -r $(addprefix results/reference/,design.json $(addprefix cad/,$(CAD_KEPT) print drawings assembly.step assembly.glb)) cad/paper_shear/
-	rm -f cad/paper_shear/print/*.stl
-	cp -r $(addprefix results/reference_compression/,design.json $(addprefix cad/,$(CAD_KEPT))) cad/paper_compression/
+# What is large is left out: STL beside 3MF, assemblies and PDF but for the first module, print files of milled ones.
+REFERENCES := paper_shear paper_compression machined_shear machined_compression
+cad: $(STAMP)  ## write the reference parts in cad/ from the studies of printed and milled modules of both modes
+	rm -rf $(addprefix cad/,$(REFERENCES))
+	mkdir -p $(addprefix cad/,$(REFERENCES))
+	for name in $(REFERENCES); do \
+	  $(BIN)/tvimdesign run studies/$$name.yaml --out results/$$name --overwrite --no-plots || exit 1; \
+	  cp results/$$name/design.json cad/$$name/; \
+	  for kept in $(CAD_KEPT); do cp -r results/$$name/cad/$$kept cad/$$name/; done; \
+	done
+	cp -r $(addprefix results/paper_shear/cad/,print drawings assembly.step) cad/paper_shear/
+	cp -r results/paper_compression/cad/print cad/paper_compression/
+	cp -r results/machined_shear/cad/drawings cad/machined_shear/
+	cp -r results/machined_compression/cad/drawings cad/machined_compression/
+	rm -rf cad/*/print/*.stl cad/machined_*/drawings/*.pdf cad/machined_*/views cad/machined_*/springs
 
 check-cad: $(STAMP)  ## slice the printed parts and read the STEP files with other programs from Debian (prusa-slicer, gmsh)
 	$(BIN)/python benchmarks/check_cad.py

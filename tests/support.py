@@ -11,7 +11,7 @@ from tvimdesign.solve.simulate import Simulator
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDIES = sorted((ROOT / "studies").glob("*.yaml"))
-RELEASED = ("paper_shear", "paper_compression")
+RELEASED = ("paper_shear", "paper_compression", "machined_shear", "machined_compression")
 """Studies whose parts are in cad/."""
 Command = Callable[..., CompletedProcess[str]]
 TRANSFORMED = {"hold_angle", "set_angle", "backlash", "relaxation_loss"}

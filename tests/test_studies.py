@@ -146,7 +146,9 @@ def test_a_run_is_the_same_run_twice(tvimdesign: Command, runs: Runs, tmp_path: 
     assert first == second
 
 
-@pytest.mark.parametrize("name", RELEASED)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[] if name in QUICK else pytest.mark.slow) for name in RELEASED]
+)
 def test_the_released_parts_are_of_the_design_the_study_gives(runs: Runs, name: str) -> None:
     released = json.loads((ROOT / f"cad/{name}/design.json").read_text())["values"]
     now = json.loads((runs[name] / "design.json").read_text())["values"]

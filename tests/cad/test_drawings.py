@@ -21,7 +21,7 @@ from ezdxf.tools.text_size import text_size
 
 from tvimdesign.cad.assembly import drawn_parts, place
 from tvimdesign.cad.assembly_note import assembly_note
-from tvimdesign.cad.bom import bill, bill_csv
+from tvimdesign.cad.bom import Item, bill, bill_csv
 from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.drawings import part_sheet
 from tvimdesign.cad.export import product
@@ -233,6 +233,23 @@ def test_the_note_takes_every_part_in_order(module: tuple[Design, Solids]) -> No
     steps = note[note.index("## Steps") :]
     first = [steps.index(words) for words in ("Deburr", "Peltier pads", "retainer", "ight-hand springs", "link to")]
     assert first == sorted(first)
+
+
+def test_the_note_says_how_parts_are_made_by_the_process() -> None:
+    printed, milled = (
+        assembly_note(
+            design_of("either way", overrides), dimensions(design_of("either way", overrides)),
+            [Item("housing", 1, True, "", "", 1.0, ()), Item("pcl_arc", 4, True, "", "", 1.0, ())],
+        ).decode()
+        for overrides in ({}, {"process": "machine_6061"})
+    )  # fmt: skip
+    assert "- housing: as it stands" in printed
+    assert "0.3 mm wider" in printed
+    assert "Machining" not in printed
+    assert "Housing: from `step/`" in milled
+    assert "- housing" not in milled[: milled.index("## Steps")]
+    assert "- pcl arc" in milled
+    assert "wider" not in milled
 
 
 def test_a_kind_that_no_step_takes_has_one_of_its_own() -> None:

@@ -12,6 +12,7 @@ import yaml
 from tvimdesign.cad import names
 from tvimdesign.cad.bom import Item
 from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.kinds import KINDS
 from tvimdesign.cad.making import MAKING
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
@@ -34,12 +35,23 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item]) -> by
         lines.append(f"| {number} | {_words(one.kind)} | {one.quantity} | {of} | {each} |")
     total = sum(one.mass * one.quantity for one in items)
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{names.BILL_OF_MATERIALS}`.", ""]
-    lines += ["## Printing", "", *(_printing(one.kind) for one in items if one.made), ""]
-    lines += [f"The files in `print/` lie so, with upright holes {dims.hole_compensation:g} mm wider.", ""]
-    lines += ["## Steps", ""]
+    lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
     lines += [f"{number}. {text}" for number, text in enumerate(_steps(design, dims, items), start=1)]
     lines += ["", f"![Cut through the axis]({names.SECTION})", ""]
     return "\n".join(lines).encode()
+
+
+def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]:
+    """How the made parts are made: the structure by the process, what is of PCL printed or cut either way."""
+    is_milled = design.choices["making_method"] == "milled"
+    milled = [kind for kind in kinds if is_milled and KINDS[kind].material == "structure_material"]
+    lines = []
+    if milled:
+        listed = ", ".join(map(_words, milled)).capitalize()
+        lines += ["## Machining", "", f"{listed}: from `step/` by the sheets in `drawings/`, which carry the fits.", ""]
+    lines += ["## Printing", "", *(_printing(kind) for kind in kinds if kind not in milled), ""]
+    wider = f", with upright holes {dims.hole_compensation:g} mm wider" if dims.hole_compensation else ""
+    return [*lines, f"The files in `print/` lie so{wider}.", ""]
 
 
 def _printing(kind: str) -> str:
