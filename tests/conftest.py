@@ -17,8 +17,13 @@ LONGEST = (
     "test_random_designs.py",
     "test_studies_as_parts.py",
     "test_cad_make.py",
+    "test_studies.py",
+    "test_choosing.py",
     "test_compare.py",
     "test_cad_work.py",
+    "test_cad_mounts.py",
+    "test_front.py",
+    "test_stiffening.py",
 )
 """Files of a minute or more, the longest two first."""
 

@@ -16,17 +16,16 @@ def tally(mode: str, count: int) -> random_designs.Tally:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("mode", STUDIES)
-def test_fifteen_designs_of_either_mode_that_keep_the_rules_are_sound(mode: str) -> None:
-    found = tally(mode, 15)
+@pytest.mark.parametrize(("mode", "count"), [("shear", 20), ("compression", 10)])
+def test_designs_of_either_mode_that_keep_the_rules_are_sound(mode: str, count: int) -> None:
+    found = tally(mode, count)
     assert found.failed == []
-    assert found.built == 15
+    assert found.built == count
     assert found.refused["rotor_spring_gap"] > 0
 
 
-@pytest.mark.parametrize("mode", ["shear", pytest.param("compression", marks=pytest.mark.slow)])
-def test_a_random_design_is_sound_or_refused_by_a_named_rule(mode: str) -> None:
-    found = tally(mode, 1)
+def test_a_random_design_is_sound_or_refused_by_a_named_rule() -> None:
+    found = tally("shear", 1)
     assert (found.failed, found.built) == ([], 1)
     assert found.refused["rotor_spring_gap"] > 0
 
