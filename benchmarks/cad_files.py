@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 DESIGN = ROOT / "cad/paper_shear/design.json"
-CHECKS = ("interference", "sizes")
+CHECKS = ("interference", "sizes", "inspect")
 
 
 def plain(design: Path, out: Path) -> None:
