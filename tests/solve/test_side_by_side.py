@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tvimdesign.solve.backend import ca
-from tvimdesign.solve.side_by_side import PENALTY, SideBySide
+from tvimdesign.solve.side_by_side import PENALTY, Found, SideBySide
 from tvimdesign.solve.systems import solve_definite
 
 
@@ -18,7 +18,7 @@ def discs() -> SideBySide:
     return SideBySide(ca.Function("discs", [u, c], [ca.dot(c[1:3], u), rows]))
 
 
-def _solved(problem: SideBySide, columns: list[list[float]], ends: float = 10.0):  # type: ignore[no-untyped-def]
+def _solved(problem: SideBySide, columns: list[list[float]], ends: float = 10.0) -> Found:
     own = np.array(columns, dtype=float).T
     begin, low = np.full((2, own.shape[1]), 1.0), np.full((2, own.shape[1]), -ends)
     return problem.solve(begin, own, low, -low)
