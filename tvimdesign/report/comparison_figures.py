@@ -4,23 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
+from tvimdesign.report.canvas import new_figure
+
 _MARKS = "osD^vP"
-
-
-def _figure(width: float, height: float) -> Figure:
-    figure = Figure(figsize=(width, height))
-    FigureCanvasAgg(figure)
-    return figure
 
 
 def fronts(data: dict[str, Any]) -> Figure:
     """Fronts of all studies, a panel for each pair of outputs; the optimum of each study is filled."""
-    figure = _figure(5.6 * len(data["panels"]), 4.6)
+    figure = new_figure(5.6 * len(data["panels"]), 4.6)
     every = figure.subplots(1, len(data["panels"]), squeeze=False)[0]
     for axes, panel in zip(every, data["panels"], strict=True):
         for i, line in enumerate(panel["lines"]):
@@ -37,7 +32,7 @@ def fronts(data: dict[str, Any]) -> Figure:
 def heat(data: dict[str, Any]) -> Figure:
     """Temperature through the polymer over time while it heats, every study on the same scale of colours."""
     studies = data["studies"]
-    figure = _figure(4.8 * len(studies) + 1.0, 4.2)
+    figure = new_figure(4.8 * len(studies) + 1.0, 4.2)
     every = figure.subplots(1, len(studies), squeeze=False)[0]
     scale = Normalize(data["coldest"], data["hottest"])
     for axes, one in zip(every, studies, strict=True):

@@ -5,16 +5,16 @@ from __future__ import annotations
 import itertools
 from typing import Any
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+
+from tvimdesign.report.canvas import new_figure
 
 
 def front(data: dict[str, Any]) -> Figure:
     """Points of a front, the knee and the weighted optimum; of three outputs the third is the colour of the points."""
     labels, points = data["labels"], data["points"]
     pairs = list(itertools.combinations(range(len(labels)), 2))
-    figure = Figure(figsize=(5.2 * len(pairs) + 0.6, 4.6))
-    FigureCanvasAgg(figure)
+    figure = new_figure(5.2 * len(pairs) + 0.6, 4.6)
     every = figure.subplots(1, len(pairs), squeeze=False)[0]
     for axes, (x, y) in zip(every, pairs, strict=True):
         across, up = [point[x] for point in points], [point[y] for point in points]

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+
+from tvimdesign.report.canvas import new_figure
 
 _STRONGEST = 3.0
 """Elasticity from which on colours are the same: a few fourth powers would leave all else pale."""
@@ -20,8 +21,7 @@ def sensitivities(data: dict[str, Any]) -> Figure:
     values = np.array(data["values"])
     down, across = values.shape
     width, height = 3.2 + 0.5 * across, 1.9 + 0.24 * down
-    figure = Figure(figsize=(width, height))
-    FigureCanvasAgg(figure)
+    figure = new_figure(width, height)
     axes = figure.subplots()
     axes.imshow(values, aspect="auto", cmap="RdBu_r", norm=Normalize(-_STRONGEST, _STRONGEST))
     for (i, j), value in np.ndenumerate(values):

@@ -42,7 +42,7 @@ def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json
         trial = do(rig)
         trial = replace(trial, notes=(module, *trial.notes))
         if drawing:
-            drawing.begin(folder.path, [Drawing(trial.test, "trial", figure_data(trial))])
+            drawing.begin(folder.path, [Drawing(trial.test, "trial_figures.trial", figure_data(trial))])
         told = findings(trial)
         folder.write(f"tested{source.suffix}", source.read_bytes())
         folder.write_json("findings.json", told)

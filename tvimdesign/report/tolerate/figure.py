@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+
+from tvimdesign.report.canvas import new_figure
 
 _COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb"]
 
@@ -14,8 +15,7 @@ def spread(data: dict[str, Any]) -> Figure:
     """Bars of contributors on the left, histograms with limits on the right."""
     panels = data["panels"]
     down = max((len(panels) + 1) // 2, 1)
-    figure = Figure(figsize=(13.0, max(4.0, 2.3 * down)))
-    FigureCanvasAgg(figure)
+    figure = new_figure(13.0, max(4.0, 2.3 * down))
     grid = figure.add_gridspec(down, 3, width_ratios=[1.5, 1.0, 1.0])
     bars = figure.add_subplot(grid[:, 0])
     left = [0.0] * len(data["outputs"])
