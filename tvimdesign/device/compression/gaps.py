@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
-from tvimdesign.device.gaps import MM
+from tvimdesign.device.gaps import MM, STRAIGHT
 from tvimdesign.device.gaps import book as shared
 from tvimdesign.device.rows import Rule, Scalar, at_least
 from tvimdesign.physics import block
@@ -85,13 +85,13 @@ def slot_corner_reserve(
     return corner_depth_ratio * corner_radius - (floor_thickness + vane_height - window_ledge)
 
 
-_NARROW = "the slots are narrower than twice the radius of their corners: choose a smaller corner_radius"
+_NARROW = "a slot must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
 
 
 @book.output("mm", at_least(0.0, _NARROW))
 def slot_width_reserve(slot_width: Scalar, corner_radius: Scalar) -> Scalar:
-    """Radial width of the slots beyond their corners."""
-    return slot_width - 2.0 * corner_radius
+    """Radial width of the slots beyond their corners and what is straight between these."""
+    return slot_width - 2.0 * corner_radius - STRAIGHT
 
 
 @book.helper()
