@@ -225,8 +225,8 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[28] = 1.0 - (link_bottom + FLOOR + RUNNING - link_deep - last_deep) / 1e-3
     g[29] = -(inside - r - BOSS) / 0.01
     g[30] = -(r - BOSS - outer - RADIAL) / 0.01
-    g[31] = -(span * INNER - 2.0 * LEDGE - 2.0 * CORNER) / 0.01
-    g[32] = -(outer - INNER - 2.0 * LEDGE - 2.0 * CORNER) / 0.01
+    g[31] = -(span * INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
+    g[32] = -(outer - INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
     g[33] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
     g[34] = -(2.0 * post - FEATURE_LEAST) / 0.01
     g[35] = -(t + FLOOR - WALL_LEAST) / 0.01

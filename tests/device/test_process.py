@@ -90,7 +90,7 @@ def test_a_milled_pocket_is_no_deeper_than_its_corners_and_its_width_allow() -> 
     assert values["pad_pocket_reserve"] == pytest.approx(3.0 * MM)
     assert values["window_corner_reserve"] == pytest.approx(2.0 * MM)
     assert values["window_pocket_reserve"] == pytest.approx(37.5 * MM)
-    assert values["window_width_reserve"] == pytest.approx((0.854548 * 26 - 4 - 3) * MM, rel=1e-4)
+    assert values["window_width_reserve"] == pytest.approx((0.854548 * 26 - 4 - 2.1 * 1.5) * MM, rel=1e-4)
 
 
 def test_a_cutter_comes_down_between_the_posts_and_the_wall() -> None:

@@ -12,8 +12,8 @@ book = Book("Gaps")
 
 
 MM = 1e-3
-STRAIGHT = 0.1 * MM
-"""Straight wall that is left between two round corners, at least: a cutter does not fill its pocket."""
+POCKET_WIDTH = 2.1
+"""Least width of a pocket over the radius of its corners: some wall stays straight between two of them."""
 
 
 @book.output("mm", at_least(0.0, "the springs must clear the rotor plate"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
-from tvimdesign.device.gaps import MM, STRAIGHT
+from tvimdesign.device.gaps import MM, POCKET_WIDTH
 from tvimdesign.device.gaps import book as shared
 from tvimdesign.device.rows import Rule, Scalar, at_least
 from tvimdesign.physics import block
@@ -90,8 +90,8 @@ _NARROW = "a slot must be wider than the cutter of its corners: widen it, or cho
 
 @book.output("mm", at_least(0.0, _NARROW))
 def slot_width_reserve(slot_width: Scalar, corner_radius: Scalar) -> Scalar:
-    """Radial width of the slots beyond their corners and what is straight between these."""
-    return slot_width - 2.0 * corner_radius - STRAIGHT
+    """Radial width of the slots beyond what their corners need."""
+    return slot_width - POCKET_WIDTH * corner_radius
 
 
 @book.helper()

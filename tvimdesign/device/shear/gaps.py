@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.book import Book
-from tvimdesign.device.gaps import MM, STRAIGHT
+from tvimdesign.device.gaps import MM, POCKET_WIDTH
 from tvimdesign.device.gaps import book as shared
 from tvimdesign.device.rows import Scalar, at_least
 
@@ -103,14 +103,14 @@ _NARROW = "a window must be wider than the cutter of its corners: widen it, or c
 
 @book.output("mm", at_least(0.0, _NARROW))
 def window_width_reserve(window_width: Scalar, corner_radius: Scalar) -> Scalar:
-    """Width of the windows at their inner radius beyond their corners and what is straight between these."""
-    return window_width - 2.0 * corner_radius - STRAIGHT
+    """Width of the windows at their inner radius beyond what their corners need."""
+    return window_width - POCKET_WIDTH * corner_radius
 
 
 @book.output("mm", at_least(0.0, _NARROW))
 def window_depth_reserve(window_depth: Scalar, corner_radius: Scalar) -> Scalar:
-    """Radial width of the windows beyond their corners and what is straight between these."""
-    return window_depth - 2.0 * corner_radius - STRAIGHT
+    """Radial width of the windows beyond what their corners need."""
+    return window_depth - POCKET_WIDTH * corner_radius
 
 
 @book.output("mm", at_least(0.0, "the windows are too narrow for the cutter to go through the floor"))
