@@ -1,5 +1,7 @@
 """The best combination of listed sizes by branch and bound, and all combinations accounted for, for several goals.
 
+Of the reference problem with four of its numbers listed, and of `studies/standard_parts.yaml`, which is larger.
+
 *Accounted for*: every combination is solved, or has a bound of its own that is no better than the best, or cannot keep
 its arithmetic limits. `--every` solves each of them instead, which takes minutes; `--sizes N` keeps every so many sizes
 of each list that N are left at most. All begin from the same starts, in one process; times are of the processor.
@@ -13,6 +15,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from reference_problem import study_of_sizes
+
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.branch import BranchAndBound
@@ -23,7 +27,7 @@ from tvimdesign.solve.solution import Work
 from tvimdesign.solve.tree import Tree
 from tvimdesign.study import Options, Study, read_study
 
-STUDY = Path(__file__).resolve().parents[1] / "studies/standard_parts.yaml"
+STUDIES = Path(__file__).resolve().parents[1] / "studies"
 WEIGHTS = (
     {"envelope_volume": 1.0, "module_mass": 1.0, "response_time": 1.0},
     {"module_mass": 1.0},
@@ -114,17 +118,22 @@ def compare(study: Study, weights: dict[str, float], ways: Sequence[str]) -> str
 def main() -> None:
     """Print the comparison for every set of weights; with --out write it too."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--study", type=Path, default=STUDY, help="study whose lists are searched")
+    parser.add_argument("--study", type=Path, help="study whose lists are searched, in place of both")
     parser.add_argument("--sizes", type=int, default=1000, help="sizes of each list that are kept at most")
     parser.add_argument("--weights", type=int, default=len(WEIGHTS), help="sets of weights that are tried")
     parser.add_argument("--every", action="store_true", help="solve each combination as well")
     parser.add_argument("--out", type=Path, help="text file to write the lines to")
     chosen = parser.parse_args()
-    study = fewer(read_study(chosen.study), chosen.sizes)
+    studies = (
+        [read_study(chosen.study)] if chosen.study else [study_of_sizes(), read_study(STUDIES / "standard_parts.yaml")]
+    )
     told, ways = [], ["1", "all", *(["5", "each"] if chosen.every else [])]
-    for weights in WEIGHTS[: chosen.weights]:
-        told.append(compare(study, weights, ways))
+    for study in studies:
+        told.append(study.name)
         print(told[-1], flush=True)
+        for weights in WEIGHTS[: chosen.weights]:
+            told.append(compare(fewer(study, chosen.sizes), weights, ways))
+            print(told[-1], flush=True)
     if chosen.out:
         chosen.out.write_text("\n".join(told) + "\n", encoding="utf-8")
 

@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
+import yaml
 from numpy.typing import NDArray
 from quick import Quick
 
@@ -26,6 +28,13 @@ from tvimdesign.study import Study, read_study
 Array = NDArray[np.float64]
 STUDY = Path(__file__).with_name("reference.yaml")
 LONGEST = 3600.0  # s, how long any contender simulates at most
+SIZES = {
+    "wire_diameter": {"catalog": "music_wire_gauge", "from": "1.2 mm", "to": "3.2 mm"},
+    "coil_count": {"from": 3, "to": 8, "step": 0.25},
+    "spring_pairs": {"from": 1, "to": 2},
+    "arc_count": {"from": 3, "to": 5},
+}
+"""What can be had in sizes only: 17 wires, 21 counts of quarter coils, and so on, 2,142 combinations."""
 
 
 def study(cells: int | None = None) -> Study:
@@ -33,6 +42,16 @@ def study(cells: int | None = None) -> Study:
     read = read_study(STUDY)
     solver = read.solver.model_copy(update={"cells": cells or read.solver.cells})
     return read.model_copy(update={"solver": solver})
+
+
+def study_of_sizes() -> Study:
+    """The reference study with wire, coils, springs and arcs listed; all else may be any."""
+    asked = yaml.safe_load(STUDY.read_text(encoding="utf-8"))
+    asked["vary"] |= SIZES
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / STUDY.name
+        file.write_text(yaml.safe_dump(asked), encoding="utf-8")
+        return read_study(file)
 
 
 @dataclass(frozen=True)
