@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -130,6 +131,13 @@ def test_a_proof_accounts_for_every_combination_and_finds_the_same(found: Soluti
     assert proven.solved + proven.pruned + proven.without_design == proven.combinations
     assert proven.pruned > 0
     assert "All were then solved" in tally_in_words(proven)
+
+
+def test_what_arithmetic_alone_rules_out_is_told(found: Solution) -> None:
+    chosen = _chosen(found)
+    told = tally_in_words(replace(chosen, work=replace(chosen.work, screened=3)))
+    assert "3 sets of sizes needed none, by arithmetic alone." in told
+    assert "arithmetic" not in tally_in_words(replace(chosen, work=replace(chosen.work, screened=0)))
 
 
 def test_no_combination_costs_less_than_its_bound(alone: dict[tuple[float, ...], float]) -> None:

@@ -52,16 +52,18 @@ def tally_in_words(choosing: Choosing) -> str:
     said = [f"{_count(choosing.combinations, 'combination')}: {_fates(choosing)}."]
     if runs:
         each = f"{(work.warm_iterations + work.cold_iterations) / runs:.0f} iterations each"
-        said.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}.")
+        without = f"; {_count(work.screened, 'set')} of sizes needed none, by arithmetic alone" if work.screened else ""
+        said.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}{without}.")
     if runs and choosing.proven and choosing.improved > _BETTER:
         said.append(
             f"All were then solved or bounded, and one is {choosing.improved:.2%} better than branch and bound found: "
             "it is the answer. More `solver.starts` make branch and bound better."
         )
     elif runs and choosing.proven:
+        proof = choosing.proof
         said.append(
-            f"All were then solved ({_count(choosing.proof.warm + choosing.proof.cold, 'run')}) or cannot cost less by "
-            "bounds of their own: the same best."
+            f"All were then solved ({_count(proof.warm + proof.cold, 'run')}), ruled out by arithmetic "
+            f"({proof.screened}), or cannot cost less by bounds of their own: the same best."
         )
     elif runs:
         if choosing.inside > _BETTER:
@@ -94,6 +96,7 @@ def choosing_data(choosing: Choosing | None, table: Table) -> dict[str, Any]:
         "proven": choosing.proven,
         "better_by_proof": choosing.improved,
         "better_than_bound": choosing.inside,
+        "ruled_out_by_arithmetic": choosing.work.screened,
         "runs": choosing.work.warm + choosing.work.cold,
         "iterations": choosing.work.warm_iterations + choosing.work.cold_iterations,
         "best": [_plain(one, table) for one in choosing.best],
