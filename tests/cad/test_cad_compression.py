@@ -148,7 +148,7 @@ def test_what_cannot_be_drawn_names_the_part(blocks: Design, row: str, value: fl
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_random_module_that_keeps_the_rules_passes_every_check(seed: int) -> None:
     design = random_blocks(seed)
     dims = dimensions(design)
