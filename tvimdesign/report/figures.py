@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import bisect
 from collections.abc import Callable
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from tvimdesign.report.canvas import new_figure, png
 
-_PROFILES = 5
 _TICKS = 6
 """Steps of an axis at most: every tick, with its line and label, takes a millisecond to draw."""
 
@@ -122,15 +121,9 @@ def _plain_decades(axis: Any) -> None:
 
 
 def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: str) -> None:
-    time = history["time"]
-    cells = [name for name in history if name.startswith("cell_")]
-    depths = [0.0, *((i + 0.5) / len(cells) * data["thickness"] for i in range(len(cells))), data["thickness"]]
-    colours = mpl.colormaps["plasma"]
-    for i in range(_PROFILES):
-        wanted = time[-1] * i / (_PROFILES - 1)
-        at = min(bisect.bisect_left(time, wanted), len(time) - 1)
-        line = [history["near_face"][at], *(history[name][at] for name in cells), history["far_face"][at]]
-        axes.plot(depths, line, color=colours(0.9 * i / (_PROFILES - 1)), label=f"{time[at]:.0f} s")
+    colours, profiles = mpl.colormaps["plasma"], history["profiles"]
+    for profile, shade in zip(profiles, np.linspace(0.0, 0.9, len(profiles)), strict=True):
+        axes.plot(data["depths"], profile["temperatures"], color=colours(shade), label=f"{profile['time']:.0f} s")
     axes.axhspan(data["melting"][0], data["melting"][1], alpha=0.12, color="tab:orange")
     axes.set(ylabel="temperature (°C)", title=title)
     axes.legend(fontsize=8, title="after", loc="upper left", bbox_to_anchor=(1.0, 1.0))

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from typing import Any
 
 from tvimdesign.device import Output, Table
 from tvimdesign.report.tables import margin_text
 from tvimdesign.solve.answer import Answer
+from tvimdesign.solve.curves import Curves
 from tvimdesign.study.design import Design
 from tvimdesign.units import from_si, pretty
 
+_OVER_TIME = ("time", "hot_side", "near_face", "far_face", "cold_side", "joint_impedance", "current")
+_PROFILES = 5
 _NEAR = 0.25
 """Margin below which a rule of the machine is worth a bar."""
 
@@ -25,12 +29,12 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
     melting = [shown("pcl_melting_start"), shown("pcl_melting_end")]
     return {
         "cycle": {
-            **answer.histories,
+            **{stage: _history(curves) for stage, curves in answer.histories.items()},
             "melting": melting,
             "soft": shown("soft_threshold"),
             "stiff": shown("stiff_threshold"),
             "target": shown("target_temperature"),
-            "thickness": from_si(table.evaluate(design.values, ["pcl_depth"])["pcl_depth"], "mm"),
+            "depths": _depths(answer, table),
         },
         "impedance": {
             "sweep": answer.sweep,
@@ -41,6 +45,21 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
         "mass": {"parts": _parts(design, table)},
         "bounds": {"free": _free(answer, table), "limits": _limits(answer, table)},
     }
+
+
+def _history(curves: Curves) -> dict[str, Any]:
+    """What is drawn of a stage: columns over its time, and the temperatures through the polymer at some moments."""
+    time, through = curves["time"], ["near_face", *(name for name in curves if name.startswith("cell_")), "far_face"]
+    moments = [min(bisect_left(time, time[-1] * i / (_PROFILES - 1)), len(time) - 1) for i in range(_PROFILES)]
+    profiles = [{"time": time[at], "temperatures": [curves[name][at] for name in through]} for at in moments]
+    return {name: curves[name] for name in _OVER_TIME} | {"profiles": profiles}
+
+
+def _depths(answer: Answer, table: Table) -> list[float]:
+    """Depths [mm] from the Peltier side at which a profile has its temperatures: both faces, the cells between them."""
+    depth = from_si(table.evaluate(answer.design.values, ["pcl_depth"])["pcl_depth"], "mm")
+    cells = sum(name.startswith("cell_") for name in answer.histories["softening"])
+    return [0.0, *((i + 0.5) / cells * depth for i in range(cells)), depth]
 
 
 def _parts(design: Design, table: Table) -> dict[str, float]:
