@@ -41,11 +41,12 @@ bench: $(VENV)/.bench bench-switch bench-choices bench-sweep bench-front bench-c
 bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
 	$(BENCH) benchmarks/switch.py
 
-bench-choices: $(STAMP)  ## the best of 2,028 combinations by branch and bound and by solving each, side by side
+bench-choices: $(STAMP)  ## the best of two thousand combinations by branch and bound, and all of them accounted for
 	$(BENCH) benchmarks/choices.py
 
 bench-sweep: $(STAMP)  ## designs a second through compiled equations, and through what else there is
 	$(BENCH) benchmarks/sweep.py
+	$(BENCH) benchmarks/sweep.py --study benchmarks/reference.yaml
 
 bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hypervolume
 	$(BENCH) benchmarks/front.py
