@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import pi
+
 import cadquery as cq
 import numpy as np
 import pytest
@@ -12,7 +14,8 @@ from tvimdesign.cad.checks import all_checks, interference_checks, size_checks
 from tvimdesign.cad.dimensions import dimensions
 from tvimdesign.cad.mesh import solid_mesh
 from tvimdesign.cad.print_files import closed
-from tvimdesign.cad.shapes import sector, turned
+from tvimdesign.cad.shapes import block, rounded, sector, turned
+from tvimdesign.device.gaps import POCKET_WIDTH
 from tvimdesign.errors import GeometryError
 from tvimdesign.study.design import Design
 
@@ -145,6 +148,15 @@ def test_what_cannot_be_drawn_names_the_part(blocks: Design, row: str, value: fl
     design = blocks.model_copy(update={"values": blocks.values | {row: value}})
     with pytest.raises(GeometryError, match=words):
         build(design)
+
+
+def test_a_pocket_of_the_least_width_can_be_rounded_and_one_as_wide_as_its_cutter_cannot() -> None:
+    width = POCKET_WIDTH * 1.5
+    pocket = rounded(block((0.0, 10.0), width, 0.0, 4.0), 1.5)
+    assert pocket.isValid()
+    assert pocket.Volume() == pytest.approx(4.0 * (10.0 * width - (4.0 - pi) * 1.5**2))
+    with pytest.raises(GeometryError, match="choose a smaller corner_radius"):
+        rounded(block((0.0, 10.0), 3.0, 0.0, 4.0), 1.5)
 
 
 @pytest.mark.slow

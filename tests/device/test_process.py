@@ -93,6 +93,15 @@ def test_a_milled_pocket_is_no_deeper_than_its_corners_and_its_width_allow() -> 
     assert values["window_width_reserve"] == pytest.approx((0.854548 * 26 - 4 - 2.1 * 1.5) * MM, rel=1e-4)
 
 
+def test_pockets_are_wider_than_the_cutter_of_their_corners() -> None:
+    shear = table_for("shear").evaluate(of_process("shear", "machine_6061"), ["window_depth_reserve"])
+    # Arcs from 26 to 40 mm, ledges of 2 mm on both sides, corners of 1.5 mm.
+    assert shear["window_depth_reserve"] == pytest.approx((14 - 4 - 3.15) * MM)
+    blocks = of_process("compression", "machine_6061", pcl_inner_radius="20 mm", pcl_outer_radius="30 mm")
+    compression = table_for("compression").evaluate({**blocks, "slot_share": 0.6}, ["slot_width_reserve"])
+    assert compression["slot_width_reserve"] == pytest.approx((6 - 3.15) * MM)
+
+
 def test_a_cutter_comes_down_between_the_posts_and_the_wall() -> None:
     rows = ["post_pocket_reserve", "housing_inner_radius", "placement_radius", "post_radius", "post_height"]
     table = table_for("shear")

@@ -13,7 +13,8 @@ book = Book("Gaps")
 
 MM = 1e-3
 POCKET_WIDTH = 2.1
-"""Least width of a pocket over the radius of its corners: some wall stays straight between two of them."""
+"""Least width of a pocket over the radius of its corners [1]; assumed, 2.02 to 2.5: a cutter just as wide as its pocket
+has no way to go to its size, and two round corners that meet leave no edge between them to draw."""
 
 
 @book.output("mm", at_least(0.0, "the springs must clear the rotor plate"))
