@@ -16,8 +16,6 @@ _USUAL = {
     # With MUMPS's usual 1e-6 the pivots of a freezing layer are too small: it miscounts negative eigenvalues, and IPOPT
     # answers with tiny steps.
     "mumps_pivtol": 1e-2,
-    # Looking for a permutation of large entries to the diagonal takes longer than one of so small factorisations.
-    "mumps_permuting_scaling": 0,
     "mu_init": 1e-3,
     # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.
     "honor_original_bounds": "yes",
