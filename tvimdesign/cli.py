@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import sys
 from collections.abc import Callable
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -70,16 +69,12 @@ def run(
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
-    from tvimdesign.report.plots import PlotProcess
+    from tvimdesign.report.run import run_study
 
-    # The process that draws loads its library while this one loads all else.
-    with PlotProcess() if plots else nullcontext() as drawing:
-        from tvimdesign.report.run import run_study
-
-        run_study(
-            study, out or _default_folder(study), overwrite=overwrite, cad=cad, drawing=drawing,
-            sensitivities=sensitivities, prove=prove, resume=resume, as_json=json,
-        )  # fmt: skip
+    run_study(
+        study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
+        prove=prove, resume=resume, as_json=json,
+    )  # fmt: skip
 
 
 @app.command()

@@ -65,13 +65,6 @@ def test_bounds_have_room_for_any_number_of_limits(count: int, data: dict[str, A
     assert whole(drawn("bounds", {"bounds": data["bounds"] | {"limits": many}}))
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_what_was_laid_out_before_gives_the_same_picture(name: str, data: dict[str, Any]) -> None:
-    afresh = png(drawn(name, data))
-    figures.warm_up()
-    assert png(drawn(name, data)) == afresh
-
-
 def test_a_file_has_the_pixels_of_its_size_and_no_transparent_ones(data: dict[str, Any]) -> None:
     picture = Image.open(io.BytesIO(png(drawn("mass", data))))
     assert picture.size == (960, 420)  # 8 by 3.5 inches of 120 dots

@@ -24,7 +24,7 @@ mpl.rcParams.update(
     }
 )
 _COMPRESSION = 1
-"""A quarter of the time for a tenth more bytes."""
+"""Of zlib, least: a third less time than its usual 6, and no more bytes."""
 
 
 def new_figure(width: float = 8.0, height: float = 4.5) -> Figure:

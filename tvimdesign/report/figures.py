@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import matplotlib as mpl
@@ -15,26 +14,9 @@ from tvimdesign.report.canvas import new_figure, png
 _TICKS = 6
 """Steps of an axis at most: every tick, with its line and label, takes a millisecond to draw."""
 
-Sheet = tuple[Figure, list[Any]]
-"""A figure and its axes, nothing on them yet."""
-_ready: dict[Callable[[], Sheet], Sheet] = {}
-
-
-def _sheet(layout: Callable[[], Sheet]) -> Sheet:
-    """Axes laid out, with the ticks they will need: a fifth of the work, and none of it waits for data."""
-    if layout in _ready:
-        return _ready.pop(layout)
-    figure, every = layout()
-    for axes in every:
-        for axis in (axes.xaxis, axes.yaxis):
-            axis.get_major_ticks(_TICKS)
-    return figure, every
-
 
 def warm_up() -> None:
-    """Lay out what every run draws, and draw something, so that fonts and caches are loaded before there is work."""
-    for layout in (_cycle_axes, _impedance_axes, _mass_axes, _bounds_axes):
-        _ready[layout] = _sheet(layout)
+    """Draw something on every kind of axes, so that fonts and caches are loaded before there is work."""
     figure = new_figure()
     linear, logarithmic = figure.subplots(1, 2)
     linear.plot([0.0, 1.0], label="°")
@@ -45,17 +27,14 @@ def warm_up() -> None:
     png(figure)
 
 
-def _cycle_axes() -> Sheet:
-    figure = new_figure(11.0, 7.0)
-    grid = figure.add_gridspec(12, 2, width_ratios=[1.4, 1.0])
-    over_time = [figure.add_subplot(grid[rows, 0]) for rows in (slice(5), slice(5, 7), slice(7, 12))]
-    through = [figure.add_subplot(grid[rows, 1]) for rows in (slice(5), slice(7, 12))]
-    return figure, [*over_time, *through]
-
-
 def cycle(data: dict[str, Any]) -> Figure:
     """The working cycle: temperatures, impedance and current over time, and temperatures through the layer."""
-    figure, (over_time, current, impedance, heating, cooling) = _sheet(_cycle_axes)
+    figure = new_figure(11.0, 7.0)
+    grid = figure.add_gridspec(12, 2, width_ratios=[1.4, 1.0])
+    over_time, current, impedance = (
+        figure.add_subplot(grid[rows, 0]) for rows in (slice(5), slice(5, 7), slice(7, 12))
+    )
+    heating, cooling = (figure.add_subplot(grid[rows, 1]) for rows in (slice(5), slice(7, 12)))
     soft, stiff = data["softening"], data.get("stiffening")
     _temperatures(over_time, soft, stiff, data)
     current.plot(*_joined(soft, stiff, "current"), color="tab:green")
@@ -129,15 +108,11 @@ def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: st
     axes.legend(fontsize=8, title="after", loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
-def _impedance_axes() -> Sheet:
-    figure = new_figure(10.0)
-    return figure, list(figure.subplots(1, 2))
-
-
 def impedance(data: dict[str, Any]) -> Figure:
     """Stiffness and damping against temperature, of the layer alone and of the joint."""
     sweep = data["sweep"]
-    figure, (stiffness, damping) = _sheet(_impedance_axes)
+    figure = new_figure(10.0)
+    stiffness, damping = figure.subplots(1, 2)
     for axes, kind, unit in ((stiffness, "stiffness", "N·m/rad"), (damping, "damping", "N·m·s/rad")):
         for part, label, style in (
             ("pcl", "PCL layer alone", "--"),
@@ -162,15 +137,11 @@ def impedance(data: dict[str, Any]) -> Figure:
     return figure
 
 
-def _mass_axes() -> Sheet:
-    figure = new_figure(8.0, 3.5)
-    return figure, [figure.subplots()]
-
-
 def mass(data: dict[str, Any]) -> Figure:
     """Mass of each part the module has."""
     parts = sorted(((name, value) for name, value in data["parts"].items() if value > 0.0), key=lambda item: item[1])
-    figure, (axes,) = _sheet(_mass_axes)
+    figure = new_figure(8.0, 3.5)
+    axes = figure.subplots()
     bars = axes.barh([name for name, _ in parts], [value for _, value in parts], color="tab:blue")
     axes.bar_label(bars, fmt="%.1f g", padding=3)
     axes.margins(x=0.12)
@@ -186,20 +157,15 @@ def _colour(margin: float, kept: bool) -> str:
     return "tab:green" if margin > 5e-4 else "tab:orange"
 
 
-def _bounds_axes() -> Sheet:
-    figure = new_figure(11.5)
-    return figure, list(figure.subplots(1, 2))
-
-
 _BELOW, _ABOVE = 0.75, 0.5  # inches: of any number of lines, ends of axes and legend stand below, the title above
 
 
 def bounds(data: dict[str, Any]) -> Figure:
     """The design between its bounds, and the margin of every limit."""
     free, limits = data["free"], data["limits"]
-    figure, (where, margins) = _sheet(_bounds_axes)
     inches = 0.6 + 0.28 * max(len(free), len(limits), 6)
-    figure.set_figheight(inches)
+    figure = new_figure(11.5, inches)
+    where, margins = figure.subplots(1, 2)
     high = inches - _BELOW - _ABOVE
     lines = list(range(len(free)))
     where.hlines(lines, 0.0, 1.0, color="lightgrey", linewidth=6, capstyle="round")

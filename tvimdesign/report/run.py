@@ -22,7 +22,7 @@ from tvimdesign.study.design import Design, read_design, write_design
 
 if TYPE_CHECKING:
     from tvimdesign.report.front import FrontOfRun
-    from tvimdesign.report.plots import Drawing, PlotProcess
+    from tvimdesign.report.plots import Drawing
     from tvimdesign.solve.answer import Answer
 
 CAD_TIME_LIMIT = 300.0  # s
@@ -52,16 +52,13 @@ def describe(study: Study) -> str:
 
 
 def run_study(
-    path: Path, out: Path, *, overwrite: bool, cad: bool, as_json: bool, drawing: PlotProcess | None = None,
-    sensitivities: bool = False, resume: bool = False, prove: bool = False,
+    path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
+    resume: bool = False, prove: bool = False,
 ) -> None:  # fmt: skip
-    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done.
-
-    Plots are left to the process `drawing`, and left out without one.
-    """
+    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.front import FrontOfRun
     from tvimdesign.report.plot_data import plot_data
-    from tvimdesign.report.plots import Drawing
+    from tvimdesign.report.plots import Drawing, PlotProcess
     from tvimdesign.report.summary import print_summary
     from tvimdesign.report.trouble import complaint
     from tvimdesign.solve.answer import answer
@@ -72,7 +69,7 @@ def run_study(
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
         progress = stack.enter_context(talk())
-        drawing = drawing if study.write.plots else None
+        drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         front = FrontOfRun(study, table, folder)
         found = answer(study, catalog, table, progress, keep=front.keep, traded=front.outputs)
         shown = plot_data(found, table) if drawing and found.found else {}
@@ -174,7 +171,7 @@ def _print_rest(told: dict[str, Any], front: FrontOfRun) -> None:
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
     """Make the parts of a design.json, or of a study, which is answered first."""
     if source.suffix != ".json":
-        run_study(source, out, overwrite=overwrite, cad=True, as_json=as_json)
+        run_study(source, out, overwrite=overwrite, cad=True, plots=False, as_json=as_json)
         return
     design = read_design(source)
     troubles: list[TvimError] = []
