@@ -285,7 +285,7 @@ def aerosandbox(reference: Reference, begin: Array) -> Found:
         rates, gap, initial = stage.rates, stage.watch([reference.event]), stage.initial
     ca.GlobalOptions.setNumpyMode(0)  # AeroSandbox does not know the symbols of the other mode
     opti = asb.Opti()
-    elements, (points, derivative, _) = 8, radau()
+    elements, (points, derivative, _) = 3, radau()
     ends = zip(*(np.log(values).tolist() for values in (begin, reference.lower, reference.upper)), strict=True)
     logs = ca.vertcat(*(opti.variable(guess, lower_bound=low, upper_bound=high) for guess, low, high in ends))
     log_time = opti.variable(init_guess=np.log(200.0))

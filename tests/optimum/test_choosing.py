@@ -49,7 +49,7 @@ require:
   holding_torque: ">= 8 N.m"
   peltier_temperature_reserve: ">= 0 K"
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 3, cells: 6, elements: 4}
+solver: {starts: 3, cells: 6, elements: 2}
 """
 
 

@@ -157,25 +157,28 @@ def one(solution: Solution, name: str) -> Held:
 
 
 @pytest.mark.parametrize(
-    ("text", "name", "written", "tighter", "eased"),
+    ("text", "name", "written", "step", "shares"),
     [
-        (with_pieces(8), "peak_peltier_temperature <=", "125 degC", "124 degC", "126 degC"),
-        (with_pieces(8), "peak_power <=", "15 W", "14.85 W", "15.15 W"),
-        pytest.param(
-            CYCLE, "peak_peltier_temperature <=", "130 degC", "129 degC", "131 degC", marks=pytest.mark.slow
-        ),
-        pytest.param(CYCLE, "peak_power <=", "20 W", "19.8 W", "20.2 W", marks=pytest.mark.slow),
-        pytest.param(CYCLE, "stiffening_peak_voltage <=", "6 V", "5.94 V", "6.06 V", marks=pytest.mark.slow),
+        (with_pieces(8), "peak_peltier_temperature <=", "125 degC", 1.0, 1.0),
+        (with_pieces(8), "peak_power <=", "15 W", 0.03, 0.2),
+        pytest.param(CYCLE, "peak_peltier_temperature <=", "130 degC", 1.0, 1.0, marks=pytest.mark.slow),
+        pytest.param(CYCLE, "peak_power <=", "20 W", 0.2, 1.0, marks=pytest.mark.slow),
+        pytest.param(CYCLE, "stiffening_peak_voltage <=", "6 V", 0.06, 1.0, marks=pytest.mark.slow),
     ],
-)  # fmt: skip
+)
 def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
-    text: str, name: str, written: str, tighter: str, eased: str
+    text: str, name: str, written: str, step: float, shares: float
 ) -> None:
-    # A temperature's step is a kelvin, the others' a hundredth; to either side, for another limit takes over nearby.
-    below, above = (solve(text.replace(f"<= {written}", f"<= {moved}")) for moved in (tighter, eased))
+    # `shares` is the step in kelvins or hundredths, as prices are told: to either side, for another limit may take over
+    # nearby. (At 14.85 W one does, and a hundredth less costs a third more.)
+    number, unit = written.split()
+    below, above = (
+        solve(text.replace(f"<= {written}", f"<= {float(number) + moved} {unit}")) for moved in (-step, step)
+    )
     price = one(solve(text), name).price
     assert price > 1e-2
-    assert 50.0 * (below.objective - above.objective) / solve(text).objective == pytest.approx(price, rel=0.1)
+    saved = 100.0 * (below.objective - above.objective) / (2.0 * shares * solve(text).objective)
+    assert saved == pytest.approx(price, rel=0.1)
 
 
 def test_ten_random_starts_find_one_profile() -> None:

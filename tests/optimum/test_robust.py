@@ -40,7 +40,7 @@ vary: {current: [0.5 A, 2.5 A], pcl_thickness: [0.8 mm, 2 mm]}
 require: {response_time: "<= 150 s", pcl_stiffness@hot: "<= 3 N.m/rad"}
 minimize: peak_power
 tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
-solver: {starts: 1, cells: 12, elements: 6}
+solver: {starts: 1, cells: 12, elements: 3}
 """
 
 

@@ -204,9 +204,13 @@ class Problem:
         return {base for name in self.wanted for base in (name.partition("@")[0], *table.ancestors(name))}
 
     def elements(self, stage: str) -> int:
-        """Count of a stage's elements: no less than asked for, and the corners of its current lie between them."""
+        """Count of a stage's elements: no less than asked for, and the corners of its current lie between them.
+
+        A freezing layer whose edge runs through the cells wants twice as many.
+        """
+        asked = self._elements * (2 if self.model.stages[stage].stage.history else 1)
         pieces = next((current.pieces for current in self.free_currents if current.stage == stage), 1)
-        return pieces * math.ceil(self._elements / pieces)
+        return pieces * math.ceil(asked / pieces)
 
     def currents_at_nodes(self, stage: str, inputs: Any) -> Any:
         """Current [A] of a stage at its nodes: one where it is constant."""

@@ -1,6 +1,6 @@
 """One stage as equations: direct collocation of the heat equation over an unknown final time.
 
-Radau points of order three on equal elements over an unknown time; the last point of an element is the start of the
+Five Radau points on each of a few equal elements over an unknown time; the last point of an element is the start of the
 next, so the states need no continuity equations. States have no bounds. The current is straight between evenly spaced
 nodes; a ramp to the first of them, as long as the supply's slew makes it, has elements of its own before the others.
 Source: Biegler, Nonlinear Programming (2010), ch. 10.
@@ -19,7 +19,8 @@ from tvimdesign.solve.backend import ca
 from tvimdesign.solve.simulate import Trajectory
 from tvimdesign.solve.stage_model import StageModel
 
-ORDER = 3
+ORDER = 5
+"""Points of an element. Three of five are as exact as eight of three, with a third fewer unknowns."""
 Array = NDArray[np.float64]
 
 

@@ -80,7 +80,9 @@ class SolverOptions(_Part):
     starts: int = Field(3, ge=1, le=1000, description="number of starting points; the first is the study's own")
     seed: int = Field(1, ge=0, le=2**32 - 1, description="seed of the random starting points")
     cells: int = Field(28, ge=2, le=200, description="cells through the polymer layer")
-    elements: int = Field(8, ge=2, le=200, description="time elements of one switch")
+    elements: int = Field(
+        3, ge=1, le=200, description="time elements of a switch, of five points each; twice as many while it freezes"
+    )
     max_iterations: int = Field(300, ge=1, le=100_000, description="iterations before the solver gives up")
     tolerance: float = Field(1e-8, ge=1e-14, le=1e-2, description="relative tolerance of convergence")
     alternatives: int = Field(5, ge=1, le=100, description="combinations of listed choices that are told, best first")
