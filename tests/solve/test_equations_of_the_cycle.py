@@ -52,7 +52,8 @@ def solve(model: Model, switch: Switch, elements: int) -> Solved:
     parts = []
     for block in problem.blocks:
         name = block.stage.stage.name
-        parts += [guess(switch.trajectories[name], problem.elements(name)).ravel(order="F"), [np.log(switch.values[block.event])]]
+        states = guess(switch.trajectories[name], problem.elements(name))
+        parts += [states.ravel(order="F"), [np.log(switch.values[block.event])]]
     found = np.concatenate([*parts, switch.balances["softening"]])
     given = np.append(model.start, [1.0, 1.0])
     for _ in range(30):

@@ -30,6 +30,8 @@ Array = NDArray[np.float64]
 _STEPS = 40
 _CLOSE = 1e-10
 """Newton's last step, in unknowns that are of the order of one."""
+_LEAST_SHARE = 1e-3
+"""Share of a step below which it is taken as it is."""
 _NOTHING = 1e-4
 """Value, in the unit people read it in, below which a share of it means nothing: a gap that is closed."""
 
@@ -171,14 +173,27 @@ def _begin(problem: Problem, simulator: Simulator, switch: Switch) -> Array:
 
 
 def _solved(newton: Any, begin: Array, given: Array, peaks: int) -> Array:
-    """Newton's method on the equations; the peaks, last among the unknowns, are not in them."""
+    """Newton's method on the equations; the peaks, last among the unknowns, are not in them.
+
+    A step is halved until the next one, by the same Jacobian, would be shorter: the residual says little where a layer
+    freezes at a sharp edge. Source: Deuflhard, Newton Methods for Nonlinear Problems (2004), ch. 3.3, natural level
+    functions.
+    """
     found, last = begin.copy(), len(begin) - peaks
+    rest, by_unknowns = newton(found, given)
     for _ in range(_STEPS):
-        rest, by_unknowns = newton(found, given)
-        step = splu(_sparse(by_unknowns)[:, :last].tocsc()).solve(np.asarray(rest).ravel())
-        found[:last] -= step
+        solve = splu(_sparse(by_unknowns)[:, :last].tocsc()).solve
+        step, share = solve(np.asarray(rest).ravel()), 1.0
         if np.max(np.abs(step)) < _CLOSE:
             return found
+        while True:
+            trial = np.append(found[:last] - share * step, found[last:])
+            rest, by_unknowns = newton(trial, given)
+            beyond = solve(np.nan_to_num(np.asarray(rest).ravel(), nan=np.inf))
+            if np.linalg.norm(beyond) <= (1.0 - share / 4.0) * np.linalg.norm(step) or share < _LEAST_SHARE:
+                break
+            share /= 2.0
+        found = trial
     raise SimulationError("the cycle's equations could not be solved for derivatives; try more solver.elements")
 
 
