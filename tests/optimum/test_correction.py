@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from tvimdesign.catalog import Catalog
@@ -61,6 +63,15 @@ def test_a_limit_that_is_right_or_slack_moves_nothing() -> None:
         run = optimizer.solve()
         assert corrected(optimizer, run, {}) is run
         assert optimizer.margins == {}
+
+
+def test_a_switch_that_never_ends_moves_nothing() -> None:
+    optimizer = Optimizer(asked(COARSE), Catalog(), TABLE)
+    run = optimizer.solve()
+    weak = replace(run, inputs=run.inputs.copy())
+    weak.inputs[optimizer.model.index["current"]] = 0.05
+    assert corrected(optimizer, weak, {}) is weak
+    assert optimizer.margins == {}
 
 
 def test_where_no_round_keeps_the_limit_the_first_run_is_what_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

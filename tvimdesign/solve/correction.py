@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from tvimdesign.errors import SimulationError
 from tvimdesign.solve.account import SWITCH_TOLERANCE
 from tvimdesign.solve.goal import Goal
@@ -45,7 +47,7 @@ def corrected(optimizer: Optimizer, run: Run, within: Mapping[str, Ends]) -> Run
 
 def _off(optimizer: Optimizer, run: Run, wanted: Mapping[str, float]) -> dict[str, float]:
     """By limit, how far the simulated design is beyond its margin, shares of the limit's scale: broken, or kept by more
-    than the optimum needs. Empty where nothing is off by more than the tolerance.
+    than the optimum needs. Empty where nothing is off by more than the tolerance, and where the switch does not end.
     """
     problem, model = optimizer.problem, optimizer.model
     limits = [limit for limit in problem.limits if on_switch(optimizer.table, limit.output)]
@@ -56,6 +58,8 @@ def _off(optimizer: Optimizer, run: Run, wanted: Mapping[str, float]) -> dict[st
     except SimulationError:
         return {}
     values = model.some_values([limit.output for limit in limits], run.inputs, switch.values)
+    if not all(np.isfinite(value) for value in values.values()):
+        return {}
     holding = pressing(optimizer, run)
     beyond = {limit.name: float(limit.residual(values[limit.output])) + wanted.get(limit.name, 0.0) for limit in limits}
     return {
