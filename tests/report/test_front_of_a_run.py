@@ -12,12 +12,13 @@ from pathlib import Path
 
 import pytest
 from comparable import SHEAR, written
+from rich.console import Console
 from support import ROOT, Command
 
 from tvimdesign.device import table_for
-from tvimdesign.report.front import in_words
+from tvimdesign.report.front import front_csv, in_words, plain, print_front
 from tvimdesign.solve.front import Front
-from tvimdesign.solve.tradeoff import Point
+from tvimdesign.solve.tradeoff import Failure, Point
 from tvimdesign.study.design import read_design
 
 ASKED = SHEAR + "front: {of: [response_time, module_mass], points: 5}\n"
@@ -120,3 +121,20 @@ def test_a_point_becomes_parts(tvimdesign: Command, run: Path, tmp_path: Path) -
     done = tvimdesign("cad", run / "front/02.design.json", "--out", tmp_path / "parts")
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "parts/assembly.step").stat().st_size > 10_000
+
+
+def test_a_front_without_points_says_why_and_is_written_all_the_same() -> None:
+    table, words = table_for("shear"), "converged, but simulated it breaks response_time <= 100 s: 100.6 s"
+    front = Front(("response_time", "module_mass"), (), failures=(Failure("least response_time", words),), sought=2)
+    assert front.knee is None
+    told = plain(front, list(front.outputs), table)
+    assert told["points"] == []
+    assert told["in_words"] == [f"No design at least response_time: {words}."]
+    assert front_csv(front, list(front.outputs), table).splitlines() == [
+        "point,status,response_time [s],module_mass [g]"
+    ]
+    console = Console(record=True, width=200)
+    print_front(front, table, console)
+    shown = console.export_text()
+    assert "no points" in shown
+    assert words in shown

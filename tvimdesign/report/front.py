@@ -206,6 +206,11 @@ def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:
 def print_front(front: Front, table: Table, console: Console, kept: Sequence[float] = ()) -> None:
     """A short table, and the front in words."""
     title = f"Front of {' against '.join(front.outputs)}"
+    if not front.points:
+        console.print(f"[bold]{title}[/bold]: no points")
+        for sentence in in_words(front, table):
+            console.print(sentence, soft_wrap=True)
+        return
     grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
     grid.add_column("point", justify="right", header_style="dim")
     for name in front.outputs:

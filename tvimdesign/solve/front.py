@@ -49,6 +49,8 @@ class Front:
     @property
     def shares(self) -> Array:
         """Every point's outputs, from 0 (the least on the front) to 1 (the most)."""
+        if not self.points:
+            return np.zeros((0, len(self.outputs)))
         numbers = np.array([[point.values[name] for name in self.outputs] for point in self.points])
         ranges = np.ptp(numbers, axis=0)
         return np.asarray((numbers - numbers.min(axis=0)) / np.where(ranges > 0.0, ranges, 1.0))

@@ -31,7 +31,7 @@ from tvimdesign.study import ProfileOptions, Range, Study, given
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
-RAMP_ELEMENT = 15.0  # s, the longest element of a ramp: as long as those of a switch of two minutes
+RAMP_ELEMENT = 15.0  # s, the longest element of a ramp, in which the current changes fastest
 
 
 class Optimizer:

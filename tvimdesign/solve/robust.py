@@ -14,7 +14,6 @@ import numpy as np
 
 from tvimdesign.solve import spread
 from tvimdesign.solve.contributors import contributors_of
-from tvimdesign.solve.correction import again, pressing
 from tvimdesign.solve.elasticity import elasticities
 from tvimdesign.solve.goal import Goal
 from tvimdesign.solve.limits import on_switch
@@ -26,6 +25,8 @@ from tvimdesign.solve.yields import yields_of
 ROUNDS = 6
 _SETTLED = 1e-3
 """Change of a margin, as a share of its limit's scale, below which it is settled."""
+_PRESSING = 1e-6
+"""Multiplier from which on a limit holds the design, objectives a share of its scale."""
 
 
 def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None = None) -> Run:
@@ -52,7 +53,7 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: G
         if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
             return run
         optimizer.progress("staying within the limits on times by what they spread")
-        run = again(optimizer, run, within, goal)
+        run = _again(optimizer, run, within, goal)
     return run
 
 
@@ -65,10 +66,10 @@ def _reached(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: G
             return run
         drawn = yields_of(optimizer).at(run.inputs)
         beyond = drawn.beyond(share)
-        holding = pressing(optimizer, run)
+        pressing = _pressing(optimizer, run)
         moved = {
             name: value for name, value in beyond.items()
-            if value > _SETTLED or (value < -_SETTLED and name in holding)
+            if value > _SETTLED or (value < -_SETTLED and name in pressing)
         }  # fmt: skip
         if not moved:
             return run
@@ -77,8 +78,21 @@ def _reached(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: G
         optimizer.progress("staying within the limits by what modules drawn at random miss them by")
         optimizer.margins = {name: optimizer.margins.get(name, 0.0) + moved.get(name, 0.0)
                              for name in {**optimizer.margins, **moved}}  # fmt: skip
-        run = again(optimizer, run, within, goal)
+        run = _again(optimizer, run, within, goal)
     return run
+
+
+def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
+    """The limits that hold a design."""
+    first, limits = optimizer.problem.equation_count, optimizer.problem.limits
+    of_limits = run.multipliers[first : first + len(limits)]
+    return {limit.name for limit, multiplier in zip(limits, of_limits, strict=True) if multiplier > _PRESSING}
+
+
+def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None) -> Run:
+    """The optimum with other margins, warm from the one before and else from its inputs."""
+    found = optimizer.solve(within, warm=run, goal=goal)
+    return found if found.start.converged else optimizer.solve(within, begin=run.inputs, goal=goal)
 
 
 def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:

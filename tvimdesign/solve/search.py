@@ -12,7 +12,6 @@ from tvimdesign.errors import InfeasibleError, InputError
 from tvimdesign.solve.account import account
 from tvimdesign.solve.branch import BranchAndBound
 from tvimdesign.solve.contradiction import at_a_glance, refuse_contradiction
-from tvimdesign.solve.correction import corrected
 from tvimdesign.solve.enumeration import account_for_all
 from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
 from tvimdesign.solve.optimizer import Optimizer
@@ -63,8 +62,9 @@ def optimize(
         choosing = _chosen(free, len(records), study.solver) if len(records) > 1 else None
     tree, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if sizes.names else [])]
-    run, begun = _kept_by_modules(tree, run), run
-    recorded = [(one[0], run) if one[1] is begun else one for one in recorded]
+    if study.robust:
+        run, begun = _robust(tree, run), run
+        recorded = [(one[0], run) if one[1] is begun else one for one in recorded]
     run, quarrel = _reconciled(tree, run, [one for other, one in recorded if other is tree], progress)
     if run.start.converged and all(run is not one for _, one in recorded):
         recorded.append((tree, run))
@@ -81,17 +81,13 @@ def optimize(
     return replace(solution, status="infeasible: this design breaks its limits least") if quarrel else solution
 
 
-def _kept_by_modules(tree: Tree, run: Run) -> Run:
-    """The best run, sought again so that limits on times, too, are kept: simulated, and of a robust study by modules
-    that spread. Told as its start.
-    """
-    sizes = {name: (float(size), float(size)) for name, size in run.start.choices.items() if name in tree.sizes.names}
-    found, begun = run, run.start
-    if tree.optimizer.study.robust:
-        from tvimdesign.solve.robust import settle  # it loads the compiler
+def _robust(tree: Tree, run: Run) -> Run:
+    """The best run, sought again so that limits on times, too, are kept by modules that spread; told as its start."""
+    from tvimdesign.solve.robust import settle
 
-        found = settle(tree.optimizer, found, sizes)
-    found = corrected(tree.optimizer, found, sizes)
+    sizes = {name: (float(size), float(size)) for name, size in run.start.choices.items() if name in tree.sizes.names}
+    found = settle(tree.optimizer, run, sizes)
+    begun = run.start
     found.start = replace(found.start, choices=begun.choices, begin=begun.begin)
     return found
 

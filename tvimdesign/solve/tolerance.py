@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tvimdesign.errors import InputError
 from tvimdesign.solve import spread
 from tvimdesign.solve.contributors import FREE_ANGLE, contributors_of
-from tvimdesign.solve.elasticity import elasticities
+from tvimdesign.solve.elasticity import FINER, elasticities
 from tvimdesign.solve.limits import Limit, limits_of
 from tvimdesign.solve.many import ManyModules
 from tvimdesign.solve.rig import Rig
@@ -19,8 +19,6 @@ from tvimdesign.solve.rig import Rig
 Array = NDArray[np.float64]
 Progress = Callable[[str], None]
 
-_FINER = 2
-"""Time elements of the derivatives for each of the study's, as for its sensitivities."""
 SOBOL_SAMPLES = 1 << 10
 """Points of the Sobol indices; each costs as many modules as there are contributors, and two."""
 
@@ -102,7 +100,7 @@ class Tolerancing:
             )
         options = rig.study.solver
         progress("differentiating the outputs by what spreads")
-        exact = elasticities(rig, _FINER * options.elements, options.cells, list(wanted), names)
+        exact = elasticities(rig, FINER * options.elements, options.cells, list(wanted), names)
         progress("compiling the module for many designs")
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
