@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +11,10 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
+from tvimdesign.errors import SimulationError
+from tvimdesign.solve.backend import ca
 from tvimdesign.solve.drive import Drive
-from tvimdesign.solve.elasticity import FINER, Elasticities, elasticities, entries
+from tvimdesign.solve.elasticity import FINER, Elasticities, _solved, elasticities, entries
 from tvimdesign.solve.model import Model
 from tvimdesign.solve.rig import Rig, rig_for
 from tvimdesign.study import read_study, read_study_text
@@ -45,6 +48,18 @@ def _logarithmic(found: Elasticities, rig: Rig) -> dict[tuple[str, str], float |
     return {(one.output, one.variable): one.logarithmic for one in entries(found, rig)}
 
 
+def _simulated(rig: Rig, cells: int, name: str, wanted: Sequence[str]) -> dict[str, float]:
+    """Exponents of outputs by an input, from two simulations of changed designs."""
+    model = Model(rig.table, rig.values, rig.points, cells)
+    simulator, ends = fine(model), []
+    for factor in (1.0 - STEP, 1.0 + STEP):
+        inputs = model.start.copy()
+        inputs[model.index[name]] *= factor
+        ends.append(model.values(inputs, simulator.run(inputs).values))
+    below, above = ends
+    return {one: float(np.log(above[one] / below[one]) / np.log((1.0 + STEP) / (1.0 - STEP))) for one in wanted}
+
+
 def test_powers_of_textbook_formulae_come_back(found: Elasticities, rig: Rig) -> None:
     by = _logarithmic(found, rig)
     assert by["spring_stiffness", "wire_diameter"] == pytest.approx(4.0, abs=0.01)  # E d^4 / (64 D n)
@@ -61,17 +76,9 @@ def test_powers_of_textbook_formulae_come_back(found: Elasticities, rig: Rig) ->
 def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(
     name: str, found: Elasticities, rig: Rig
 ) -> None:
-    by = _logarithmic(found, rig)
-    model = Model(rig.table, rig.values, rig.points, CELLS)
-    simulator, ends = fine(model), []
-    for factor in (1.0 - STEP, 1.0 + STEP):
-        inputs = model.start.copy()
-        inputs[model.index[name]] *= factor
-        ends.append(model.values(inputs, simulator.run(inputs).values))
-    below, above = ends
+    by, shown = _logarithmic(found, rig), _simulated(rig, CELLS, name, OF_CYCLE)
     for output in OF_CYCLE:
-        shown = float(np.log(above[output] / below[output]) / np.log((1.0 + STEP) / (1.0 - STEP)))
-        assert by[output, name] == pytest.approx(shown, rel=3e-3, abs=3e-3), output
+        assert by[output, name] == pytest.approx(shown[output], rel=3e-3, abs=3e-3), output
 
 
 def test_a_temperature_has_a_derivative_and_no_logarithm(found: Elasticities, rig: Rig) -> None:
@@ -114,13 +121,15 @@ def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -
     """Newton's whole steps do not converge there; shorter ones do."""
     study = read_study(Path(__file__).parents[2] / "studies" / "wrist_compression.yaml")
     rig = rig_for(study, Catalog(), table_for(study.mode))
-    elements = FINER * study.solver.elements
-    by = _logarithmic(elasticities(rig, elements, study.solver.cells, ["frozen_time"], [name]), rig)
-    model = Model(rig.table, rig.values, rig.points, study.solver.cells)
-    simulator, ends = fine(model), []
-    for factor in (1.0 - STEP, 1.0 + STEP):
-        inputs = model.start.copy()
-        inputs[model.index[name]] *= factor
-        ends.append(simulator.run(inputs, stages=["stiffening"], wanted={"frozen_time"}).values["frozen_time"])
-    shown = float(np.log(ends[1] / ends[0]) / np.log((1.0 + STEP) / (1.0 - STEP)))
-    assert by["frozen_time", name] == pytest.approx(shown, rel=3e-2)
+    elements, cells = FINER * study.solver.elements, study.solver.cells
+    by = _logarithmic(elasticities(rig, elements, cells, ["frozen_time"], [name]), rig)
+    shown = _simulated(rig, cells, name, ["frozen_time"])
+    assert by["frozen_time", name] == pytest.approx(shown["frozen_time"], rel=3e-2)
+
+
+def test_equations_that_have_no_value_beside_their_start_are_refused_in_words() -> None:
+    x, p = ca.MX.sym("x"), ca.MX.sym("p")
+    equation = x * ca.if_else(x == 1.0, 1.0, np.nan)
+    newton = ca.Function("newton", [x, p], [equation, ca.jacobian(equation, x)])
+    with pytest.raises(SimulationError, match=r"more solver\.elements"):
+        _solved(newton, np.ones(1), np.zeros(1), 0)

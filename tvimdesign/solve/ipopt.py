@@ -16,8 +16,8 @@ _USUAL = {
     # With MUMPS's usual 1e-6 the pivots of a freezing layer are too small: it miscounts negative eigenvalues, and IPOPT
     # answers with tiny steps.
     "mumps_pivtol": 1e-2,
-    # Approximate minimum degree that sees rows that are nearly full, as those of the free numbers are: up to a fifth of
-    # IPOPT's time less than with MUMPS's own choice where the layer has few cells, and no more where it has many.
+    # QAMD: minimum degree that sees rows that are nearly full, as those of the free numbers are: up to a fifth of the
+    # time less than by MUMPS's own choice where the layer has few cells, as much where it has many.
     "mumps_pivot_order": 6,
     "mu_init": 1e-3,
     # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.

@@ -20,7 +20,7 @@ from tvimdesign.solve.simulate import Trajectory
 from tvimdesign.solve.stage_model import StageModel
 
 ORDER = 5
-"""Points of an element. Three of five are as exact as eight of three, with a third fewer unknowns."""
+"""Points of an element. Three of five are as exact as eight of three, with three eighths fewer unknowns."""
 Array = NDArray[np.float64]
 
 
