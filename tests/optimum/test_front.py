@@ -154,7 +154,7 @@ def test_a_point_takes_few_iterations_from_its_neighbours(solved: Solved, monkey
     monkeypatch.setattr(Optimizer, "solve", counted)
     trace_front(solved.trade(), (TIME, MASS), 12)
     assert len(iterations) <= 18
-    assert np.median(iterations) <= 12
+    assert np.median(iterations) <= 8  # four; twelve where the barrier begins as for a cold start
 
 
 def test_nothing_is_built_again_for_another_front(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> None:
