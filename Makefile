@@ -70,7 +70,7 @@ format: $(STAMP)  ## let ruff put the code in form
 
 schema: $(STAMP)  ## write the study's JSON Schema from the table, and the usual units as pint reads them
 	$(BIN)/python -m tvimdesign.study.schema
-	$(BIN)/python -m tvimdesign.units
+	$(BIN)/python -m tvimdesign.base.units
 
 # What is large is left out: STL beside 3MF, assemblies and PDF but for the first module, print files of milled ones.
 REFERENCES := paper_shear paper_compression machined_shear machined_compression

@@ -34,12 +34,12 @@ def plain(design: Path, out: Path) -> None:
     from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape
     from OCP.StlAPI import StlAPI_Writer
 
-    from tvimdesign.cad.assembly import drawn_parts, free_spring, place
-    from tvimdesign.cad.dimensions import dimensions
-    from tvimdesign.cad.export import instances
-    from tvimdesign.cad.making import MAKING
-    from tvimdesign.cad.pictures import write_exploded, write_section
-    from tvimdesign.cad.preview import write_preview
+    from tvimdesign.cad.assembly.assembly import drawn_parts, free_spring, place
+    from tvimdesign.cad.assembly.product_data import instances
+    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.geometry.production import MAKING
+    from tvimdesign.cad.render.preview import write_preview
+    from tvimdesign.cad.render.views import write_exploded, write_section
     from tvimdesign.study.design import read_design
 
     dims = dimensions(read_design(design))
@@ -82,11 +82,11 @@ def plain(design: Path, out: Path) -> None:
 
 def files_only(design: Path, out: Path) -> None:
     """Make the files as shipped, without the checks of sizes and interference that the plain row has none of."""
-    from tvimdesign.cad import works
-    from tvimdesign.cad.job import run
+    from tvimdesign.cad.build import build_plan
+    from tvimdesign.cad.build.main import run
 
-    every = works.works
-    works.works = lambda dims: [one for one in every(dims) if not one.name.startswith(CHECKS)]
+    every = build_plan.works
+    build_plan.works = lambda dims: [one for one in every(dims) if not one.name.startswith(CHECKS)]
     with Path(os.devnull).open("w") as nowhere:
         run(design, out, 90.0, nowhere)
 

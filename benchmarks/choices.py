@@ -19,12 +19,12 @@ from reference_problem import study_of_sizes
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.branch import BranchAndBound
-from tvimdesign.solve.enumeration import account_for_all, enumerate_all
-from tvimdesign.solve.listed import listed_sizes
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.solution import Work
-from tvimdesign.solve.tree import Tree
+from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
+from tvimdesign.solve.discrete.discrete_choices import listed_sizes
+from tvimdesign.solve.discrete.enumeration import account_for_all, enumerate_all
+from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.nlp.solution import Work
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Options, Study, read_study
 
 STUDIES = Path(__file__).resolve().parents[1] / "studies"

@@ -21,11 +21,11 @@ from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve import model, stage_model
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.simulate import Simulator
-from tvimdesign.solve.transcription import radau
+from tvimdesign.simulation import device_functions, phase_model
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.solve.nlp.transcription import radau
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 Array = NDArray[np.float64]
 
@@ -242,7 +242,7 @@ def arrays_of_casadi() -> Iterator[None]:
     def array(column: Any) -> Any:
         return np.reshape(column, (column.numel(),))
 
-    with patch.object(model, "symbols", array), patch.object(stage_model, "symbols", array):
+    with patch.object(device_functions, "symbols", array), patch.object(phase_model, "symbols", array):
         yield
 
 

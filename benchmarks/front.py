@@ -25,13 +25,13 @@ from reference_problem import LONGEST, Reference, study
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.front import Front, trace_front
-from tvimdesign.solve.kernel import Kernel, of_columns, stacked
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.run import Run
+from tvimdesign.solve.batch.cycle_kernel import Pace, SwitchKernel
+from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.pareto.front import Front, trace_front
+from tvimdesign.solve.pareto.tradeoff import Tradeoff
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.switch_kernel import Pace, SwitchKernel
-from tvimdesign.solve.tradeoff import Tradeoff
 
 Array = NDArray[np.float64]
 OUTPUTS = (("response_time", "module_mass"), ("response_time", "module_mass", "envelope_volume"))

@@ -23,13 +23,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.errors import TvimError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
-from tvimdesign.device.rows import Output, Supplied, Swing
-from tvimdesign.errors import TvimError
+from tvimdesign.device.table.quantity import Output, Supplied, Swing
 from tvimdesign.study import Study, given, read_study
 from tvimdesign.study.design import Design
-from tvimdesign.study.model import Options
+from tvimdesign.study.study import Options
 
 STUDIES = Path(__file__).resolve().parents[1] / "studies"
 _CHUNK = 20_000
@@ -133,13 +133,13 @@ def _is_plain(row: Output, table: Table) -> bool:
 
 def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
     """Build a design's parts; returns what is wrong with them, and what the inspection warns of."""
-    from tvimdesign.cad.assembly import drawn_parts
-    from tvimdesign.cad.checks import all_checks
-    from tvimdesign.cad.dimensions import dimensions
+    from tvimdesign.cad.assembly.assembly import drawn_parts
+    from tvimdesign.cad.export.mesh import solid_mesh
+    from tvimdesign.cad.export.print_files import closed
+    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.geometry.production import MAKING
     from tvimdesign.cad.inspection.inspect import module_checks, part_checks, solid_check
-    from tvimdesign.cad.making import MAKING
-    from tvimdesign.cad.mesh import solid_mesh
-    from tvimdesign.cad.print_files import closed
+    from tvimdesign.cad.inspection.size_checks import all_checks
 
     dims = dimensions(design)
     drawn = drawn_parts(dims)
@@ -171,7 +171,7 @@ def run(study: Study, count: int, seed: int, inspect: bool = False, hands: int =
     tally = Tally()
     # Not a plain fork: where this process has used the CAD kernel, its threads are missing in the child, which hangs.
     context: Any = mp.get_context("forkserver")
-    context.set_forkserver_preload(["tvimdesign.cad.inspection.inspect", "tvimdesign.cad.checks"])
+    context.set_forkserver_preload(["tvimdesign.cad.inspection.inspect", "tvimdesign.cad.inspection.size_checks"])
     at_work: list[tuple[Design, Any, Connection, float]] = []
     for design in Draws(study, seed).keeping_rules(count, tally):
         if len(at_work) == hands:

@@ -19,10 +19,10 @@ from quick import Quick
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.limits import impossible
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.nlp.constraints import impossible
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study
 
 Array = NDArray[np.float64]

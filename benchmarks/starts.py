@@ -12,11 +12,11 @@ from reference_problem import study
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.listed import listed_sizes
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.solution import Work, same_optimum
-from tvimdesign.solve.statuses import meaning
-from tvimdesign.solve.tree import Tree
+from tvimdesign.solve.discrete.discrete_choices import listed_sizes
+from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.nlp.solution import Work, same_optimum
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import meaning
 
 
 def main() -> None:

@@ -17,11 +17,11 @@ import numpy as np
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.kernel import Kernel, of_columns
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator
-from tvimdesign.solve.switch_kernel import Pace, SwitchKernel
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.batch.cycle_kernel import Pace, SwitchKernel
+from tvimdesign.solve.batch.kernel import Kernel, of_columns
 from tvimdesign.study import given, read_study
 
 STUDY = Path(__file__).resolve().parents[1] / "studies/compare_shear.yaml"

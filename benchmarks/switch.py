@@ -22,11 +22,12 @@ from quick import Quick
 from scipy.integrate import solve_ivp
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for, thermal
+from tvimdesign.device import table_for
+from tvimdesign.device.core import thermal_stack
 from tvimdesign.physics import heat, layer, polymer
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.device_functions import Model
 from tvimdesign.study import given, read_study
 
 Array = NDArray[np.float64]
@@ -72,7 +73,7 @@ def written_by_hand(model: Model, sparse: bool) -> Equations:
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
         moduli = layer.series_modulus(*polymer.moduli(now.cells, now.fractions, omega, rheology))
-        impedance = thermal.impedance_now(moduli, moment, numbers["pcl_thickness"], structure, springs)
+        impedance = thermal_stack.impedance_now(moduli, moment, numbers["pcl_thickness"], structure, springs)
         mean = np.mean(now.cells)
         return [now.near - target, mean - target, now.far - target, np.log(soft / impedance)]
 

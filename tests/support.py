@@ -6,8 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from subprocess import CompletedProcess
 
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.device_functions import Model
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDIES = sorted((ROOT / "studies").glob("*.yaml"))

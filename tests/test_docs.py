@@ -12,7 +12,7 @@ from support import ROOT, Command
 
 from tvimdesign.catalog import Catalog, check_records
 from tvimdesign.device import table_for
-from tvimdesign.solve.answer import answer
+from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study, read_study_text
 
 README = (ROOT / "README.md").read_text()

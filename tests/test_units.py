@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tvimdesign.base.errors import UnitError
+from tvimdesign.base.units import USUAL_UNITS, format_quantity, from_si, parse_quantity, pretty, read_by_pint, to_si
 from tvimdesign.device import Choice, table_for
-from tvimdesign.errors import UnitError
-from tvimdesign.units import USUAL_UNITS, format_quantity, from_si, parse_quantity, pretty, read_by_pint, to_si
 
 NAMES = (
     "1 mm m in mm^2 mm^3 cm^3 L deg rad turn % s min Hz rad/s A V ohm W J g kg K degC MPa GPa Pa*s N*m N*m/rad "
@@ -177,7 +177,7 @@ def test_numbers_for_people() -> None:
 
 
 def test_pint_loads_only_when_asked() -> None:
-    code = "import sys, tvimdesign.units, tvimdesign.catalog; sys.exit('pint' in sys.modules)"
+    code = "import sys, tvimdesign.base.units, tvimdesign.catalog; sys.exit('pint' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 
 import typer
 
-from tvimdesign.errors import InputError, TvimError
-from tvimdesign.solve.trials import TESTS
+from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.virtual_tests.registry import TESTS
 
 INTERRUPTED = 130
 _STOPPED = "interrupted; what was finished is kept\n"
@@ -69,7 +69,7 @@ def run(
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
-    from tvimdesign.report.run import run_study
+    from tvimdesign.report.run.run_study import run_study
 
     run_study(
         study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
@@ -88,11 +88,11 @@ def check(
 ) -> None:
     """Read a study and say everything that is wrong with it, limits that bounds prove impossible included."""
     if deep:
-        from tvimdesign.report.deep import check_deep
+        from tvimdesign.report.run.diagnostics import check_deep
 
         check_deep(study, as_json=json)
         return
-    from tvimdesign.report.run import check_study, describe
+    from tvimdesign.report.run.run_study import check_study, describe
 
     found = check_study(study)
     typer.echo(found.model_dump_json(indent=2) if json else describe(found))
@@ -123,7 +123,7 @@ def cad(
     json: AsJson = False,
 ) -> None:
     """Make the parts of a design: STEP, print files, drawings, checks; in a folder beside the run's, ending in -cad."""
-    from tvimdesign.report.run import make_parts
+    from tvimdesign.report.run.run_study import make_parts
 
     make_parts(design, out or _default_folder(design), overwrite=overwrite, as_json=json)
 
@@ -139,7 +139,7 @@ def simulate(
     json: AsJson = False,
 ) -> None:
     """Put a module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
-    from tvimdesign.report.simulate import simulate_study
+    from tvimdesign.report.simulate_study import simulate_study
 
     name = study.resolve().parent.name if study.suffix == ".json" else study.stem
     simulate_study(study, test, out or Path("results") / f"{name}-{test}", overwrite=overwrite, as_json=json)
@@ -157,7 +157,7 @@ def tolerate(
     json: AsJson = False,
 ) -> None:
     """Say what tolerances do: worst case, root-sum-square and Monte Carlo, yield, into results/<study>-tolerances."""
-    from tvimdesign.report.tolerate.run import tolerate_study
+    from tvimdesign.report.tolerate.tolerate_study import tolerate_study
 
     name = study.resolve().name if study.is_dir() else study.resolve().parent.name
     folder = out or Path("results") / f"{study.stem if study.suffix in ('.yaml', '.yml') else name}-tolerances"
@@ -177,7 +177,7 @@ def compare(
     json: AsJson = False,
 ) -> None:
     """Hold studies with the same requirements against each other: as drawn, and each optimised for itself."""
-    from tvimdesign.report.compare.run import compare_studies
+    from tvimdesign.report.compare.compare_studies import compare_studies
 
     folder = out or Path("results") / "-vs-".join(study.stem for study in studies)
     compare_studies(studies, folder, points=points, overwrite=overwrite, plots=plots, as_json=json)
@@ -195,11 +195,11 @@ def ledger(
     json: AsJson = False,
 ) -> None:
     """Print the paper against its own numbers, as computed by this code."""
-    from tvimdesign.report.ledger import print_ledger
+    from tvimdesign.report.paper.paper_check import print_ledger
 
     print_ledger(as_json=json)
     if out:
-        from tvimdesign.report.level_sets import print_level_sets
+        from tvimdesign.report.paper.level_sets import print_level_sets
 
         print_level_sets(out, overwrite=overwrite, as_json=json)
 

@@ -11,8 +11,8 @@ import numpy as np
 from tvimdesign.cad import CadReport
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.device.rows import Event
-from tvimdesign.device.rows import Path as SwitchPath
+from tvimdesign.device.table.quantity import Event
+from tvimdesign.device.table.quantity import Path as SwitchPath
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study_text
 from tvimdesign.study.design import Design

@@ -9,7 +9,7 @@ import pytest
 from cad_designs import BLOCKS, CASES, Made, design_of
 
 from tvimdesign.cad import CadReport, make_cad
-from tvimdesign.cad.store import FOLDER_VARIABLE
+from tvimdesign.cad.build.cache import FOLDER_VARIABLE
 from tvimdesign.study.design import Design, write_design
 
 QUICK = {"paper", "blocks"}

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from cad_designs import random_blocks
 
-from tvimdesign.cad.assembly import build, drawn_parts
-from tvimdesign.cad.checks import all_checks, interference_checks, size_checks
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.mesh import solid_mesh
-from tvimdesign.cad.print_files import closed
-from tvimdesign.cad.shapes import block, rounded, sector, turned
-from tvimdesign.device.gaps import POCKET_WIDTH
-from tvimdesign.errors import GeometryError
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.assembly.assembly import build, drawn_parts
+from tvimdesign.cad.export.mesh import solid_mesh
+from tvimdesign.cad.export.print_files import closed
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
+from tvimdesign.cad.inspection.size_checks import all_checks, interference_checks, size_checks
+from tvimdesign.device.core.clearances import POCKET_WIDTH
 from tvimdesign.study.design import Design
 
 MM = 1e-3

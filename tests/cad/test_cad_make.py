@@ -15,14 +15,14 @@ import pytest
 import trimesh
 from cad_designs import Made
 
+from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.cad import CadReport, make_cad
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.kinds import KINDS
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.export.part21 import in_fixed_order
+from tvimdesign.cad.export.step_file import Product, write_assembly
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.kinds import KINDS
 from tvimdesign.cad.make import _report
-from tvimdesign.cad.modes import MODULES
-from tvimdesign.cad.part21 import in_fixed_order
-from tvimdesign.cad.step import Product, write_assembly
-from tvimdesign.errors import GeometryError, InputError
 from tvimdesign.study.design import write_design
 
 COPIES = {"shear": 4, "compression": 12}

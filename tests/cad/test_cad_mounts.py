@@ -7,16 +7,16 @@ from math import atan2, degrees, hypot
 import pytest
 from cad_designs import CASES, DRIVEN, FLANGE, ON_SENSOR, design_of
 
-from tvimdesign.cad.assembly import build, drawn_part, drawn_parts
-from tvimdesign.cad.assembly_note import assembly_note
-from tvimdesign.cad.bom import Item
-from tvimdesign.cad.checks import _polar_moment, interference_checks
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.features import holes
+from tvimdesign.cad.assembly.assembly import build, drawn_part, drawn_parts
+from tvimdesign.cad.assembly.assembly_note import assembly_note
+from tvimdesign.cad.assembly.bill_of_materials import Item
+from tvimdesign.cad.drawing.drawing_requirements import workmanship
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.features import holes
+from tvimdesign.cad.geometry.kinds import KINDS, TURNING, kind_of
 from tvimdesign.cad.inspection.corners import corner_checks
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
-from tvimdesign.cad.kinds import KINDS, TURNING, kind_of
-from tvimdesign.cad.workmanship import workmanship
+from tvimdesign.cad.inspection.size_checks import _polar_moment, interference_checks
 
 
 def test_the_pattern_stands_at_its_azimuth_with_the_pin_midway_between_two_screws() -> None:

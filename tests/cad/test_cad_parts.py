@@ -8,14 +8,14 @@ import cadquery as cq
 import pytest
 from cad_designs import broken_rules, design_of
 
-from tvimdesign.cad.assembly import build, drawn_parts
-from tvimdesign.cad.checks import all_checks, interference_checks, size_checks
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.kinds import kind_of
-from tvimdesign.cad.mesh import solid_mesh
-from tvimdesign.cad.modes import MODULES
-from tvimdesign.cad.print_files import closed
-from tvimdesign.errors import GeometryError
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.assembly.assembly import build, drawn_parts
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.export.mesh import solid_mesh
+from tvimdesign.cad.export.print_files import closed
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.cad.inspection.size_checks import all_checks, interference_checks, size_checks
 from tvimdesign.study.design import Design
 
 

@@ -11,11 +11,11 @@ from cad_designs import design_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tvimdesign.cad.assembly import build
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.mesh import spring_mesh
-from tvimdesign.cad.springs import Coil, free_coil, installed_coil, spring_solid
-from tvimdesign.errors import GeometryError
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.assembly.assembly import build
+from tvimdesign.cad.export.mesh import spring_mesh
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil, spring_solid
 from tvimdesign.study.design import Design
 
 

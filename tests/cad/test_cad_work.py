@@ -12,14 +12,14 @@ from pathlib import Path
 import pytest
 from cad_designs import design_of
 
+from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.outcome import Check
-from tvimdesign.cad.store import Store, user_folder
-from tvimdesign.cad.trace import Subject
-from tvimdesign.cad.work import Done, Job, Work, Workshop
-from tvimdesign.cad.works import works
-from tvimdesign.errors import GeometryError
+from tvimdesign.cad.build.build_plan import works
+from tvimdesign.cad.build.cache import Store, user_folder
+from tvimdesign.cad.build.read_tracking import Subject
+from tvimdesign.cad.build.worker import Done, Job, Work, Workshop
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.study.design import Design, write_design
 
 Run = Callable[..., Done]
@@ -109,7 +109,7 @@ def test_a_kept_file_that_has_changed_is_not_used(run: Run) -> None:
 
 def test_other_code_makes_all_kept_results_void(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     run(PLATE)
-    monkeypatch.setattr("tvimdesign.cad.store.code_digest", lambda: "other")
+    monkeypatch.setattr("tvimdesign.cad.build.cache.code_digest", lambda: "other")
     assert run(PLATE).reused == []
 
 
@@ -135,7 +135,7 @@ def test_a_crash_and_a_refusal_are_named_and_leave_nothing_half_made(run: Run, t
 
 
 def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tvimdesign.cad.store._MOST", 2)
+    monkeypatch.setattr("tvimdesign.cad.build.cache._MOST", 2)
     for thickness in (4.0e-3, 4.1e-3, 4.2e-3):
         run(PLATE, link_thickness=thickness)
     assert len(list((tmp_path / "kept/plate").iterdir())) == 2

@@ -9,15 +9,15 @@ import cadquery as cq
 import pytest
 from cad_designs import broken_rules, design_of
 
-from tvimdesign.cad import cover, inserts, shear
-from tvimdesign.cad.assembly import drawn_part
-from tvimdesign.cad.assembly_note import steps_of
-from tvimdesign.cad.checks import interference_checks, size_checks
-from tvimdesign.cad.dimensions import Dimensions, dimensions
+from tvimdesign.cad.assembly.assembly import drawn_part
+from tvimdesign.cad.assembly.assembly_note import steps_of
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.inspection.corners import corner_checks, round_corners
 from tvimdesign.cad.inspection.inspect import thread_checks
-from tvimdesign.cad.kinds import kind_of
-from tvimdesign.cad.shapes import turned
+from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
+from tvimdesign.cad.parts import cover_parts, insert_parts, shear_parts
 from tvimdesign.study.design import Design
 
 MM = 1e-3
@@ -58,7 +58,7 @@ def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
     design: Design, dims: Dimensions, drawn: dict[str, cq.Solid]
 ) -> None:
     assert broken_rules(design) == []
-    placed = {**cover.stand(dims, drawn), **inserts.stand(dims, drawn, 0.0)}
+    placed = {**cover_parts.stand(dims, drawn), **insert_parts.stand(dims, drawn, 0.0)}
     assert sum(name.startswith("cover_insert") for name in placed) == 4
     whole = {**placed, "housing": drawn["housing"], "rotor": drawn["rotor"]}
     assert shared(whole, "cover", "cover_screw", "cover_insert", "link_insert", "retainer_insert") == {}
@@ -71,14 +71,14 @@ def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
 def test_a_cover_that_is_too_tight_or_too_low_is_found(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
     for row, value in (("cover_hole_radius", dims.core_radius - 0.5), ("rim_level", dims.pin_top_level - 0.5)):
         wrong = Dimensions("shear", {**dims.by_name, row: value})
-        plate = {"cover": cover.cover(wrong), "rotor": drawn["rotor"]}
+        plate = {"cover": cover_parts.cover(wrong), "rotor": drawn["rotor"]}
         assert list(shared(plate, "cover")) == ["cover | rotor here"]
 
 
 def test_keys_turn_with_the_rotor_and_would_be_cut_if_they_stood(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
     angle = dims.stroke
     rotor = turned(drawn["rotor"], angle)
-    placed = {**shear.stand(dims, drawn, angle), "rotor": rotor}
+    placed = {**shear_parts.stand(dims, drawn, angle), "rotor": rotor}
     assert shared(placed, "rotor") == {}
     standing = {"pcl_arc_1": turned(drawn["pcl_arc"], 0.25 * pi), "rotor": rotor}
     (cut,) = shared(standing, "rotor").values()

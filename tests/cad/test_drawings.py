@@ -19,19 +19,19 @@ from ezdxf.entities import Dimension
 from ezdxf.math import Vec3
 from ezdxf.tools.text_size import text_size
 
-from tvimdesign.cad.assembly import drawn_parts, place
-from tvimdesign.cad.assembly_note import assembly_note
-from tvimdesign.cad.bom import Item, bill, bill_csv
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.drawings import part_sheet
-from tvimdesign.cad.export import product
-from tvimdesign.cad.figures import around
-from tvimdesign.cad.kinds import KINDS
-from tvimdesign.cad.placed import apart
-from tvimdesign.cad.projection import from_above, section
-from tvimdesign.cad.sheet import Sheet
-from tvimdesign.cad.spring_sheet import Line, spring_csv, spring_lines, spring_sheet
-from tvimdesign.cad.workmanship import workmanship
+from tvimdesign.cad.assembly.assembly import drawn_parts, place
+from tvimdesign.cad.assembly.assembly_note import assembly_note
+from tvimdesign.cad.assembly.bill_of_materials import Item, bill, bill_csv
+from tvimdesign.cad.assembly.product_data import product
+from tvimdesign.cad.drawing.drawing_requirements import workmanship
+from tvimdesign.cad.drawing.drawing_sheet import Sheet
+from tvimdesign.cad.drawing.drawings import part_sheet
+from tvimdesign.cad.drawing.number_text import around
+from tvimdesign.cad.drawing.placed_view import apart
+from tvimdesign.cad.drawing.projection import from_above, section
+from tvimdesign.cad.drawing.spring_sheet import Line, spring_csv, spring_lines, spring_sheet
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.kinds import KINDS
 from tvimdesign.study.design import Design
 
 DRAWN = ("housing", "rotor", "link", "retainer")
@@ -276,7 +276,7 @@ def test_a_sheet_is_a_pdf_of_its_true_size_with_no_date(module: tuple[Design, So
 def test_a_drawing_is_the_same_file_whatever_order_sets_have_in_a_process() -> None:
     code = """
 import hashlib
-from tvimdesign.cad.sheet import Sheet
+from tvimdesign.cad.drawing.drawing_sheet import Sheet
 sheet = Sheet(1.0)
 sheet.text("A", (50.0, 50.0))
 print(hashlib.sha256(sheet.dxf()).hexdigest())

@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from cad_designs import BLOCKS, design_of
 
-from tvimdesign.cad.assembly import drawn_parts, place
-from tvimdesign.cad.dimensions import Dimensions, dimensions
-from tvimdesign.cad.export import instances
-from tvimdesign.cad.features import holes
+from tvimdesign.cad.assembly.assembly import drawn_parts, place
+from tvimdesign.cad.assembly.product_data import instances
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.export.mesh import solid_mesh
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.inspection import order
 from tvimdesign.cad.inspection.coils import coil_checks
 from tvimdesign.cad.inspection.corners import corner_checks, hole_check
@@ -24,8 +26,6 @@ from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles
 from tvimdesign.cad.inspection.samples import samples
 from tvimdesign.cad.inspection.walls import wall_checks
-from tvimdesign.cad.mesh import solid_mesh
-from tvimdesign.cad.outcome import Check
 from tvimdesign.study.design import Design
 
 BED = (220.0, 220.0, 250.0)

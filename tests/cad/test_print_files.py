@@ -14,15 +14,15 @@ import pytest
 import trimesh
 from cad_designs import BEARINGS, BLOCKS, DRIVEN, design_of
 
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.features import holes, levels, upright_cylinders
-from tvimdesign.cad.kinds import KINDS
-from tvimdesign.cad.making import MAKING, Making
-from tvimdesign.cad.mesh import Mesh, face_meshes
-from tvimdesign.cad.modes import MODULES
-from tvimdesign.cad.print_files import _distance, as_printed, printed_mesh, stl_bytes, threemf_bytes
-from tvimdesign.cad.step import Product, read_part, write_assembly, write_part
-from tvimdesign.errors import GeometryError
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.export.mesh import Mesh, face_meshes
+from tvimdesign.cad.export.print_files import _distance, as_printed, printed_mesh, stl_bytes, threemf_bytes
+from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.features import holes, levels, upright_cylinders
+from tvimdesign.cad.geometry.kinds import KINDS
+from tvimdesign.cad.geometry.production import MAKING, Making
 
 UP = Making(down="bottom", why="")
 OVER = Making(down="top", why="")

@@ -12,13 +12,13 @@ from cad_designs import BEARING_BLOCKS, CASES, DRIVEN, FLANGE, design_of
 from support import ROOT
 from test_drawings import no_text_lies_on_another, sheet_of, texts
 
-from tvimdesign.cad.assembly import drawn_part
-from tvimdesign.cad.dimensions import dimensions
-from tvimdesign.cad.features import upright_cylinders
-from tvimdesign.cad.iso_286 import limit_deviations, standard_tolerance
-from tvimdesign.cad.making import MAKING
-from tvimdesign.cad.workmanship import workmanship
-from tvimdesign.errors import GeometryError
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.assembly.assembly import drawn_part
+from tvimdesign.cad.drawing.drawing_requirements import workmanship
+from tvimdesign.cad.drawing.iso_286 import limit_deviations, standard_tolerance
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.features import upright_cylinders
+from tvimdesign.cad.geometry.production import MAKING
 from tvimdesign.study.design import Design
 
 MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_ratio": 40.0}
@@ -118,7 +118,7 @@ def test_a_hole_of_a_thread_s_diameter_and_another_depth_has_no_thread() -> None
 
 
 def test_every_seat_and_thread_is_of_a_part_that_is_drawn() -> None:
-    told = yaml.safe_load((ROOT / "tvimdesign/cad/workmanship.yaml").read_text(encoding="utf-8"))
+    told = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
     words = [one["about"] for part in ("seats", "threads") for group in told[part].values() for one in group]
     assert max(map(len, words)) <= 21  # what the table has room for
     assert {*told["seats"], *told["threads"]} <= {kind for kind, making in MAKING.items() if making.drawn}

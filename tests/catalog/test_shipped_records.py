@@ -4,8 +4,8 @@ import math
 
 import pytest
 
+from tvimdesign.base.errors import CatalogError
 from tvimdesign.catalog import SHELVES, Catalog, check_records
-from tvimdesign.errors import CatalogError
 
 CATALOG = Catalog()
 EVERY_RECORD = [(shelf, name) for shelf in SHELVES for name in CATALOG.names(shelf)]

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from tvimdesign.base.errors import CatalogError
 from tvimdesign.catalog import Catalog, check_records
-from tvimdesign.errors import CatalogError
 
 GOOD = """
 title: A module I measured

@@ -8,8 +8,8 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Supplied, Table, table_for
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.simulation.cycle import Simulator, Switch
+from tvimdesign.simulation.device_functions import Model
 from tvimdesign.study import given, read_study_text
 
 POINTS = ("cold", "hot")

@@ -5,9 +5,9 @@ import pytest
 from test_derivatives import differences, event_gradient
 
 from tvimdesign.device import table_for
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator, Switch
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.cycle import Simulator, Switch
+from tvimdesign.simulation.device_functions import Model
 
 TABLE = table_for("compression")
 EVENTS = ("far_face_time", "softening_time")

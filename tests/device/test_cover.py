@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, table_for
-from tvimdesign.errors import InputError
-from tvimdesign.solve.limits import limits_of, refuse_impossible
+from tvimdesign.solve.nlp.constraints import limits_of, refuse_impossible
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3

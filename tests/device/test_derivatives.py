@@ -7,10 +7,10 @@ import pytest
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table, table_for
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator, Switch
-from tvimdesign.solve.transcription import guess, stage_block
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.cycle import Simulator, Switch
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.nlp.transcription import guess, stage_block
 
 Array = NDArray[np.float64]
 # Not the depth of a hub that has none: it has no share of itself by which it could be changed.

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tvimdesign.device import table_for
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.device_functions import Model
 
 TABLE = table_for("shear")
 Change = Callable[[dict[str, Any]], dict[str, Any]]

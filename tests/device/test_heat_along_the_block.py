@@ -8,7 +8,7 @@ from support import ROOT, fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.model import Model
+from tvimdesign.simulation.device_functions import Model
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study
 

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
-from tvimdesign.errors import InputError
 
 SHEAR, COMPRESSION = table_for("shear"), table_for("compression")
 LEFT = ["hold_angle", "pcl_relaxation", "set_angle", "backlash", "relaxation_loss"]

@@ -9,7 +9,7 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.limits import limits_of
+from tvimdesign.solve.nlp.constraints import limits_of
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from test_derivatives import event_gradient
 
-from tvimdesign.errors import InputError
-from tvimdesign.report import paper_case
-from tvimdesign.solve.sensitivity import Pair, Span, ratio
+from tvimdesign.base.errors import InputError
+from tvimdesign.report.paper import paper_case
+from tvimdesign.solve.sensitivity.ratio_sensitivity import Pair, Span, ratio
 
 EVENT = "mean_time"
 

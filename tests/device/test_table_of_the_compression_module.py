@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from support import USED_BY_PARTS, digits
 
+from tvimdesign.base.units import to_si
 from tvimdesign.device import Choice, Input, Output, Supplied, table_for
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Switch
-from tvimdesign.units import to_si
+from tvimdesign.simulation.cycle import Switch
+from tvimdesign.simulation.device_functions import Model
 
 TABLE = table_for("compression")
 OWN = [row for row in TABLE.rows if row.name not in table_for("shear").by_name and not isinstance(row, Choice)]

@@ -9,13 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import USED_BY_PARTS, digits
 
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import to_si
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, Supplied, Table, table_for
-from tvimdesign.device.rows import Extra
-from tvimdesign.errors import InputError
-from tvimdesign.solve.limits import refuse_impossible
+from tvimdesign.device.table.quantity import Extra
+from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.study import read_study_text
-from tvimdesign.units import to_si
 
 TABLE = table_for("shear")
 NUMBERS = [row for row in TABLE.rows if not isinstance(row, Choice)]
@@ -132,7 +132,7 @@ _BUILT: dict[str, Any] = {}
 
 
 def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
-    from tvimdesign.solve.model import Model
+    from tvimdesign.simulation.device_functions import Model
     from tvimdesign.study import given as resolve
 
     if not _BUILT:

@@ -7,7 +7,7 @@ import math
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Options, Study, read_study_text
 
 LISTED = """

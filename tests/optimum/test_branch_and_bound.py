@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tvimdesign.solve.branch import BranchAndBound
-from tvimdesign.solve.listed import Box, Sizes, is_one
-from tvimdesign.solve.run import Run
-from tvimdesign.solve.tree import Tree
+from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
+from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.nlp.solver_run import Run
 
 
 @dataclass

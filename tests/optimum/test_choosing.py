@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 from choosing import LISTED, by_brute_force, listed
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import InputError
-from tvimdesign.report.choosing import choosing_data, price_in_words, tally_in_words
-from tvimdesign.solve.enumeration import account_for_all, enumerate_all
-from tvimdesign.solve.least_cost import LeastCost
-from tvimdesign.solve.listed import listed_sizes
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.screen import Screen
+from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
+from tvimdesign.solve.discrete.discrete_choices import listed_sizes
+from tvimdesign.solve.discrete.enumeration import account_for_all, enumerate_all
+from tvimdesign.solve.discrete.feasibility_screen import Screen
+from tvimdesign.solve.discrete.least_cost import LeastCost
+from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.nlp.solution import Choosing, Solution, Work
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.solution import Choosing, Solution, Work
-from tvimdesign.solve.tree import Tree
 from tvimdesign.study import Study, given
 
 TABLE = table_for("shear")

@@ -5,8 +5,8 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
+from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.solution import Solution
 from tvimdesign.study import read_study_text
 
 SMALL = """

@@ -7,12 +7,12 @@ from functools import cache
 import numpy as np
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import InputError
+from tvimdesign.simulation.cycle import Simulator, Trajectory
+from tvimdesign.solve.nlp.solution import Held, Solution
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.simulate import Simulator, Trajectory
-from tvimdesign.solve.solution import Held, Solution
 from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")

@@ -13,14 +13,14 @@ from comparable import COMPRESSION, SHEAR
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.front import Front, completed, trace_front
-from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.run import Run
+from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import meaning
+from tvimdesign.solve.pareto.front import Front, completed, trace_front
+from tvimdesign.solve.pareto.tradeoff import Failure, Point, Tradeoff
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.solution import Solution
-from tvimdesign.solve.statuses import meaning
-from tvimdesign.solve.tradeoff import Failure, Point, Tradeoff
 from tvimdesign.study import Requirement, read_study_text
 
 TIME, MASS, SIZE = "response_time", "module_mass", "envelope_volume"

@@ -7,10 +7,10 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.contradiction import ranges_of
-from tvimdesign.solve.inspection import DERIVATIVE_TOLERANCE, Inspection
-from tvimdesign.solve.lower_bound import lower_bound
-from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.infeasibility.infeasibility_proof import ranges_of
+from tvimdesign.solve.infeasibility.inspection import DERIVATIVE_TOLERANCE, Inspection
+from tvimdesign.solve.infeasibility.lower_bound import lower_bound
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study_text
 
 TABLE = table_for("shear")

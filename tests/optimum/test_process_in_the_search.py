@@ -6,7 +6,7 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.answer import answer
+from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study_text
 
 STUDY = """

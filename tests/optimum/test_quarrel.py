@@ -6,13 +6,13 @@ import re
 
 import pytest
 
+from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import InfeasibleError
-from tvimdesign.solve.answer import Answer, answer
-from tvimdesign.solve.contradiction import contradiction, proved, ranges_of, refuse_contradiction
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.quarrel import SecondTry
+from tvimdesign.solve.infeasibility.conflict_set import SecondTry
+from tvimdesign.solve.infeasibility.infeasibility_proof import contradiction, proved, ranges_of, refuse_contradiction
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.result import Answer, answer
 from tvimdesign.study import Study, read_study_text
 
 TABLE = table_for("shear")

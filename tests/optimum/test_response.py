@@ -7,10 +7,10 @@ from support import ROOT
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.account import account
-from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.solve.nlp.solution import Held
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.verify_optimum import account
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.solution import Held
 from tvimdesign.study import Range, Study, read_study, read_study_text
 
 TABLE = table_for("shear")

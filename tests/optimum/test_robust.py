@@ -10,18 +10,18 @@ from numpy.typing import NDArray
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report.front import kept_at
-from tvimdesign.report.summary import _robustness
-from tvimdesign.report.trouble import complaint
-from tvimdesign.solve.answer import Answer, answer
-from tvimdesign.solve.front import Front, trace_front
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.rig import rig_of_design
-from tvimdesign.solve.run import Run
+from tvimdesign.report.run.front_report import kept_at
+from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.summary import _robustness
+from tvimdesign.simulation.resolved_module import rig_of_design
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.pareto.front import Front, trace_front
+from tvimdesign.solve.pareto.tradeoff import Tradeoff
+from tvimdesign.solve.result import Answer, answer
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.tolerance import Spread, Tolerancing
-from tvimdesign.solve.tradeoff import Tradeoff
-from tvimdesign.solve.yields import yields_of
+from tvimdesign.solve.uncertainty.tolerance import Spread, Tolerancing
+from tvimdesign.solve.uncertainty.yields import yields_of
 from tvimdesign.study import read_study_text
 
 ALGEBRAIC = """

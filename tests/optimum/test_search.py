@@ -9,13 +9,13 @@ import pytest
 from scipy.integrate import solve_ivp
 from support import ROOT
 
+from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import InfeasibleError, InputError
-from tvimdesign.solve.answer import answer
-from tvimdesign.solve.model import Model
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
-from tvimdesign.solve.solution import Solution
 from tvimdesign.study import Range, Study, given, read_study, read_study_text
 
 TABLE = table_for("shear")

@@ -21,7 +21,7 @@ from scipy.optimize import brentq
 from scipy.special import erf, erfc
 
 from tvimdesign.physics import heat, polymer
-from tvimdesign.study.model import SolverOptions
+from tvimdesign.study.study import SolverOptions
 
 Array = NDArray[np.float64]
 CELLS = SolverOptions().cells

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from tvimdesign.errors import InputError
+from tvimdesign.base.errors import InputError
 from tvimdesign.physics import viscoelasticity
 from tvimdesign.physics.polymer import maxwell_moduli
 from tvimdesign.physics.viscoelasticity import creep_compliance, relaxation_modulus, retardation

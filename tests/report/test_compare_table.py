@@ -12,10 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tvimdesign.device import MODES, Output, table_for
-from tvimdesign.device.book import directions
+from tvimdesign.device.table.quantity_group import directions
+from tvimdesign.report.compare.comparison_table import Row, compare_csv
 from tvimdesign.report.compare.sentence import against
-from tvimdesign.report.compare.table import Row, compare_csv
-from tvimdesign.solve.ranges import ALIKE
+from tvimdesign.solve.pareto.front_leads import ALIKE
 
 
 def row(

@@ -12,10 +12,10 @@ from PIL import Image
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report import figures
-from tvimdesign.report.canvas import png
-from tvimdesign.report.plot_data import plot_data
-from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.report.figures import run_figures
+from tvimdesign.report.figures.canvas import png
+from tvimdesign.report.run.run_plot_data import plot_data
+from tvimdesign.solve.result import Answer, answer
 from tvimdesign.study import read_study_text
 
 STUDIES = {
@@ -42,7 +42,7 @@ def data(found: Answer) -> dict[str, Any]:
 
 
 def drawn(name: str, data: dict[str, Any]) -> Figure:
-    figure: Figure = getattr(figures, name)(data[name])
+    figure: Figure = getattr(run_figures, name)(data[name])
     return figure
 
 

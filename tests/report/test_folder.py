@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from tvimdesign.errors import InputError
-from tvimdesign.report.folder import MANIFEST, ResultsFolder
+from tvimdesign.base.errors import InputError
+from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
 
 
 def test_a_folder_with_other_files_is_refused_even_to_overwrite(tmp_path: Path) -> None:

@@ -16,9 +16,9 @@ from rich.console import Console
 from support import ROOT, Command
 
 from tvimdesign.device import table_for
-from tvimdesign.report.front import front_csv, in_words, plain, print_front
-from tvimdesign.solve.front import Front
-from tvimdesign.solve.tradeoff import Failure, Point
+from tvimdesign.report.run.front_report import front_csv, in_words, plain, print_front
+from tvimdesign.solve.pareto.front import Front
+from tvimdesign.solve.pareto.tradeoff import Failure, Point
 from tvimdesign.study.design import read_design
 
 ASKED = SHEAR + "front: {of: [response_time, module_mass], points: 5}\n"

@@ -6,9 +6,9 @@ import json
 
 import pytest
 
-from tvimdesign.report import ledger, paper_claims
-from tvimdesign.report.ledger import findings
-from tvimdesign.report.paper_claims import claims
+from tvimdesign.report.paper import paper_check, paper_claims
+from tvimdesign.report.paper.paper_check import findings
+from tvimdesign.report.paper.paper_claims import claims
 
 
 @pytest.mark.parametrize(
@@ -45,5 +45,5 @@ def test_the_numbers_follow_the_stated_inputs(monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_scripts_get_json(capsys: pytest.CaptureFixture[str]) -> None:
-    ledger.print_ledger(as_json=True)
+    paper_check.print_ledger(as_json=True)
     assert len(json.loads(capsys.readouterr().out)) == 9

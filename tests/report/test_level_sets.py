@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from tvimdesign.errors import InputError
-from tvimdesign.report import level_sets
-from tvimdesign.report.level_sets import print_level_sets, write_level_sets
+from tvimdesign.base.errors import InputError
+from tvimdesign.report.paper import level_sets
+from tvimdesign.report.paper.level_sets import print_level_sets, write_level_sets
 
 pytestmark = pytest.mark.slow
 

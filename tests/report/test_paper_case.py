@@ -11,10 +11,10 @@ from support import ROOT
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report import paper_case
-from tvimdesign.report.paper_claims import claims
-from tvimdesign.solve.limits import limits_of
-from tvimdesign.solve.simulate import Simulator
+from tvimdesign.report.paper import paper_case
+from tvimdesign.report.paper.paper_claims import claims
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.solve.nlp.constraints import limits_of
 from tvimdesign.study import Study, given, read_study, read_study_text
 
 MODES = ("shear", "compression")
@@ -130,7 +130,7 @@ def test_the_ratio_can_turn_round() -> None:
 
 
 def test_the_table_and_the_figure_hold_every_input(tmp_path: Path) -> None:
-    from tvimdesign.report.level_sets import _in_cells, _table
+    from tvimdesign.report.paper.level_sets import _in_cells, _table
 
     (tmp_path / "case.csv").write_text(_table(_in_cells(paper_case.table_rows())))
     with (tmp_path / "case.csv").open(newline="") as stream:

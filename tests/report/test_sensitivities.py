@@ -11,10 +11,10 @@ from support import Command
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report.sensitivities import heat_map, sensitivities, sensitivities_csv
-from tvimdesign.solve.answer import answer
-from tvimdesign.solve.elasticity import Elasticities
-from tvimdesign.solve.rig import Rig
+from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
+from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.solve.result import answer
+from tvimdesign.solve.sensitivity.output_sensitivity import Elasticities
 from tvimdesign.study import read_study_text
 
 STUDY = """

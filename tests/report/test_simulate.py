@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from support import Command
 
-from tvimdesign.report.simulate import figure_data, findings, sheet_csv
-from tvimdesign.solve.trial import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.report.simulate_study import figure_data, findings, sheet_csv
+from tvimdesign.virtual_tests.test_result import Column, Finding, Line, Panel, Sheet, Trial
 
 SHEET = Sheet(
     "warm",

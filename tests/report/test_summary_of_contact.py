@@ -11,9 +11,9 @@ from rich.console import Console
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report.compare.plot_data import _from_where_it_moves
-from tvimdesign.report.summary import print_summary
-from tvimdesign.solve.answer import answer
+from tvimdesign.report.compare.comparison_plot_data import _from_where_it_moves
+from tvimdesign.report.run.summary import print_summary
+from tvimdesign.solve.result import answer
 from tvimdesign.study import drawn, read_study_text
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report.why import binding, sentences, slack, slack_in_words, why_csv, why_rows
-from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.report.run.why import binding, sentences, slack, slack_in_words, why_csv, why_rows
+from tvimdesign.solve.result import Answer, answer
 from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")

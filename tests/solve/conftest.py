@@ -9,8 +9,8 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Switch
+from tvimdesign.simulation.cycle import Switch
+from tvimdesign.simulation.device_functions import Model
 from tvimdesign.study import given, read_study_text
 
 Build = Callable[..., Model]

@@ -8,7 +8,7 @@ import switch
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.model import Model
+from tvimdesign.simulation.device_functions import Model
 from tvimdesign.study import given, read_study
 
 

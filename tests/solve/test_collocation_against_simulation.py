@@ -5,10 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Switch, Trajectory
-from tvimdesign.solve.transcription import guess, radau, stage_block
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.cycle import Switch, Trajectory
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.nlp.transcription import guess, radau, stage_block
 
 DESIGNS = ("as it is", "thin", "thick", "aluminium")
 EVENTS = ("near_face_time", "mean_time", "far_face_time", "response_time")

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.derivatives import derivatives_of
-from tvimdesign.solve.goal import Goal
-from tvimdesign.solve.optimizer import Optimizer
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.nlp.derivatives import derivatives_of
+from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study_text
 
 Array = NDArray[np.float64]

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from support import fine
 
-from tvimdesign.solve.drive import Drive, ramp_time
-from tvimdesign.solve.model import Model
+from tvimdesign.simulation.current_profile import Drive, ramp_time
+from tvimdesign.simulation.device_functions import Model
 
 currents = st.lists(st.floats(-20.0, 20.0), min_size=1, max_size=9).map(tuple)
 durations = st.floats(0.5, 5000.0)

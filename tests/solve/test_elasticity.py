@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from support import fine
 
+from tvimdesign.base.errors import SimulationError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import SimulationError
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.drive import Drive
-from tvimdesign.solve.elasticity import FINER, Elasticities, _solved, elasticities, entries
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.rig import Rig, rig_for
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.current_profile import Drive
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.resolved_module import Rig, rig_for
+from tvimdesign.solve.sensitivity.output_sensitivity import FINER, Elasticities, _solved, elasticities, entries
 from tvimdesign.study import read_study, read_study_text
 
 CELLS, ELEMENTS = 12, 12

@@ -10,9 +10,9 @@ from support import ROOT
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.contradiction import Ranges, ranges_of
-from tvimdesign.solve.enclosure import Enclosure
-from tvimdesign.solve.limits import on_switch
+from tvimdesign.solve.infeasibility.enclosure import Enclosure
+from tvimdesign.solve.infeasibility.infeasibility_proof import Ranges, ranges_of
+from tvimdesign.solve.nlp.constraints import on_switch
 from tvimdesign.study import read_study
 
 STUDIES = ["paper_shear", pytest.param("wrist_compression", marks=pytest.mark.slow)]

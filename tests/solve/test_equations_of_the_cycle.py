@@ -13,12 +13,12 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.problem import Problem
-from tvimdesign.solve.rig import rig_for
-from tvimdesign.solve.simulate import Switch
-from tvimdesign.solve.transcription import guess
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.cycle import Switch
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.resolved_module import rig_for
+from tvimdesign.solve.nlp.problem import Problem
+from tvimdesign.solve.nlp.transcription import guess
 from tvimdesign.study import read_study
 
 Array = NDArray[np.float64]

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tvimdesign.solve import front_shape as shape
-from tvimdesign.solve.front_shape import Frame
+from tvimdesign.solve.pareto import front_shape as shape
+from tvimdesign.solve.pareto.front_shape import Frame
 
 QUARTER = np.array([[1.0 - np.sin(a), 1.0 - np.cos(a)] for a in np.linspace(0.0, np.pi / 2.0, 9)])
 """A quarter circle that bulges towards the origin: its knee is half-way, at 45 degrees."""

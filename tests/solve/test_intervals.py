@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tvimdesign.solve import interval
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.enclosure import Walk
-from tvimdesign.solve.interval import Interval
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.infeasibility import interval
+from tvimdesign.solve.infeasibility.enclosure import Walk
+from tvimdesign.solve.infeasibility.interval import Interval
 
 NUMBERS = st.floats(-30.0, 30.0)
 SHARES = st.floats(0.0, 1.0)

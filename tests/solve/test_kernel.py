@@ -14,10 +14,10 @@ from support import ROOT, digits
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.elimination import newton_step
-from tvimdesign.solve.kernel import Kernel, of_columns, stacked
-from tvimdesign.solve.model import Model
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.batch.elimination import newton_step
+from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
 from tvimdesign.study import given, read_study
 
 ONE: dict[str, tuple[Callable[[float], float], list[float]]] = {

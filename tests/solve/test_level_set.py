@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from tvimdesign.report.ledger import published_model
-from tvimdesign.solve.level_set import PLACES, LevelSet, _root, level_set
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator
+from tvimdesign.report.paper.paper_check import published_model
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, _root, level_set
 
 WANTED = 70.0
 THICKNESSES = [0.2e-3, 0.6e-3, 2e-3]

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.physics import motion, one_sided
 from tvimdesign.physics.one_sided import Blocks
-from tvimdesign.solve import contact, link
+from tvimdesign.virtual_tests.link_motion import contact, link
 
 Array = NDArray[np.float64]
 INERTIA, SPRINGS = 4.156e-4, 5.61  # the paper's table I

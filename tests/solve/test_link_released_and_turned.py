@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tvimdesign.physics import motion
-from tvimdesign.solve import link
-from tvimdesign.solve.linear import doubling, times_of
+from tvimdesign.virtual_tests.link_motion import link
+from tvimdesign.virtual_tests.link_motion.linear_system import doubling, times_of
 
 Array = NDArray[np.float64]
 INERTIA, SPRINGS = 4.156e-4, 5.61  # the paper's table I

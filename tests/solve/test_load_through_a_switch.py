@@ -9,13 +9,21 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import InputError
 from tvimdesign.physics import slices
-from tvimdesign.solve.rig import rig_for
-from tvimdesign.solve.switch_load import Carried, Changing, SliceHistory, carry, changing, slice_histories, support_of
+from tvimdesign.simulation.resolved_module import rig_for
 from tvimdesign.study import read_study_text
+from tvimdesign.virtual_tests.joint_tests.load_through_cycle import (
+    Carried,
+    Changing,
+    SliceHistory,
+    carry,
+    changing,
+    slice_histories,
+    support_of,
+)
 
 Array = NDArray[np.float64]
 SPRINGS, STRUCTURE, INERTIA, LOAD = 5.61, 919.0, 4.156e-4, 0.5834

@@ -8,13 +8,15 @@ import pytest
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.physics import polymer
-from tvimdesign.solve import motion
-from tvimdesign.solve.bench import finding, with_paper_points
-from tvimdesign.solve.history import fractions_at
-from tvimdesign.solve.rig import Rig, rig_for
-from tvimdesign.solve.switch_load import SliceHistory
-from tvimdesign.solve.trial import Trial
+from tvimdesign.simulation.melt_history import fractions_at
+from tvimdesign.simulation.resolved_module import Rig, rig_for
 from tvimdesign.study import read_study, read_study_text
+from tvimdesign.virtual_tests.joint_tests import release as release_test
+from tvimdesign.virtual_tests.joint_tests import sine as sine_test
+from tvimdesign.virtual_tests.joint_tests import step_test
+from tvimdesign.virtual_tests.joint_tests.load_through_cycle import SliceHistory
+from tvimdesign.virtual_tests.joint_tests.test_case import finding, with_paper_points
+from tvimdesign.virtual_tests.test_result import Trial
 
 STUDY = Path(__file__).parents[2] / "studies" / "paper_as_published.yaml"
 POINTS = ("cold", "melting", "hot")
@@ -27,12 +29,12 @@ def rig() -> Rig:
 
 @pytest.fixture(scope="module")
 def release(rig: Rig) -> Trial:
-    return motion.release(rig)
+    return release_test.release(rig)
 
 
 @pytest.fixture(scope="module")
 def sine(rig: Rig) -> Trial:
-    return motion.sine(rig)
+    return sine_test.sine(rig)
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +43,7 @@ def step(rig: Rig) -> Trial:
     heat = np.clip(times / 20.0, 0.0, 1.0)
     temperatures = np.array([303.15 + 70.0 * heat, 303.15 + 65.0 * heat])
     fractions = np.array([1.0 - np.clip((heat - 0.4) / 0.3, 0.0, 1.0)] * 2)
-    return motion.step(rig, history=SliceHistory(times, temperatures, fractions))
+    return step_test.step(rig, history=SliceHistory(times, temperatures, fractions))
 
 
 def test_interval_of_a_finding_spans_all_histories() -> None:
@@ -123,7 +125,7 @@ def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(rig: 
     rate, other = np.log(20.0) / value(release, "settling_time@hot"), -slow
     apart = np.sqrt((0.5 / rate + 0.5 / other - 2.0 / (rate + other)) * 2.0 * rate)
     assert value(release, "kelvin_voigt_difference@hot") == pytest.approx(apart, rel=0.02)
-    bare = motion.release(rig, kelvin_voigt=False)
+    bare = release_test.release(rig, kelvin_voigt=False)
     assert not any("kelvin" in finding.name for finding in bare.findings)
     assert not any("kelvin" in column.name for sheet in bare.sheets for column in sheet.columns)
 
@@ -131,7 +133,7 @@ def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(rig: 
 def test_frozen_joint_that_would_break_is_said(rig: Rig, release: Trial) -> None:
     assert value(release, "held_torque@cold") > rig.row("holding_torque")
     assert any("bears" in note and "cold" in note for note in release.notes)
-    assert not any("bears" in note for note in motion.release(rig, angle=1e-3).notes)
+    assert not any("bears" in note for note in release_test.release(rig, angle=1e-3).notes)
 
 
 @pytest.mark.parametrize("point", POINTS)

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.enclosure import Enclosure
-from tvimdesign.solve.limits import Limit
-from tvimdesign.solve.paving import Goal, Paver
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.infeasibility.enclosure import Enclosure
+from tvimdesign.solve.infeasibility.interval_search import Goal, Paver
+from tvimdesign.solve.nlp.constraints import Limit
 
 LOW, HIGH = np.array([1.0, 1.0]), np.array([10.0, 10.0])
 

@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import InputError
 from tvimdesign.physics import polymer
-from tvimdesign.solve import oscillation, transient
-from tvimdesign.solve.history import fractions_at, frozen_on_cooling, melting_range
-from tvimdesign.solve.rig import Rig, rig_for
-from tvimdesign.solve.specimen import specimen, specimens
-from tvimdesign.solve.trial import Finding, Trial
-from tvimdesign.solve.trials import TESTS, find_test
+from tvimdesign.simulation.melt_history import fractions_at, frozen_on_cooling, melting_range
+from tvimdesign.simulation.resolved_module import Rig, rig_for
 from tvimdesign.study import read_study_text
+from tvimdesign.virtual_tests.registry import TESTS, find_test
+from tvimdesign.virtual_tests.rheometer import oscillation, transient
+from tvimdesign.virtual_tests.rheometer.specimen import specimen, specimens
+from tvimdesign.virtual_tests.test_result import Finding, Trial
 
 CELSIUS = 273.15
 Done = Callable[[str], Trial]

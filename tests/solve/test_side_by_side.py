@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.side_by_side import PENALTY, Found, SideBySide
-from tvimdesign.solve.systems import solve_definite
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.discrete.side_by_side import PENALTY, Found, SideBySide
+from tvimdesign.solve.discrete.systems import solve_definite
 
 
 @pytest.fixture(scope="module")

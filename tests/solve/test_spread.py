@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from tvimdesign.solve import spread
-from tvimdesign.solve.spread import Contributor
+from tvimdesign.solve.nlp import spread
+from tvimdesign.solve.nlp.spread import Contributor
 
 PARTS = [Contributor("a", 1.0, 0.3), Contributor("b", 2.0, 0.3, "uniform"), Contributor("c", -1.0, 0.2, sigma=2.0)]
 SLOPES = np.array([[2.0, -3.0, 1.0], [0.0, 0.0, 5.0]])

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.stats import qmc
 from support import ROOT
 
-from tvimdesign.solve.starting_points import FEW, unit_points
+from tvimdesign.solve.optimizer.starting_points import FEW, unit_points
 
 
 def _points(starts: int, size: int, seed: int, count: int) -> np.ndarray:
@@ -38,7 +38,8 @@ def test_many_points_fill_every_slice_of_every_range() -> None:
 
 def test_few_starts_leave_the_sobol_sequence_unloaded() -> None:
     code = (
-        "import sys; from tvimdesign.solve import search; from tvimdesign.solve.starting_points import unit_points; "
+        "import sys; from tvimdesign.solve import search; "
+        "from tvimdesign.solve.optimizer.starting_points import unit_points; "
         "next(unit_points(16, 3, 1)); assert 'scipy' not in sys.modules"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=False)

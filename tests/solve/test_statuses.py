@@ -7,7 +7,7 @@ from pathlib import Path
 
 import casadi
 
-from tvimdesign.solve.statuses import MEANINGS, meaning
+from tvimdesign.solve.optimizer.statuses import MEANINGS, meaning
 
 
 def _statuses() -> set[str]:

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import InputError
-from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.solve.result import Answer, answer
 from tvimdesign.study import read_study_text
 
 # Half a millimetre with a strong sink: at 30 degC and 1 Hz the supercooled melt alone is within twice a soft target.

@@ -13,9 +13,9 @@ from scipy.integrate import solve_ivp
 from support import fine
 
 from tvimdesign.physics import polymer
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Simulator, Switch
-from tvimdesign.solve.stage_model import StageModel
+from tvimdesign.simulation.cycle import Simulator, Switch
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.phase_model import StageModel
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "sink")

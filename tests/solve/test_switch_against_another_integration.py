@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.integrate import simpson, solve_ivp
 from support import fine
 
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Switch
+from tvimdesign.simulation.cycle import Switch
+from tvimdesign.simulation.device_functions import Model
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "thick", "aluminium", "sink")

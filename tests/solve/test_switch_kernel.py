@@ -10,9 +10,9 @@ from support import ROOT, fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.simulate import Switch
-from tvimdesign.solve.switch_kernel import Pace, SwitchKernel
+from tvimdesign.simulation.cycle import Switch
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.batch.cycle_kernel import Pace, SwitchKernel
 from tvimdesign.study import given, read_study
 
 Build = Callable[..., Model]

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tvimdesign.solve.backend import ca
-from tvimdesign.solve.symbols import Symbols, symbols
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.symbols import Symbols, symbols
 
 WRITTEN: dict[str, Callable[[Any], Any]] = {
     "arithmetic of entries": lambda x: (x[0] + 2.0) * x[1] - 3.0 / x[2] + x[1] ** 2 - 2 ** x[0] + (-x[2]),

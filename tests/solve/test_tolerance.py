@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.errors import InputError
-from tvimdesign.solve.contributors import contributors_of
-from tvimdesign.solve.many import ManyModules
-from tvimdesign.solve.model import Model
-from tvimdesign.solve.moments import moments
-from tvimdesign.solve.rig import Rig, rig_for
-from tvimdesign.solve.tolerance import Tolerancing
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.resolved_module import Rig, rig_for
+from tvimdesign.solve.batch.batch_model import ManyModules
+from tvimdesign.solve.nlp.moments import moments
+from tvimdesign.solve.uncertainty.contributors import contributors_of
+from tvimdesign.solve.uncertainty.tolerance import Tolerancing
 from tvimdesign.study import read_study_text
 
 SPRINGS = "  wire_diameter: 0.025 mm\n  coil_diameter: {row: coil_diameter_tolerance}\n  spring_youngs_modulus: 1 %\n"

@@ -11,17 +11,19 @@ from support import ROOT
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.physics import one_sided
-from tvimdesign.report.tables import results
-from tvimdesign.solve import contact, link, motion, touch
-from tvimdesign.solve.answer import answer
-from tvimdesign.solve.bench import Case, cases
-from tvimdesign.solve.course import OneSided
-from tvimdesign.solve.release import contact_seen
-from tvimdesign.solve.rig import Rig, rig_for
-from tvimdesign.solve.switch_load import SliceHistory
-from tvimdesign.solve.trial import Sheet, Trial
-from tvimdesign.solve.trials import TESTS, find_test
+from tvimdesign.report.output.tables import results
+from tvimdesign.simulation.resolved_module import Rig, rig_for
+from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
+from tvimdesign.virtual_tests.joint_tests import joint_motion, step_test
+from tvimdesign.virtual_tests.joint_tests import release as release_test
+from tvimdesign.virtual_tests.joint_tests.load_through_cycle import SliceHistory
+from tvimdesign.virtual_tests.joint_tests.release import contact_seen
+from tvimdesign.virtual_tests.joint_tests.test_case import Case, cases
+from tvimdesign.virtual_tests.link_motion import contact, link
+from tvimdesign.virtual_tests.link_motion.contact_simulation import OneSided
+from tvimdesign.virtual_tests.registry import TESTS, find_test
+from tvimdesign.virtual_tests.test_result import Sheet, Trial
 
 POINTS = ("cold", "melting", "hot")
 
@@ -112,7 +114,7 @@ def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(name: str, rig: Rig, 
     last = first + int(np.argmin(free[first:]))
     way = one.column("angle").values[first] - one.column("angle").values[last]
     case = case_of(rig, name)
-    gap = touch.gap(case, touch.held(case, 0.1, 10.0))
+    gap = joint_motion.gap(case, joint_motion.held(case, 0.1, 10.0))
     assert 0.9 * gap < way <= gap * (1.0 + 1e-9)
 
 
@@ -120,7 +122,7 @@ def test_link_that_rattles_on_is_said_to(rig: Rig, trial: Callable[[str], Trial]
     # A hot link has nothing but lossless springs over most of its way, and a frozen one hardly any damping.
     assert not np.isfinite(value(trial("release"), "settling_time@hot"))
     assert any(note.startswith("At cold and hot the link still swings") for note in trial("release").notes)
-    assert not any("still swings" in note for note in motion.release(with_rows(rig, parting_share=0.0)).notes)
+    assert not any("still swings" in note for note in release_test.release(with_rows(rig, parting_share=0.0)).notes)
 
 
 def test_loop_that_is_drawn_is_the_first_swing(trial: Callable[[str], Trial]) -> None:
@@ -181,7 +183,7 @@ def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
     study = read_study(ROOT / "studies" / "paper_as_published.yaml")
     shear = rig_for(study, Catalog(), table_for("shear"))
     assert all(ends == (0.0, 0.0, 0.0) for ends in contact_seen(shear).values())
-    release = motion.release(shear)
+    release = release_test.release(shear)
     for point in POINTS:
         assert value(release, f"backlash@{point}") == 0.0
         assert value(release, f"contact_lost@{point}") == 0.0
@@ -190,7 +192,7 @@ def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
 
 def test_blocks_that_could_not_part_are_released_as_the_linear_link_is(rig: Rig) -> None:
     bonded = with_rows(rig, parting_share=0.0)
-    release = motion.release(bonded, kelvin_voigt=False)
+    release = release_test.release(bonded, kelvin_voigt=False)
     case = case_of(bonded, "hot")
     linear = link.released(case.joint, case.modes, 0.1, link.held(case.joint, case.modes, 0.1, 10.0))
     assert sheet(release, "release_hot").column("angle").values == pytest.approx(linear.angle, abs=1e-12)
@@ -200,7 +202,7 @@ def test_blocks_that_could_not_part_are_released_as_the_linear_link_is(rig: Rig)
 @pytest.mark.parametrize("name", ["cold", "hot"])
 def test_blocks_squeezed_beyond_the_swing_are_the_linear_link_with_both_senses(rig: Rig, name: str) -> None:
     case = case_of(rig, name)
-    blocks, joint = touch.blocks_of(case), case.joint
+    blocks, joint = joint_motion.blocks_of(case), case.joint
     # No hold: melt that is squeezed lets go of that as well.
     held = contact.held(joint, blocks, 0.01, 0.0, precompression=50.0)
     moved = contact.released(joint, blocks, 0.01, held)
@@ -219,9 +221,9 @@ def test_blocks_that_do_not_relax_swing_as_one_spring_and_lose_no_contact(rig: R
     stiffness = 4e3
     elastic = replace(rig, values={**rig.values, "pcl_modes@cold": [(1e16, 3e3), (1e16, 1e3)]})
     case = case_of(elastic, "cold")
-    internal = touch.held(case, 0.1, 10.0)
-    assert touch.gap(case, internal) == pytest.approx(0.0, abs=1e-15)
-    moved = touch.released(case, 0.1, internal)
+    internal = joint_motion.held(case, 0.1, 10.0)
+    assert joint_motion.gap(case, internal) == pytest.approx(0.0, abs=1e-15)
+    moved = joint_motion.released(case, 0.1, internal)
     support, springs = rig.row("elastic_support"), rig.row("spring_stiffness")
     rate = np.sqrt((springs + stiffness * support / (stiffness + support)) / rig.row("moving_inertia"))
     assert moved.motion.angle == pytest.approx(0.1 * np.cos(rate * moved.motion.times), abs=1e-7)
@@ -241,9 +243,9 @@ def test_sine_pushes_molten_blocks_aside_and_keeps_frozen_ones(rig: Rig, trial: 
 @pytest.mark.parametrize("name", ["cold", "hot"])
 def test_step_presses_the_blocks_ahead_throughout_and_none_behind(rig: Rig, name: str) -> None:
     case = case_of(rig, name)
-    moved = touch.turned(case, 0.104, 0.01, [(1e-3, 50), (1.0, 50)])
+    moved = joint_motion.turned(case, 0.104, 0.01, [(1e-3, 50), (1.0, 50)])
     internal = [*moved.motion.internal, *np.zeros_like(moved.motion.internal)]
-    ahead, behind = one_sided.pulls(moved.motion.angle, internal, touch.blocks_of(case))
+    ahead, behind = one_sided.pulls(moved.motion.angle, internal, joint_motion.blocks_of(case))
     assert np.all(ahead[1:] > -1e-9 * np.max(ahead))
     assert np.all(behind[1:] < 0.0)
     assert np.array_equal(moved.touching, np.array([[True], [False]]).repeat(len(moved.motion.times), axis=1))
@@ -255,19 +257,19 @@ def test_load_through_a_switch_leaves_a_gap_and_not_a_pose(rig: Rig) -> None:
     heat = np.clip(np.minimum(times / 15.0, (60.0 - times) / 15.0), 0.0, 1.0)
     temperatures = 303.15 + 70.0 * np.array([heat, heat])
     fractions = np.array([1.0 - np.clip((heat - 0.4) / 0.3, 0.0, 1.0)] * 2)
-    step = motion.step(rig, history=SliceHistory(times, temperatures, fractions))
+    step = step_test.step(rig, history=SliceHistory(times, temperatures, fractions))
     assert value(step, "unloaded_angle") == 0.0
     assert value(step, "unloaded_backlash") == pytest.approx(0.104, rel=1e-2)
     layer = sheet(step, "step_of_impedance").column("layer_torque").values
     assert np.min(layer) > -1e-6 * np.max(layer)  # the integration is as exact
-    bonded = motion.step(with_rows(rig, parting_share=0.0), history=SliceHistory(times, temperatures, fractions))
+    bonded = step_test.step(with_rows(rig, parting_share=0.0), history=SliceHistory(times, temperatures, fractions))
     assert value(bonded, "unloaded_angle") == pytest.approx(0.104, rel=0.05)
     assert value(bonded, "unloaded_backlash") == 0.0
 
 
 def test_average_weighs_each_value_with_the_time_it_lasts(rig: Rig) -> None:
     case = case_of(rig, "cold")
-    moved = touch.turned(case, 0.1, 0.24, [(1.0, 2)])
+    moved = joint_motion.turned(case, 0.1, 0.24, [(1.0, 2)])
     found = OneSided(moved.motion, moved.touching, ())
     values = np.where(moved.motion.times < 0.24 - 1e-9, 5.0, 2.0)
     assert found.average(values, 0.0, 2.24) == pytest.approx((5.0 * 0.24 + 2.0 * 2.0) / 2.24, rel=1e-9)

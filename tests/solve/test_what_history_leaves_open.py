@@ -5,7 +5,7 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.answer import Answer, answer
+from tvimdesign.solve.result import Answer, answer
 from tvimdesign.study import read_study_text
 
 KELVIN = 273.15

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
+from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.device import Choice, Event, Input, Output, Table
 from tvimdesign.device import Path as PathRow
-from tvimdesign.device.stages import STAGES
-from tvimdesign.errors import CatalogError, InputError
+from tvimdesign.device.table.phases import STAGES
 from tvimdesign.study import Study, StudyError, read_study_text
 
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tvimdesign.errors import InputError
-from tvimdesign.study import Study, StudyError, read_study, yaml_text
+from tvimdesign.base.errors import InputError
+from tvimdesign.study import Study, StudyError, read_study
+from tvimdesign.study.text import yaml_text
 
 LIMIT = 1.0
 """Seconds; the slowest of these takes a tenth."""

@@ -5,7 +5,7 @@ import pytest
 import yaml
 
 from tvimdesign.device import MODES, Output, table_for
-from tvimdesign.solve.limits import limits_of
+from tvimdesign.solve.nlp.constraints import limits_of
 from tvimdesign.study import StudyError, read_study_text
 from tvimdesign.study.schema import json_schema
 

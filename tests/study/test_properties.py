@@ -8,7 +8,7 @@ from hypothesis import given as given_that
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from tvimdesign.errors import InputError
+from tvimdesign.base.errors import InputError
 from tvimdesign.study import Study, StudyError, read_study
 
 Read = Callable[..., Study]

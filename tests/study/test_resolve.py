@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.device import Table
-from tvimdesign.errors import InputError
 from tvimdesign.study import Study, given
 
 Read = Callable[..., Study]

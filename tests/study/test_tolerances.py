@@ -6,10 +6,10 @@ from statistics import NormalDist
 
 import pytest
 
+from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import MODES, Input, table_for
 from tvimdesign.study import Robust, Study, StudyError, read_study_text, standard_tolerances
-from tvimdesign.study.tolerances import standard_entries
-from tvimdesign.units import parse_quantity
+from tvimdesign.study.sections.tolerances import standard_entries
 
 SEARCH = "vary: {current: [0.5 A, 2 A]}\nminimize: module_mass\n"
 

@@ -17,14 +17,14 @@ from pathlib import Path
 from typing import IO, Any
 
 import tvimdesign
-from tvimdesign.cad.outcome import CadReport, Check
-from tvimdesign.errors import GeometryError, InputError
+from tvimdesign.base.errors import GeometryError, InputError
+from tvimdesign.cad.cad_report import CadReport, Check
 
 TIMEOUT = 300.0
 """Seconds; a module takes about ten."""
 PART_TIMEOUT = 90.0
 """Seconds for one part with its files, or one set of checks; the longest takes two."""
-JOB = "tvimdesign.cad.job"
+JOB = "tvimdesign.cad.build.main"
 
 
 def make_cad(
@@ -40,9 +40,9 @@ def make_cad(
 
     `progress` is told each step. The files are written even where a check fails (`report.failed`), so that one can look
     at what collides. `job` is the module that is run as the child process: another one can change how parts are drawn
-    (`tvimdesign.cad.modes.MODULES`) and call this one's `main`. Raises GeometryError where a part cannot be built or
-    takes more than `part_timeout_s` [s], naming the part, once the files of the others are written; also where the
-    process crashes or `timeout_s` [s] have passed. Raises InputError where the design cannot be read.
+    (`MODULES` in `cad/assembly/module_parts.py`) and call this one's `main`. Raises GeometryError where a part cannot
+    be built or takes more than `part_timeout_s` [s], naming the part, once the files of the others are written; also
+    where the process crashes or `timeout_s` [s] have passed. Raises InputError where the design cannot be read.
     """
     out.mkdir(parents=True, exist_ok=True)
     state: dict[str, Any] = {"progress": "starting"}

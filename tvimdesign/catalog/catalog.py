@@ -6,11 +6,11 @@ from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 
+from tvimdesign.base.errors import CatalogError
+from tvimdesign.catalog.categories import SHELVES
 from tvimdesign.catalog.record import Record
-from tvimdesign.catalog.shelves import SHELVES
 from tvimdesign.catalog.validate import build_record
 from tvimdesign.catalog.yaml_file import read_tree
-from tvimdesign.errors import CatalogError
 
 _SHIPPED = Path(__file__).with_name("data")
 _MOST_PROBLEMS = 50

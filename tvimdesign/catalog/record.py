@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import Any
 
-from tvimdesign.errors import CatalogError
+from tvimdesign.base.errors import CatalogError
 
 STATUSES = ("measured", "datasheet", "handbook", "calibrated", "assumed")
 

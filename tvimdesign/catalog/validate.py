@@ -8,11 +8,11 @@ from difflib import get_close_matches
 from itertools import pairwise
 from typing import Any
 
-from tvimdesign import units
+from tvimdesign.base import units
+from tvimdesign.base.errors import UnitError
+from tvimdesign.catalog.categories import SHELVES, Columns
 from tvimdesign.catalog.record import STATUSES, Entry, Record, Sheet
-from tvimdesign.catalog.shelves import SHELVES, Columns
 from tvimdesign.catalog.yaml_file import Tree
-from tvimdesign.errors import UnitError
 
 _ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")
 _TABLE_FIELDS = ("columns", "rows", "source", "status", "range")

@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 import yaml
 
-from tvimdesign.errors import CatalogError
+from tvimdesign.base.errors import CatalogError
 
 Tree: TypeAlias = "str | list[Tree] | dict[str, Tree]"
 """Numbers stay text until their unit is known, so that no YAML rule turns 1:30 or 010 into something else."""

@@ -1,7 +1,7 @@
 """The module itself: parametric geometry, the modes, and the one table of variables and outputs."""
 
 from tvimdesign.device.modes import MODES, table_for
-from tvimdesign.device.rows import (
+from tvimdesign.device.table.quantity import (
     Choice,
     Event,
     Input,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from tvimdesign.device.rows import Table
-from tvimdesign.errors import InputError
+from tvimdesign.base.errors import InputError
+from tvimdesign.device.table.quantity import Table
 
 MODES = ("shear", "compression")
 """The modes a study may name."""
@@ -15,11 +15,11 @@ MODES = ("shear", "compression")
 def table_for(mode: str) -> Table:
     """Return the table of a mode; raises InputError for a mode that does not exist."""
     if mode == "shear":
-        from tvimdesign.device.shear.table import TABLE
+        from tvimdesign.device.shear.shear_table import TABLE
 
         return TABLE
     if mode == "compression":
-        from tvimdesign.device.compression.table import TABLE
+        from tvimdesign.device.compression.compression_table import TABLE
 
         return TABLE
     raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")

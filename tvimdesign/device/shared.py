@@ -2,43 +2,47 @@
 
 from __future__ import annotations
 
-from tvimdesign.device import (
-    adjuster,
-    bearing,
-    bodies,
-    cover,
-    drive,
-    drive_bodies,
-    drive_gaps,
-    flange,
-    gaps,
-    hold,
-    housing_inertia,
-    impedance,
+from tvimdesign.device.core import (
+    clearances,
+    creep_under_hold,
+    joint_impedance,
     layout,
+    mass_properties,
     materials,
-    motor,
-    process,
-    screws,
+    motor_choice,
     softening,
-    springs,
     stiffening,
-    thermal,
+    thermal_stack,
+    torsion_springs,
 )
+from tvimdesign.device.fixtures import bearing, cover, preload_adjuster, process, screws, sensor_flange
+from tvimdesign.device.motor import driven_inertia, motor_clearances, motor_layout, motor_mass_properties
 
-ROOMS = (materials, layout, springs, impedance, hold, thermal, softening, stiffening, bodies, gaps, process)
+ROOMS = (
+    materials,
+    layout,
+    torsion_springs,
+    joint_impedance,
+    creep_under_hold,
+    thermal_stack,
+    softening,
+    stiffening,
+    mass_properties,
+    clearances,
+    process,
+)
 BOOKS = (
     materials.book,
     process.limits,
     *(room.book for room in ROOMS[1:]),
     *screws.books,
     *bearing.books,
-    *adjuster.books,
+    *preload_adjuster.books,
     *cover.books,
-    *flange.books,
-    motor.book,
-    drive.book,
-    drive_bodies.book,
-    *drive_gaps.books,
-    housing_inertia.book,
+    *sensor_flange.books,
+    motor_choice.book,
+    motor_layout.book,
+    motor_mass_properties.book,
+    *motor_clearances.books,
+    driven_inertia.book,
 )

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.errors import InputError
+from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymer import Modes, maxwell_moduli
 
 

@@ -8,13 +8,13 @@ from typing import Any
 
 from rich.table import Table as Grid
 
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import from_si, pretty
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, table_for
-from tvimdesign.device.rows import Row
-from tvimdesign.errors import InputError
-from tvimdesign.report.tables import number
-from tvimdesign.report.talk import wide_console
-from tvimdesign.units import from_si, pretty
+from tvimdesign.device.table.quantity import Row
+from tvimdesign.report.output.progress import wide_console
+from tvimdesign.report.output.tables import number
 
 
 def print_rows(mode: str, match: str, as_json: bool) -> None:

@@ -6,20 +6,20 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
-from tvimdesign.errors import InfeasibleError, InputError
-from tvimdesign.solve.account import account
-from tvimdesign.solve.branch import BranchAndBound
-from tvimdesign.solve.contradiction import at_a_glance, refuse_contradiction
-from tvimdesign.solve.enumeration import account_for_all
-from tvimdesign.solve.listed import Box, Sizes, listed_records, listed_sizes, with_records
-from tvimdesign.solve.optimizer import Optimizer
-from tvimdesign.solve.quarrel import make_peace
-from tvimdesign.solve.reach import refuse_unreachable
-from tvimdesign.solve.run import Progress, Run
-from tvimdesign.solve.solution import Choosing, Quarrel, Solution, Standard, Work, YieldReached
-from tvimdesign.solve.tree import Tree, order
+from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, listed_records, listed_sizes, with_records
+from tvimdesign.solve.discrete.enumeration import account_for_all
+from tvimdesign.solve.discrete.relaxation import Tree, order
+from tvimdesign.solve.infeasibility.conflict_set import make_peace
+from tvimdesign.solve.infeasibility.infeasibility_proof import at_a_glance, refuse_contradiction
+from tvimdesign.solve.infeasibility.reach import refuse_unreachable
+from tvimdesign.solve.nlp.solution import Choosing, Quarrel, Solution, Standard, Work, YieldReached
+from tvimdesign.solve.nlp.solver_run import Progress, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.verify_optimum import account
 from tvimdesign.study import SolverOptions, Study
 
 Keep = Callable[[Optimizer, list[Run]], None]
@@ -83,7 +83,7 @@ def optimize(
 
 def _robust(tree: Tree, run: Run) -> Run:
     """The best run, sought again so that limits on times, too, are kept by modules that spread; told as its start."""
-    from tvimdesign.solve.robust import settle
+    from tvimdesign.solve.uncertainty.robust import settle
 
     sizes = {name: (float(size), float(size)) for name, size in run.start.choices.items() if name in tree.sizes.names}
     found = settle(tree.optimizer, run, sizes)
@@ -97,7 +97,7 @@ def _yield_reached(optimizer: Optimizer, run: Run) -> YieldReached | None:
     robust = optimizer.study.robust
     if robust is None or robust.share is None or not run.start.converged:
         return None
-    from tvimdesign.solve.yields import yields_of  # it loads the compiler
+    from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
 
     drawn = yields_of(optimizer).at(run.inputs)
     return YieldReached(drawn.residuals.shape[1], drawn.shares, drawn.together.share)

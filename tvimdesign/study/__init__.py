@@ -1,6 +1,9 @@
 """What the user writes: reads a study file, says everything that is wrong with it, and resolves it to numbers."""
 
-from tvimdesign.study.model import (
+from tvimdesign.study.reader import read_study, read_study_text
+from tvimdesign.study.resolve import drawn, given
+from tvimdesign.study.sections.tolerances import standard_tolerances
+from tvimdesign.study.study import (
     Options,
     ProfileOptions,
     Range,
@@ -12,11 +15,8 @@ from tvimdesign.study.model import (
     Vary,
     WriteOptions,
 )
-from tvimdesign.study.problems import Problem, StudyError
-from tvimdesign.study.reader import read_study, read_study_text
-from tvimdesign.study.resolve import drawn, given
 from tvimdesign.study.template import template_text
-from tvimdesign.study.tolerances import standard_tolerances
+from tvimdesign.study.text.mistakes import Problem, StudyError
 
 __all__ = [
     "Options",

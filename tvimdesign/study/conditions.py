@@ -14,14 +14,14 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog, Record
 from tvimdesign.device import Choice, Input, Table
-from tvimdesign.study.model import Range, Requirement, Study, Vary
-from tvimdesign.study.places import Places
-from tvimdesign.study.problems import Problem, StudyError
 from tvimdesign.study.resolve import given
-from tvimdesign.study.values import ROUNDING
-from tvimdesign.units import format_quantity
+from tvimdesign.study.study import Range, Requirement, Study, Vary
+from tvimdesign.study.text.mistakes import Problem, StudyError
+from tvimdesign.study.text.places import Places
+from tvimdesign.study.text.values import ROUNDING
 
 _OWN_GROUPS = ("Layout", "Springs")
 _OWN_CHOICES = ("spring_material",)

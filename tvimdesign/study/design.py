@@ -8,10 +8,10 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.whole_files import write_whole
 from tvimdesign.device import table_for
-from tvimdesign.errors import InputError
-from tvimdesign.files import write_whole
-from tvimdesign.study.files import ordinary_bytes, printable
+from tvimdesign.study.text.named_file import ordinary_bytes, printable
 
 MAX_BYTES = 10_000_000
 

@@ -10,19 +10,19 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Table, table_for
-from tvimdesign.errors import CatalogError, InputError
-from tvimdesign.study.files import printable
-from tvimdesign.study.goals import read_front, read_minimize, read_require
-from tvimdesign.study.model import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions
-from tvimdesign.study.problems import Problems, one_of, quoted, step
-from tvimdesign.study.settings import read_module, read_points
-from tvimdesign.study.source import check_characters, read_text
-from tvimdesign.study.tolerances import read_robust, read_tolerances
-from tvimdesign.study.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
-from tvimdesign.study.vary import check_against_module, read_vary, with_start
-from tvimdesign.study.yaml_text import Mapping, Node, Text, compose
+from tvimdesign.study.sections.goals import read_front, read_minimize, read_require
+from tvimdesign.study.sections.settings import read_module, read_points
+from tvimdesign.study.sections.tolerances import read_robust, read_tolerances
+from tvimdesign.study.sections.vary import check_against_module, read_vary, with_start
+from tvimdesign.study.study import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions
+from tvimdesign.study.text.mistakes import Problems, one_of, quoted, step
+from tvimdesign.study.text.named_file import printable
+from tvimdesign.study.text.source import check_characters, read_text
+from tvimdesign.study.text.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
+from tvimdesign.study.text.yaml_text import Mapping, Node, Text, compose
 
 SECTIONS = (
     "tvimdesign",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Table
-from tvimdesign.errors import CatalogError, InputError
-from tvimdesign.study.model import Options, ProfileOptions, Range, Study, Vary
+from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
 
 def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:

@@ -10,9 +10,9 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 
 from tvimdesign.device import MODES, Choice, Input, Output, Swing, Table, table_for
-from tvimdesign.study.model import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
-from tvimdesign.study.sizes import SIZES_SHELF
-from tvimdesign.study.tolerances import STANDARD, tolerance_rows
+from tvimdesign.study.sections.sizes import SIZES_SHELF
+from tvimdesign.study.sections.tolerances import STANDARD, tolerance_rows
+from tvimdesign.study.study import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
 
 SCHEMA_FILE = Path(__file__).with_name("schema.json")
 _NUMBER = r"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"

@@ -6,8 +6,8 @@ from math import cos, pi, sin
 
 import numpy as np
 
+from tvimdesign.cad.export.mesh import Array
 from tvimdesign.cad.inspection.rays import Triangles
-from tvimdesign.cad.mesh import Array
 
 _DIRECTIONS = 8
 """In half a turn; a straight gap is measured at most 2 % too wide."""

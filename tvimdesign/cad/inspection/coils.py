@@ -7,11 +7,11 @@ from math import cos, hypot, pi, sin
 
 import numpy as np
 
-from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.solids import polar
+from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil
 from tvimdesign.cad.inspection.finding import at_least, finding
-from tvimdesign.cad.outcome import Check
-from tvimdesign.cad.shapes import polar
-from tvimdesign.cad.springs import Coil, free_coil, installed_coil
 
 TIGHT = 0.04
 """Of its inner diameter, what a coil should leave free around its post; handbook: Shigley, section 10-12, takes 5 %."""

@@ -12,10 +12,10 @@ from OCP.BRepClass3d import BRepClass3d_SolidClassifier
 from OCP.gp import gp_Pnt
 from OCP.TopAbs import TopAbs_State
 
-from tvimdesign.cad.features import Cylinder, upright_cylinders
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.export.mesh import Array
+from tvimdesign.cad.geometry.features import Cylinder, upright_cylinders
 from tvimdesign.cad.inspection.finding import at_most, finding
-from tvimdesign.cad.mesh import Array
-from tvimdesign.cad.outcome import Check
 
 _BESIDE = 0.01
 """How far beside an edge it is looked whether there is material [mm]."""

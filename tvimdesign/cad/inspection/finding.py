@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tvimdesign.cad.mesh import Array
-from tvimdesign.cad.outcome import Check, Level
+from tvimdesign.cad.cad_report import Check, Level
+from tvimdesign.cad.export.mesh import Array
 
 
 def at_least(value: float, limit: float, failing: float | None = None) -> Level:

@@ -6,12 +6,14 @@ from collections.abc import Iterator, Mapping
 
 import cadquery as cq
 
-from tvimdesign.cad.assembly import place
-from tvimdesign.cad.dimensions import Dimensions
-from tvimdesign.cad.export import instances
-from tvimdesign.cad.features import holes
-from tvimdesign.cad.inserts import insert_length
-from tvimdesign.cad.inserts import places as insert_places
+from tvimdesign.base.units import from_si
+from tvimdesign.cad.assembly.assembly import place
+from tvimdesign.cad.assembly.product_data import instances
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.export.mesh import solid_mesh
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.features import holes
+from tvimdesign.cad.geometry.production import MAKING
 from tvimdesign.cad.inspection.coils import coil_checks
 from tvimdesign.cad.inspection.corners import corner_checks, hole_check
 from tvimdesign.cad.inspection.finding import at_least, finding
@@ -20,13 +22,11 @@ from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles
 from tvimdesign.cad.inspection.walls import wall_checks
-from tvimdesign.cad.making import MAKING
-from tvimdesign.cad.mesh import solid_mesh
-from tvimdesign.cad.outcome import Check
-from tvimdesign.cad.parts import between_springs, link_screws, mounts
+from tvimdesign.cad.parts.common_parts import between_springs, link_screws, mounts
+from tvimdesign.cad.parts.insert_parts import insert_length
+from tvimdesign.cad.parts.insert_parts import places as insert_places
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
-from tvimdesign.units import from_si
 
 
 def part_checks(design: Design, dims: Dimensions, kind: str, solid: cq.Solid) -> list[Check]:

@@ -8,13 +8,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.cad.features import Cylinder
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.export.mesh import CHORD, Array
+from tvimdesign.cad.geometry.features import Cylinder
 from tvimdesign.cad.inspection.across import across
 from tvimdesign.cad.inspection.finding import at_most, finding
 from tvimdesign.cad.inspection.rays import Triangles
 from tvimdesign.cad.inspection.samples import Samples, samples
-from tvimdesign.cad.mesh import CHORD, Array
-from tvimdesign.cad.outcome import Check
 
 SPACING = 2.5
 """Between samples of the surface [mm]."""

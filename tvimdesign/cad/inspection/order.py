@@ -9,15 +9,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.cad.assembly_note import steps_of
-from tvimdesign.cad.dimensions import Dimensions
+from tvimdesign.cad.assembly.assembly_note import steps_of
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.export.mesh import Array, Instance, Mesh
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.inspection.finding import at_least, at_most, finding
 from tvimdesign.cad.inspection.rays import Triangles
 from tvimdesign.cad.inspection.samples import samples
-from tvimdesign.cad.kinds import kind_of
-from tvimdesign.cad.mesh import Array, Instance, Mesh
-from tvimdesign.cad.outcome import Check
-from tvimdesign.cad.parts import mounts
+from tvimdesign.cad.parts.common_parts import mounts
 
 SPACING = 2.0
 """Between samples of a part that is put in its place [mm]."""

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.cad.mesh import Array, Mesh
+from tvimdesign.cad.export.mesh import Array, Mesh
 
 Index = NDArray[np.int64]
 _LEAF = 4

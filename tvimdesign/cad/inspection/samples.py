@@ -8,8 +8,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.cad.export.mesh import Array
 from tvimdesign.cad.inspection.rays import Index, Triangles
-from tvimdesign.cad.mesh import Array
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
+from tvimdesign.cad.cad_report import Check, Level
+from tvimdesign.cad.export.mesh import CHORD, Array
 from tvimdesign.cad.inspection.finding import at_least, finding
 from tvimdesign.cad.inspection.rays import Triangles
 from tvimdesign.cad.inspection.samples import Samples, samples
-from tvimdesign.cad.mesh import CHORD, Array
-from tvimdesign.cad.outcome import Check, Level
 
 SPACING = 2.0
 """Between samples of the whole surface [mm]."""

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.bodies import book as bodies
-from tvimdesign.device.book import Book
-from tvimdesign.device.gaps import book as gaps
-from tvimdesign.device.impedance import book as impedance
-from tvimdesign.device.layout import book as layout
-from tvimdesign.device.rows import Scalar, at_least
+from tvimdesign.device.core.clearances import book as gaps
+from tvimdesign.device.core.joint_impedance import book as impedance
+from tvimdesign.device.core.layout import book as layout
+from tvimdesign.device.core.mass_properties import book as bodies
+from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.table.quantity_group import Book
 from tvimdesign.physics import peg, structure
 from tvimdesign.physics.shapes import Section, disc_at
 

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import tvimdesign
-from tvimdesign.errors import TvimError
-from tvimdesign.report.talk import Progress
+from tvimdesign.base.errors import TvimError
+from tvimdesign.report.output.progress import Progress
 
 AT_ONCE = 2
 """Children at a time: each has one thread, and the machines this is for have two cores or more."""
@@ -80,7 +80,8 @@ def _start(
     out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
     with errors.open("w") as stream:
         process = subprocess.Popen(
-            [sys.executable, "-m", "tvimdesign.report.compare.job", str(one.path.resolve()), str(out), str(points),
+            [sys.executable, "-m", "tvimdesign.report.compare.comparison_job", str(one.path.resolve()), str(out),
+             str(points),
              *(str(other.resolve()) for other in others)],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
             env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},

@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from tvimdesign.report.compare.table import Row
-from tvimdesign.report.tables import number
-from tvimdesign.solve.ranges import Lead
+from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.report.compare.comparison_table import Row
+from tvimdesign.report.output.tables import number
+from tvimdesign.solve.pareto.front_leads import Lead
 from tvimdesign.study.conditions import Entrant
-from tvimdesign.units import format_quantity, from_si, pretty
 
 _TIMES_FROM = 1.5
 """Ratio from which on people say `times` and not `%`."""

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from tvimdesign.device import Table
-from tvimdesign.solve.limits import in_words
-from tvimdesign.solve.spread import Yield
-from tvimdesign.solve.tolerance import Kept, Preload, Spread
+from tvimdesign.solve.nlp.constraints import in_words
+from tvimdesign.solve.nlp.spread import Yield
+from tvimdesign.solve.uncertainty.tolerance import Kept, Preload, Spread
 
 _GOOD = 0.9973
 """Yield from which a limit is no concern: three standard deviations to either side."""

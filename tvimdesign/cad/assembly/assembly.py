@@ -1,0 +1,121 @@
+"""Puts the parts together: every part built once, named, and placed with the rotor at an angle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from math import pi
+
+import cadquery as cq
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.kinds import MADE_TURNING
+from tvimdesign.cad.geometry.solids import polar, turned
+from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil, spring_solid
+from tvimdesign.cad.parts import (
+    adjuster_parts,
+    common_parts,
+    cover_parts,
+    insert_parts,
+    motor_parts,
+    purchased_parts,
+)
+from tvimdesign.study.design import Design
+
+Progress = Callable[[str], None]
+
+
+def build(design: Design, rotor_angle: float = 0.0, progress: Progress | None = None) -> dict[str, cq.Solid]:
+    """Build and place every part of the module, the rotor turned by `rotor_angle` [rad].
+
+    Returns the solids by name: `rotor`, `pcl_arc_1`, `spring_right_3` ... `progress` is told the part being built.
+    Copies of one part share their geometry. Raises GeometryError where a part cannot be built.
+    """
+    dims = dimensions(design)
+    return place(dims, drawn_parts(dims, progress), rotor_angle, progress)
+
+
+def drawn_parts(dims: Dimensions, progress: Progress | None = None) -> dict[str, cq.Solid]:
+    """Build one of every part but the springs, in the module's coordinates, by kind."""
+    return {kind: drawn_part(dims, kind, progress) for kind in MODULES[dims.mode].drawn(dims)}
+
+
+def drawn_part(dims: Dimensions, kind: str, progress: Progress | None = None) -> cq.Solid:
+    """Build one part that is no spring, in the module's coordinates."""
+    if dims.count("spring_count") % 2:
+        raise GeometryError(f"spring_count is {dims.spring_count:g}; half of them are left-hand, so it must be even")
+    return _built(kind, partial(MODULES[dims.mode].drawn(dims)[kind], dims), progress)
+
+
+def free_spring(dims: Dimensions, kind: str) -> cq.Solid:
+    """Build the spring as its maker delivers it, of the hand its kind says."""
+    right = _built("spring_right", lambda: spring_solid(free_coil(dims)), None)
+    return right if kind == "spring_right" else _left_of(right, None)
+
+
+def installed_coils(dims: Dimensions, rotor_angle: float = 0.0) -> dict[str, Coil]:
+    """Shape of the springs on their pins, by kind; the left-hand one is the mirror image of what is returned."""
+    return {"spring_right": installed_coil(dims, rotor_angle), "spring_left": installed_coil(dims, -rotor_angle)}
+
+
+def spring_locations(dims: Dimensions) -> dict[str, cq.Location]:
+    """Where the springs stand, by name."""
+    locations = {}
+    for index, azimuth in enumerate(dims.azimuths("spring_count")):
+        x, y = polar(dims.placement_radius, azimuth)
+        name = f"spring_{common_parts.hand_of(index)}_{index + 1}"
+        locations[name] = cq.Location(cq.Vector(x, y, 0), cq.Vector(0, 0, 1), azimuth * 180.0 / pi)
+    return locations
+
+
+def installed_springs(
+    dims: Dimensions, rotor_angle: float = 0.0, progress: Progress | None = None
+) -> dict[str, cq.Solid]:
+    """Build and place the springs on their pins, by name."""
+    coils = installed_coils(dims, rotor_angle)
+    right = _built("spring_right", lambda: spring_solid(coils["spring_right"]), progress)
+    # At rest one hand mirrors the other, so the sweep is shared.
+    same = coils["spring_left"] == coils["spring_right"]
+    mirrored = right if same else _built("spring_left", lambda: spring_solid(coils["spring_left"]), progress)
+    solids = {"right": right, "left": _left_of(mirrored, progress)}
+    return {name: solids[name.split("_")[1]].moved(location) for name, location in spring_locations(dims).items()}
+
+
+def place(
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0, progress: Progress | None = None
+) -> dict[str, cq.Solid]:
+    """Place the drawn parts, and the springs built for the rotor's angle, by name."""
+    placed = {"housing": turned(drawn["housing"], 0.0)}
+    placed |= {name: turned(drawn[name], rotor_angle) for name in MADE_TURNING}
+    placed |= purchased_parts.stand(dims, drawn, rotor_angle)
+    if dims.adjuster_radius:
+        placed |= adjuster_parts.stand(dims, drawn)
+    if dims.cover_height:
+        placed |= cover_parts.stand(dims, drawn)
+    placed |= insert_parts.stand(dims, drawn, rotor_angle)
+    placed |= motor_parts.stand(dims, drawn)
+    placed |= MODULES[dims.mode].stand(dims, drawn, rotor_angle)
+    return placed | installed_springs(dims, rotor_angle, progress)
+
+
+def _left_of(right: cq.Solid, progress: Progress | None) -> cq.Solid:
+    return _built("spring_left", lambda: right.mirror("XZ"), progress)
+
+
+def _built(name: str, draw: Callable[[], cq.Shape], progress: Progress | None) -> cq.Solid:
+    """Draw a part and return its one solid; raises GeometryError that names the part."""
+    if progress:
+        progress(name)
+    try:
+        shape = draw()
+    except GeometryError as error:
+        text = str(error)
+        raise GeometryError(text if text.startswith((f"{name}: ", "spring: ")) else f"{name}: {text}") from error
+    except Exception as error:  # OCC raises a dozen classes, and none of them names the part
+        raise GeometryError(f"{name}: the CAD kernel cannot build it ({type(error).__name__}: {error})") from error
+    solids = shape.Solids()
+    if len(solids) != 1 or not shape.isValid():
+        raise GeometryError(f"{name}: came out as {len(solids)} solids, {'' if shape.isValid() else 'not '}valid")
+    return solids[0]

@@ -1,0 +1,101 @@
+"""The note on putting a module together: what there is, the steps in order, and the pictures that show them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import degrees
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tvimdesign.cad.assembly import file_names
+from tvimdesign.cad.assembly.bill_of_materials import Item
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.kinds import KINDS
+from tvimdesign.cad.geometry.production import MAKING
+from tvimdesign.device import Input, Output, table_for
+from tvimdesign.study.design import Design
+
+_STEPS = Path(__file__).with_name("assembly_steps.yaml")
+
+
+def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item]) -> bytes:
+    """Write the note as Markdown."""
+    lines = [
+        f"# Putting together: {design.name}",
+        "",
+        f"![Parts in the order in which they go on]({file_names.EXPLODED})",
+        "",
+    ]
+    lines += ["## Parts", "", "| | part | quantity | | g each | g |", "|---|---|---|---|---|---|"]
+    for number, one in enumerate(items, start=1):
+        of = f"{'made of' if one.made else 'bought:'} {one.title}"
+        each = f"{one.mass:.2f} | {one.mass * one.quantity:.2f}"
+        lines.append(f"| {number} | {_words(one.kind)} | {one.quantity} | {of} | {each} |")
+    total = sum(one.mass * one.quantity for one in items)
+    lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{file_names.BILL_OF_MATERIALS}`.", ""]
+    lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
+    lines += [f"{number}. {text}" for number, text in enumerate(_steps(design, dims, items), start=1)]
+    lines += ["", f"![Cut through the axis]({file_names.SECTION})", ""]
+    return "\n".join(lines).encode()
+
+
+def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]:
+    """How the made parts are made: the structure by the process, what is of PCL printed or cut either way."""
+    is_milled = design.choices["making_method"] == "milled"
+    milled = [kind for kind in kinds if is_milled and KINDS[kind].material == "structure_material"]
+    lines = []
+    if milled:
+        listed = ", ".join(map(_words, milled)).capitalize()
+        lines += ["## Machining", "", f"{listed}: from `step/` by the sheets in `drawings/`, which carry the fits.", ""]
+    lines += ["## Printing", "", *(_printing(kind) for kind in kinds if kind not in milled), ""]
+    wider = f", with upright holes {dims.hole_compensation:g} mm wider" if dims.hole_compensation else ""
+    return [*lines, f"The files in `print/` lie so{wider}.", ""]
+
+
+def _printing(kind: str) -> str:
+    lying = "as it stands in the module" if MAKING[kind].down == "bottom" else "turned over"
+    return f"- {_words(kind)}: {lying}; {MAKING[kind].why}."
+
+
+def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]:
+    """Steps for the kinds this module has, and one for each kind that no step takes."""
+    wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, dims)]
+    known = _Figures(design, dims, {f"number_of_{one.kind}": one.quantity for one in items})
+    texts = [str(step["text"]).format_map(known) for step in wanted]
+    taken = {kind for step in wanted for kind in step["kinds"]}
+    return texts + [f"Fit the {_words(one.kind)} ({one.quantity})." for one in items if one.kind not in taken]
+
+
+def _is_for(step: Mapping[str, Any], dims: Dimensions) -> bool:
+    """Whether a step is for a module with these dimensions, beside its kinds of part."""
+    wanted = [getattr(dims, row) > 0.0 for row in step.get("where", ())]
+    unwanted = [getattr(dims, row) > 0.0 for row in step.get("unless", ())]
+    return all(wanted) and not any(unwanted)
+
+
+def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
+    """Steps of a module of these kinds of part, in order, as the data file has them."""
+    written: list[dict[str, Any]] = yaml.safe_load(_STEPS.read_text("utf-8"))
+    return [step for step in written if kinds.issuperset(step["kinds"])]
+
+
+class _Figures(dict[str, Any]):
+    """Rows by name as they are written in a text: lengths in mm, angles in degrees, counts as they are."""
+
+    def __init__(self, design: Design, dims: Dimensions, counts: Mapping[str, int]) -> None:
+        """`counts` are there beside the rows."""
+        super().__init__(counts)
+        self._dims = dims
+        rows: list[Input | Output] = [*table_for(design.mode).inputs, *table_for(design.mode).outputs]
+        self._angles = {row.name for row in rows if row.unit in {"rad", "deg"}}
+
+    def __missing__(self, name: str) -> str:
+        """Value of a row."""
+        value: float = getattr(self._dims, name)
+        return f"{degrees(value) if name in self._angles else value:.3g}"
+
+
+def _words(kind: str) -> str:
+    return kind.replace("_", " ")

@@ -1,0 +1,100 @@
+"""The child process that makes the parts: `python -m tvimdesign.cad.build.main DESIGN OUT`, a line of JSON for each step.
+
+It runs on its own because the CAD kernel can take a process with it, and starts a child of its own for every piece of
+work (`work.py`), because an operation of the kernel can hang.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import sys
+import tempfile
+import time
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TextIO
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
+from tvimdesign.base.whole_files import write_whole
+from tvimdesign.study.design import Design, read_design
+
+if TYPE_CHECKING:
+    from tvimdesign.cad.build.worker import Done
+
+
+def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
+    """Make what is not kept from before, put all files into `out`; tells `lines` each step, then what came of it."""
+
+    def say(**message: Any) -> None:
+        lines.write(json.dumps(message) + "\n")
+        lines.flush()
+
+    started = time.perf_counter()
+    design = read_design(design_path)
+    say(progress="loading the CAD kernel")
+    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.build.cache import Store, user_folder
+    from tvimdesign.cad.build.read_tracking import Subject
+    from tvimdesign.cad.build.worker import Workshop
+    from tvimdesign.cad.build.build_plan import PICTURES, works
+
+    with tempfile.TemporaryDirectory(prefix="tvimdesign.") as own:
+        store = Store(user_folder() or Path(own))
+        workshop = Workshop(Subject(design, _titles(design)), store, lambda step: say(progress=step), timeout_s)
+        done = workshop.do(works(dimensions(design)))
+        files = _hand_out(done, out)
+    pictures = done.failed.pop(PICTURES, "")
+    if done.failed:
+        without = [f"without it there is no {', '.join(done.lost)}"] if done.lost else []
+        kept = f"the other {len(files)} files are in {out}" if files else "no parts were made"
+        raise GeometryError("; ".join([*done.failed.values(), *without, kept]))
+    checks = [asdict(check) for result in done.results.values() for check in result.checks]
+    notes = [f"no pictures: {pictures}"] if pictures else []
+    say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
+
+
+def _titles(design: Design) -> dict[str, str]:
+    """What the catalogue calls the records a design was made of; a record that is not here has its name only."""
+    told = design.study.get("catalog_folder")
+    titles = {}
+    for row in table_for(design.mode).choices:
+        with contextlib.suppress(CatalogError):
+            if row.shelf and row.name in design.choices:
+                catalog = Catalog(Path(told) if told else None)
+                titles[row.name] = catalog.record(row.shelf, design.choices[row.name]).title
+    return titles
+
+
+def _hand_out(done: Done, out: Path) -> list[str]:
+    """Copy the results into the user's folder, each file whole; returns their names."""
+    files = []
+    for result in done.results.values():
+        for name in result.out:
+            (out / name).parent.mkdir(parents=True, exist_ok=True)
+            write_whole(out / name, (result.folder / "out" / name).read_bytes())
+            files.append(name)
+    return sorted(files)
+
+
+def main(arguments: list[str]) -> int:
+    """Run the job; returns the exit code. An error is a line of JSON too."""
+    # The kernel prints to standard output from C++; the parent reads only what is written to this copy of it.
+    lines = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)
+    try:
+        design_path, out = (Path(argument) for argument in arguments[:2])
+        run(design_path, out, float(arguments[2]), lines)
+    except TvimError as error:
+        lines.write(json.dumps({"error": str(error), "code": error.exit_code}) + "\n")
+        return error.exit_code
+    finally:
+        lines.flush()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,202 @@
+"""Does pieces of work in child processes, several at once, each with a time-out; what is kept is not done again.
+
+A child is forked once the CAD kernel is loaded, so that it starts at once. One that is stuck in the kernel, or crashes,
+is ended and named; what the others made is kept.
+"""
+
+from __future__ import annotations
+
+import multiprocessing as mp
+import os
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.build.cache import Result, Store
+from tvimdesign.cad.build.read_tracking import Reads, Subject
+from tvimdesign.base.errors import TvimError
+from tvimdesign.study.design import Design
+
+TIMEOUT = 90.0
+"""Seconds for one piece of work; the longest takes two."""
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Job:
+    """What a piece of work has before it."""
+
+    design: Design
+    dims: Dimensions
+    titles: Mapping[str, str]
+    """What the catalogue calls the chosen records, by row."""
+    needs: Mapping[str, Path]
+    """Folder `kept/` of each piece of work that this one needs."""
+    folder: Path
+    """Where to write: files for the user under `out/`, what other pieces of work need under `kept/`."""
+    progress: Progress
+
+
+@dataclass(frozen=True, kw_only=True)
+class Work:
+    """One piece of work: a part with its files, the assembly, a set of checks, the pictures."""
+
+    name: str
+    do: Callable[[Job], list[Check]]
+    """Writes its files; returns the checks it made. Raises GeometryError."""
+    needs: tuple[str, ...] = ()
+    named: bool = False
+    """Whether the design's name is written into its files."""
+
+
+@dataclass
+class Done:
+    """What came of all pieces of work."""
+
+    results: dict[str, Result] = field(default_factory=dict)
+    failed: dict[str, str] = field(default_factory=dict)
+    """Why, for each piece of work that came to nothing; it names the work."""
+    lost: list[str] = field(default_factory=list)
+    """Work that was not begun because what it needs failed."""
+    reused: list[str] = field(default_factory=list)
+
+
+@dataclass
+class _Running:
+    work: Work
+    process: BaseProcess
+    ear: Connection
+    folder: Path
+    deadline: float
+    step: str
+    told: dict[str, Any] | None = None
+
+
+class Workshop:
+    """Does pieces of work for one design."""
+
+    def __init__(
+        self, subject: Subject, store: Store, progress: Progress, timeout_s: float = TIMEOUT, hands: int | None = None
+    ) -> None:
+        """`hands` is how many pieces of work are in progress at once; as many as there are cores, at most four."""
+        self._subject, self._store, self._progress = subject, store, progress
+        self._timeout = timeout_s
+        self._hands = hands or min(os.cpu_count() or 1, 4)
+        ways = mp.get_all_start_methods()
+        self._context: Any = mp.get_context("fork" if "fork" in ways else "spawn")
+
+    def do(self, works: Sequence[Work]) -> Done:
+        """Do all pieces of work, each after those that it needs."""
+        done = Done()
+        waiting, running = list(works), list[_Running]()
+        try:
+            while waiting or running:
+                waiting = self._start(waiting, running, done)
+                self._listen(running, done)
+        finally:
+            for one in running:
+                _end(one.process)
+                self._store.discard(one.folder)
+        in_order = [work.name for work in works if work.name in done.results]
+        return Done({name: done.results[name] for name in in_order}, done.failed, done.lost, done.reused)
+
+    def _start(self, waiting: list[Work], running: list[_Running], done: Done) -> list[Work]:
+        """Start what can be started, settle what needs no doing; returns what is still waiting."""
+        left = []
+        for work in waiting:
+            if any(need in done.failed or need in done.lost for need in work.needs):
+                done.lost.append(work.name)
+            elif not all(need in done.results for need in work.needs):
+                left.append(work)
+            elif kept := self._store.find(work.name, self._subject, self._needs(work, done)):
+                done.results[work.name] = kept
+                done.reused.append(work.name)
+            elif len(running) < self._hands:
+                running.append(self._fork(work, done))
+            else:
+                left.append(work)
+        return left
+
+    def _needs(self, work: Work, done: Done) -> dict[str, Result]:
+        return {need: done.results[need] for need in work.needs}
+
+    def _fork(self, work: Work, done: Done) -> _Running:
+        self._progress(work.name)
+        ear, mouth = self._context.Pipe(duplex=False)
+        folder = self._store.fresh(work.name)
+        needs = {need: result.folder / "kept" for need, result in self._needs(work, done).items()}
+        process = self._context.Process(target=_child, args=(work, self._subject, needs, folder, mouth), daemon=True)
+        process.start()
+        mouth.close()
+        return _Running(work, process, ear, folder, time.monotonic() + self._timeout, work.name)
+
+    def _listen(self, running: list[_Running], done: Done) -> None:
+        """Wait until one of those at work says something, ends, or has taken too long."""
+        if not running:
+            return
+        first = min(one.deadline for one in running)
+        ready = wait([one.ear for one in running], timeout=max(0.0, first - time.monotonic()))
+        for one in list(running):
+            over = self._hear(one) if one.ear in ready else time.monotonic() >= one.deadline
+            if over:
+                running.remove(one)
+                self._settle(one, done)
+
+    def _hear(self, one: _Running) -> bool:
+        """Take in what a child said; returns whether it has come to its end."""
+        try:
+            message = one.ear.recv()
+        except (EOFError, OSError):
+            return True
+        if "step" in message:
+            one.step = message["step"]
+            self._progress(one.step if one.step == one.work.name else f"{one.work.name}: {one.step}")
+            return False
+        one.told = message
+        return True
+
+    def _settle(self, one: _Running, done: Done) -> None:
+        """Keep what a child made, or say why there is nothing."""
+        name = one.work.name
+        if one.told is None:
+            late = time.monotonic() >= one.deadline
+            if not late:
+                one.process.join(timeout=5.0)
+            why = f"no answer in {self._timeout:g} s" if late else f"its process ended with code {one.process.exitcode}"
+            at = "" if one.step == name else f" (at: {one.step})"
+            done.failed[name] = f"{name}: {why}{at}"
+        elif "error" in one.told:
+            done.failed[name] = one.told["error"]
+        else:
+            checks = [Check(**check) for check in one.told["checks"]]
+            reads: Reads = one.told["reads"]
+            done.results[name] = self._store.close(name, one.folder, reads, self._needs(one.work, done), checks)
+        _end(one.process, grace_s=0.0 if one.told is None else 5.0)
+        if name in done.failed:
+            self._store.discard(one.folder)
+
+
+def _child(work: Work, subject: Subject, needs: Mapping[str, Path], folder: Path, mouth: Connection) -> None:
+    """Do one piece of work and say what came of it."""
+    try:
+        design, dims, titles, reads = subject.watched(work.named)
+        checks = work.do(Job(design, dims, titles, needs, folder, lambda step: mouth.send({"step": step})))
+        mouth.send({"checks": [asdict(check) for check in checks], "reads": reads})
+    except TvimError as error:
+        mouth.send({"error": str(error) if str(error).startswith(work.name) else f"{work.name}: {error}"})
+    except Exception as error:  # the kernel raises a dozen classes, and none of them names the part
+        mouth.send({"error": f"{work.name}: cannot be made ({type(error).__name__}: {error})"})
+
+
+def _end(process: BaseProcess, grace_s: float = 0.0) -> None:
+    """Wait for a child that has said all it had to say; end one that has not."""
+    process.join(timeout=grace_s)
+    if process.is_alive():
+        process.kill()
+    process.join()

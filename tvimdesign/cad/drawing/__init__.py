@@ -1,0 +1,1 @@
+"""Workshop drawings and the spring maker's sheet: views, dimensions, fits, surfaces and edges."""

@@ -1,0 +1,180 @@
+"""What a spring maker needs: every number of the torsion springs with its tolerance, as a table and as a sheet."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import atan2, cos, degrees, radians, sin, tan
+
+from tvimdesign import __version__
+from tvimdesign.cad.drawing.drawing_sheet import SIZE, Field, Sheet, ratio
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
+from tvimdesign.study.design import Design
+
+_N_MM = 1e3
+_DIN = "DIN 2194 grade 2"
+_SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2)
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of the table."""
+
+    name: str
+    value: str
+    unit: str = ""
+    tolerance: str = ""
+    note: str = ""
+
+
+def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) -> list[Line]:
+    """All numbers of the spring, free and loaded."""
+    coil, tight = free_coil(dims), dims.spring_wound_diameter
+    d, mean = coil.wire_diameter, coil.diameter
+    spread, angle = 1e3 * design.value("coil_diameter_tolerance"), degrees(design.value("free_angle_tolerance"))
+    rate = design.value("spring_rate") * _N_MM * radians(1.0)
+    preload, full = degrees(dims.preload_angle), degrees(dims.spring_winding)
+    spread_torque = f"± {_figure(rate * angle)}"
+    material = design.choices["spring_material"]
+    half = dims.count("spring_count") // 2
+    return [
+        Line("wire", titles.get("spring_material", material), note=f"record {material}"),
+        Line("wire diameter d", _figure(d, 3), "mm", "of the wire's standard"),
+        Line("mean coil diameter D", _figure(mean), "mm", f"± {_figure(spread)}", _DIN),
+        Line("inside diameter", _figure(mean - d), "mm", f"± {_figure(spread)}", "follows from D and d"),
+        Line("outside diameter", _figure(mean + d), "mm", f"± {_figure(spread)}", "follows from D and d"),
+        Line("body coils n", _figure(coil.turns, 3), "", "by the free angle"),
+        Line("coils that bend", _figure(design.value("active_coils"), 3), "", "", "with the share of the leg"),
+        Line("gap between coils", _figure(coil.pitch - d), "mm", "", "coils must not rub"),
+        Line("body length, free", _figure(coil.pitch * coil.turns + d), "mm"),
+        Line("hand", f"{half} right, {half} left", "", "", "right: coils leave the eye clockwise"),
+        Line("leg, tangential", _figure(coil.leg_length / cos(coil.rise)), "mm", "± 0.5", "straight; assumed"),
+        Line("tang, parallel to the axis", _figure(coil.tang_length), "mm", "+ 0 / - 0.3", "assumed"),
+        Line("bend between coils and tang", _figure(d), "mm", "", "radius at the wire's centre"),
+        Line("free angle", _figure(_free_angle(coil)), "deg", f"± {_figure(angle)}",
+             f"from tang to leg around the axis; {_DIN}"),
+        Line("rate", _figure(rate, 3), "N.mm/deg"),
+        Line(f"torque M1 at {_figure(preload)} deg", _figure(rate * preload), "N.mm", spread_torque,
+             "preload; free-angle tolerance times rate"),
+        Line(f"torque M2 at {_figure(full)} deg", _figure(rate * full), "N.mm", spread_torque, "full stroke; as above"),
+        Line("winds", "so that the coil gets smaller"),
+        Line("mean coil diameter at M2", _figure(tight), "mm"),
+        Line("body length at M2", _figure(1e3 * design.value("spring_body_length")), "mm"),
+        Line("mandrel, at most", _figure(2.0 * dims.post_radius), "mm", "", "the post the spring stands on"),
+        Line("stress at M2, inner fibre", _figure(1e-6 * design.value("spring_stress"), 0), "MPa"),
+        Line("tensile strength taken", _figure(1e-6 * design.value("spring_tensile_strength"), 0), "MPa"),
+        Line("wire length", _figure(coil.wire_length, 1), "mm"),
+        Line("mass of one", _figure(1e3 * design.value("spring_volume") * design.value("spring_density")), "g"),
+    ]  # fmt: skip
+
+
+def _free_angle(coil: Coil) -> float:
+    """Azimuth of the coils' end seen from their start [deg], whole turns left out."""
+    return 360.0 * (coil.turns % 1.0)
+
+
+def spring_csv(lines: Sequence[Line]) -> bytes:
+    """The table as CSV."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["name", "value", "unit", "tolerance", "note"])
+    writer.writerows([line.name, line.value, line.unit, line.tolerance, line.note] for line in lines)
+    return stream.getvalue().encode()
+
+
+def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[Line]) -> Sheet:
+    """The right-hand spring, free, drawn in simple lines, beside the table."""
+    coil = free_coil(dims)
+    reach = 0.5 * coil.diameter + 1.5 * coil.wire_diameter
+    height = coil.end_level + coil.tang_length + coil.wire_diameter
+    room = min(150.0 / (reach + max(coil.leg_length, reach)), 165.0 / (2.0 * reach + height))
+    scale = next((one for one in _SCALES if one <= room), _SCALES[-1])
+    sheet = Sheet(scale)
+    across = 100.0 - 0.5 * (max(coil.leg_length, reach) - reach) * scale
+    plan_at = (across, 45.0 + reach * scale)
+    _plan(sheet, coil, plan_at)
+    _side(sheet, coil, (across, plan_at[1] + (reach + coil.tang_length) * scale + 26.0))
+    sheet.text("right-hand spring, free; the left-hand one is its mirror image", (20.0, 16.0))
+    for index, line in enumerate((Line("", "", "", "tolerance", ""), *lines)):
+        y = SIZE[1] - 18.0 - 6.2 * index
+        for x, text in ((202.0, line.name), (252.0, " ".join((line.value, line.unit))), (302.0, line.tolerance)):
+            sheet.text(text, (x, y), 2.3)
+        sheet.text(line.note, (340.0, y), 1.8)
+    sheet.title_block(
+        "torsion spring",
+        [
+            [Field("Made by", f"tvimdesign {__version__}"), Field("Size, projection", "A3, first angle")],
+            [Field("Module", design.name, 0.6), Field("Scale", ratio(scale), 0.4)],
+        ],
+    )  # fmt: skip
+    return sheet
+
+
+def _plan(sheet: Sheet, coil: Coil, origin: tuple[float, float]) -> None:
+    """The spring seen along its axis from the leg's side, turned so that the leg points to the right."""
+    x, y = sheet.at(origin)
+    space, outline, dimension = sheet.space, {"layer": "OUTLINE"}, {"layer": "DIMENSION"}
+    half, radius = 0.5 * coil.wire_diameter, 0.5 * coil.diameter
+    for other in (radius - half, radius + half):
+        space.add_circle((x, y), other, dxfattribs=outline)
+    tang = _turned(coil, *coil.tang_position)
+    space.add_circle((x + tang[0], y + tang[1]), half, dxfattribs=outline)
+    low, high, far = y - radius - half, y - radius + half, x + coil.leg_length
+    space.add_lwpolyline([(x, low), (far, low), (far, high), (x, high)], close=True, dxfattribs=outline)
+    start = _turned(coil, radius, 0.0)
+    for end in (start, (0.0, -radius)):
+        space.add_line((x, y), (x + end[0], y + end[1]), dxfattribs={"layer": "CENTRE"})
+    space.add_linear_dim(
+        (x, low - 8.0 / sheet.scale), (x, low), (far, low), dimstyle="SHEET", dxfattribs=dimension
+    ).render()
+    if 1.0 < _free_angle(coil) < 359.0:
+        space.add_angular_dim_cra(
+            (x, y), radius + half, degrees(atan2(start[1], start[0])), -90.0, distance=7.0 / sheet.scale,
+            dimstyle="SHEET", dxfattribs=dimension,
+        ).render()  # fmt: skip
+
+
+def _side(sheet: Sheet, coil: Coil, origin: tuple[float, float]) -> None:
+    """The body from the side, its coils as slanting lines, the leg to the right and the tang below."""
+    x, y = sheet.at(origin)
+    space, outline, dimension = sheet.space, {"layer": "OUTLINE"}, {"layer": "DIMENSION"}
+    half, radius, away = 0.5 * coil.wire_diameter, 0.5 * coil.diameter, 8.0 / sheet.scale
+    bottom, top = y + coil.start_level - half, y + coil.end_level + half
+    left, right = x - radius - half, x + radius + half
+    space.add_lwpolyline([(left, bottom), (right, bottom), (right, top), (left, top)], close=True, dxfattribs=outline)
+    level = bottom + coil.pitch
+    while level < top:
+        space.add_line((left, level - 0.5 * coil.pitch), (right, level), dxfattribs={"layer": "FINE"})
+        level += coil.pitch
+    rise = coil.leg_length * tan(coil.rise)
+    far = (x + coil.leg_length, top + rise)
+    leg = [(right, top), far, (far[0], far[1] - 2.0 * half), (right, top - 2.0 * half)]
+    space.add_lwpolyline(leg, dxfattribs=outline)
+    tang, low = x + _turned(coil, *coil.tang_position)[0], y - coil.tang_length
+    space.add_lwpolyline(
+        [(tang - half, bottom), (tang - half, low), (tang + half, low), (tang + half, bottom)], dxfattribs=outline
+    )
+    space.add_line((x, low), (x, top + 0.4 * away), dxfattribs={"layer": "CENTRE"})
+    for index, (inset, said) in enumerate(((2.0 * half, "inside ⌀<>"), (half, "D <>"), (0.0, "outside ⌀<>"))):
+        space.add_linear_dim(
+            (x, far[1] + (index + 1) * away), (left + inset, top), (right - inset, top), text=said, dimstyle="SHEET",
+            dxfattribs=dimension,
+        ).render()  # fmt: skip
+    for base, from_low, to_high in ((left - away, bottom, top), (left - 2.0 * away, low, y)):
+        space.add_linear_dim(
+            (base, y), (left if from_low == bottom else tang - half, from_low), (left, to_high), angle=90,
+            dimstyle="SHEET", dxfattribs=dimension,
+        ).render()  # fmt: skip
+
+
+def _turned(coil: Coil, x: float, y: float) -> tuple[float, float]:
+    """A point seen from above, the spring turned so that its leg points to the right."""
+    cosine, sine = cos(coil.leg_azimuth), sin(coil.leg_azimuth)
+    return x * cosine + y * sine, y * cosine - x * sine
+
+
+def _figure(value: float, digits: int = 2) -> str:
+    return f"{value:.{digits}f}".rstrip("0").rstrip(".") if digits else f"{value:.0f}"

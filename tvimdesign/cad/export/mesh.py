@@ -1,0 +1,131 @@
+"""Triangle meshes of the parts: OCC's for the drawn parts, a tube along the wire's centre for the springs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import ceil, pi
+
+import cadquery as cq
+import numpy as np
+from numpy.typing import NDArray
+from OCP.BRep import BRep_Tool
+from OCP.BRepMesh import BRepMesh_IncrementalMesh
+from OCP.TopAbs import TopAbs_Orientation
+from OCP.TopLoc import TopLoc_Location
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.geometry.spring_solids import Coil
+
+CHORD = 0.05
+"""Largest distance of a mesh from its part [mm]."""
+TURN = 0.15
+"""Largest angle between neighbouring triangles of a curved face [rad]."""
+_RING = 24
+"""Points around the wire, as far out as gives their polygon the area of the wire's section."""
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles of one part; vertices on a sharp edge are there once for each face, so that shading stays crisp."""
+
+    vertices: Array
+    """Points [mm], one a row."""
+    faces: NDArray[np.int64]
+    """Three vertices a triangle, counter-clockwise seen from outside."""
+
+    def mirrored(self) -> Mesh:
+        """The mirror image in the plane y = 0."""
+        return Mesh(self.vertices * [1.0, -1.0, 1.0], self.faces[:, ::-1])
+
+
+@dataclass(frozen=True)
+class Instance:
+    """One placed part: its mesh and where it stands."""
+
+    mesh: Mesh
+    matrix: Array
+    """4 x 4, from the part's coordinates to the module's."""
+
+
+def solid_mesh(solid: cq.Solid) -> Mesh:
+    """Triangulate a solid in its own coordinates."""
+    patches = [mesh for _, mesh in face_meshes(solid)]
+    first = np.cumsum([0] + [len(mesh.vertices) for mesh in patches])
+    faces = [mesh.faces + start for mesh, start in zip(patches, first, strict=False)]
+    return Mesh(np.concatenate([mesh.vertices for mesh in patches]), np.concatenate(faces))
+
+
+def face_meshes(solid: cq.Solid) -> list[tuple[cq.Face, Mesh]]:
+    """Triangulate a solid, face by face; neighbours have the same points on the edge between them."""
+    # A fresh copy: the kernel keeps triangles with a shape, and gives those of an earlier setting.
+    fresh = solid.located(cq.Location()).copy()
+    BRepMesh_IncrementalMesh(fresh.wrapped, CHORD, False, TURN, False)
+    return [(face, _patch(face)) for face in fresh.Faces()]
+
+
+def _patch(face: cq.Face) -> Mesh:
+    """The kernel's triangles of one face."""
+    location = TopLoc_Location()
+    found = BRep_Tool.Triangulation_s(face.wrapped, location)
+    if found is None:
+        raise GeometryError("a face has no triangles; the part cannot be meshed")
+    move = location.Transformation()
+    points = (found.Node(index).Transformed(move) for index in range(1, found.NbNodes() + 1))
+    corners = np.array([found.Triangle(index).Get() for index in range(1, found.NbTriangles() + 1)], dtype=np.int64) - 1
+    inside_out = face.wrapped.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
+    vertices = np.array([(point.X(), point.Y(), point.Z()) for point in points])
+    return Mesh(vertices, corners[:, ::-1] if inside_out else corners)
+
+
+def spring_mesh(coil: Coil) -> Mesh:
+    """Tube around the wire's centre. OCC takes seconds for a swept helix, and the file is ten times as large."""
+    centre, normal, tangent = _wire_centre(coil)
+    binormal = np.cross(tangent, normal)
+    angle = np.arange(_RING) * 2.0 * pi / _RING
+    ring = np.cos(angle)[:, None] * normal[:, None, :] + np.sin(angle)[:, None] * binormal[:, None, :]
+    radius = 0.5 * coil.wire_diameter * np.sqrt((2.0 * pi / _RING) / np.sin(2.0 * pi / _RING))
+    tube = (centre[:, None, :] + radius * ring).reshape(-1, 3)
+    here = np.arange(_RING)
+    following = (here + 1) % _RING
+    first = np.arange(len(centre) - 1)[:, None] * _RING
+    a, b = first + here, first + following
+    sides = [np.stack((a, b, b + _RING), -1), np.stack((a, b + _RING, a + _RING), -1)]
+    start_cap, end_cap = len(tube) + here, len(tube) + _RING + here
+    fan = np.arange(1, _RING - 1)
+    caps = [
+        np.stack((np.full_like(fan, start_cap[0]), start_cap[fan + 1], start_cap[fan]), -1),
+        np.stack((np.full_like(fan, end_cap[0]), end_cap[fan], end_cap[fan + 1]), -1),
+    ]
+    vertices = np.concatenate((tube, tube[:_RING], tube[-_RING:]))
+    return Mesh(vertices, np.concatenate([part.reshape(-1, 3) for part in (*sides, *caps)]))
+
+
+def _wire_centre(coil: Coil) -> tuple[Array, Array, Array]:
+    """Points along the wire's centre from tang to leg; the unit vectors there away from the coil's axis, and along."""
+    d, rise, up = coil.wire_diameter, coil.rise, np.array([0.0, 0.0, 1.0])
+    step = min(0.25, 2.0 * np.sqrt(CHORD / coil.diameter))
+    azimuth = coil.start_azimuth + np.linspace(0.0, 2.0 * pi * coil.turns, ceil(2.0 * pi * coil.turns / step) + 1)
+    radial = np.stack((np.cos(azimuth), np.sin(azimuth), 0.0 * azimuth), -1)
+    around = np.cross(up, radial)
+    level = coil.start_level + coil.pitch * (azimuth - azimuth[0]) / (2.0 * pi)
+    helix = 0.5 * coil.diameter * radial + level[:, None] * up
+    climb = np.cos(rise) * around + np.sin(rise) * up
+    slope = np.linspace(0.5 * pi, rise, 12)[:-1, None]
+    outward = np.sin(slope) * around[0] - np.cos(slope) * up
+    bend = helix[0] + d * (np.sin(rise) * around[0] - np.cos(rise) * up - outward)
+    bending = np.cos(slope) * around[0] + np.sin(slope) * up
+    tang_end = bend[0] - coil.tang_length * up
+    leg_end = helix[-1] + coil.leg_length / np.cos(rise) * climb[-1]
+    centre = np.vstack((tang_end, bend, helix, leg_end))
+    outwards = np.vstack((np.repeat(radial[:1], 1 + len(bend), axis=0), radial, radial[-1:]))
+    return centre, outwards, np.vstack((up, bending, climb, climb[-1:]))
+
+
+def part_meshes(drawn: Mapping[str, cq.Solid], coils: Mapping[str, Coil]) -> dict[str, Mesh]:
+    """Mesh of each kind of part in its own coordinates; `coils` says which shape the springs have."""
+    meshes = {kind: solid_mesh(solid) for kind, solid in drawn.items()}
+    meshes["spring_right"] = spring_mesh(coils["spring_right"])
+    meshes["spring_left"] = spring_mesh(coils["spring_left"]).mirrored()
+    return meshes

@@ -1,0 +1,140 @@
+"""What a printer gets: the part lying as it is printed, its holes larger, as a mesh whose error was measured."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from xml.sax.saxutils import escape, quoteattr
+
+import cadquery as cq
+import numpy as np
+import trimesh
+from OCP.BRepAdaptor import BRepAdaptor_Surface
+from OCP.GeomAPI import GeomAPI_ProjectPointOnSurf
+from OCP.gp import gp_Dir, gp_Pnt
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.export.mesh import Array, Mesh, face_meshes
+from tvimdesign.cad.export.step_file import Product
+from tvimdesign.cad.geometry.features import holes
+from tvimdesign.cad.geometry.production import Making
+
+_DIGITS = (6, 5, 7)
+"""Decimals of a millimetre to which a mesh's vertices are merged. A coordinate can lie where one rounding splits it
+from its neighbour of the next face; not where three do."""
+_CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+_RELATIONS = "http://schemas.openxmlformats.org/package/2006/relationships"
+_TYPES = "http://schemas.openxmlformats.org/package/2006/content-types"
+_EPOCH = (1980, 1, 1, 0, 0, 0)
+"""The time of every entry of a 3MF archive, so that the same part gives the same file."""
+
+
+def as_printed(solid: cq.Solid, making: Making, hole_compensation: float) -> cq.Solid:
+    """Return the part with its upright holes wider by `hole_compensation` [mm on the diameter], lying on its side.
+
+    What lies on the bed is at z = 0, the part's own axis at x = y = 0.
+    """
+    wider = solid
+    if hole_compensation > 0.0:
+        tools = [
+            cq.Solid.makeCylinder(
+                one.radius + 0.5 * hole_compensation, one.top - one.bottom, cq.Vector(one.x, one.y, one.bottom),
+                cq.Vector(0, 0, 1),
+            )
+            for one in holes(solid)
+        ]  # fmt: skip
+        wider = _one_solid(solid.cut(*tools)) if tools else solid
+    lying = wider.rotate(cq.Vector(), cq.Vector(1, 0, 0), 180.0) if making.down == "top" else wider
+    return _one_solid(lying.translate(cq.Vector(0, 0, -lying.BoundingBox().zmin)))
+
+
+def _one_solid(shape: cq.Shape) -> cq.Solid:
+    solids = shape.Solids()
+    if len(solids) != 1 or not solids[0].isValid():
+        raise GeometryError(f"with its holes compensated for printing it comes out as {len(solids)} solids")
+    return solids[0]
+
+
+def printed_mesh(name: str, solid: cq.Solid) -> tuple[trimesh.Trimesh, float]:
+    """Triangulate a part; returns a closed mesh and the largest distance of its triangles from the part [mm]."""
+    patches = face_meshes(solid)
+    worst = max(_distance(face, mesh) for face, mesh in patches)
+    first = np.cumsum([0] + [len(mesh.vertices) for _, mesh in patches])
+    faces = np.concatenate([mesh.faces + start for (_, mesh), start in zip(patches, first, strict=False)])
+    return closed(name, Mesh(np.concatenate([mesh.vertices for _, mesh in patches]), faces)), worst
+
+
+def closed(name: str, mesh: Mesh) -> trimesh.Trimesh:
+    """Return a mesh with its vertices merged; raises GeometryError where it does not enclose a body."""
+    for digits in _DIGITS:
+        body = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+        body.merge_vertices(digits_vertex=digits, merge_norm=True, merge_tex=True)
+        if body.is_watertight and body.volume > 0.0:
+            return body
+    raise GeometryError(f"{name}: its triangle mesh is not watertight; the STEP file is sound, print from that")
+
+
+def _distance(face: cq.Face, mesh: Mesh) -> float:
+    """Largest distance [mm] of the middles of triangles and of their edges from the face they stand for."""
+    corners = mesh.vertices[mesh.faces]
+    middles = [corners.mean(axis=1), *(0.5 * (corners[:, one] + corners[:, (one + 1) % 3]) for one in range(3))]
+    return float(np.max(_from_surface(face, np.concatenate(middles))))
+
+
+def _from_surface(face: cq.Face, points: Array) -> Array:
+    """Distance of points from the surface of a face: in closed form for planes and cylinders, else by projection."""
+    surface = BRepAdaptor_Surface(face.wrapped)
+    kind = face.geomType()
+    if kind == "PLANE":
+        plane = surface.Plane()
+        above: Array = (points - _xyz(plane.Location())) @ _xyz(plane.Axis().Direction())
+        return np.asarray(np.abs(above))
+    if kind == "CYLINDER":
+        cylinder = surface.Cylinder()
+        beside = np.cross(points - _xyz(cylinder.Location()), _xyz(cylinder.Axis().Direction()))
+        return np.asarray(np.abs(np.linalg.norm(beside, axis=1) - cylinder.Radius()))
+    whole = surface.Surface().Surface().Transformed(surface.Trsf())
+    return np.array([GeomAPI_ProjectPointOnSurf(gp_Pnt(*point), whole).LowerDistance() for point in points.tolist()])
+
+
+def _xyz(of: gp_Pnt | gp_Dir) -> Array:
+    return np.array([of.X(), of.Y(), of.Z()])
+
+
+def stl_bytes(body: trimesh.Trimesh) -> bytes:
+    """Return a mesh as binary STL in millimetres."""
+    return bytes(body.export(file_type="stl"))
+
+
+def threemf_bytes(body: trimesh.Trimesh, product: Product) -> bytes:
+    """Return a mesh as 3MF: millimetres, the part's name, its material with its colour."""
+    colour = "#" + "".join(f"{round(255 * part):02X}" for part in product.colour)
+    points = "".join(f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in body.vertices.tolist())
+    triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in body.faces.tolist())
+    model = (
+        f'<?xml version="1.0" encoding="UTF-8"?>\n<model unit="millimeter" xml:lang="en-US" xmlns="{_CORE}">'
+        f'<metadata name="Title">{escape(product.name)}</metadata><metadata name="Application">tvimdesign</metadata>'
+        f'<resources><basematerials id="1"><base name={quoteattr(product.material)} displaycolor="{colour}"/>'
+        f'</basematerials><object id="2" type="model" name={quoteattr(product.name)} pid="1" pindex="0"><mesh>'
+        f"<vertices>{points}</vertices><triangles>{triangles}</triangles></mesh></object></resources>"
+        f'<build><item objectid="2"/></build></model>\n'
+    )
+    types = (
+        f'<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="{_TYPES}">'
+        '<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+        '<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>\n'
+    )
+    relations = (
+        f'<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="{_RELATIONS}"><Relationship '
+        'Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
+        "</Relationships>\n"
+    )
+    entries = {"[Content_Types].xml": types, "_rels/.rels": relations, "3D/3dmodel.model": model}
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, text in entries.items():
+            entry = zipfile.ZipInfo(name, _EPOCH)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.create_system = 3
+            archive.writestr(entry, text.encode())
+    return stream.getvalue()

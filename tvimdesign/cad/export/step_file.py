@@ -1,0 +1,175 @@
+"""Writes STEP AP242 in millimetres: named, coloured solids with material and density, the same bytes every time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import cadquery as cq
+from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
+from OCP.IFSelect import IFSelect_ReturnStatus
+from OCP.Interface import Interface_Static
+from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB
+from OCP.STEPCAFControl import STEPCAFControl_Reader, STEPCAFControl_Writer
+from OCP.STEPControl import STEPControl_StepModelType
+from OCP.TCollection import TCollection_ExtendedString, TCollection_HAsciiString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label, TDF_LabelSequence
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopLoc import TopLoc_Location
+from OCP.XCAFApp import XCAFApp_Application
+from OCP.XCAFDoc import (
+    XCAFDoc_Area,
+    XCAFDoc_Centroid,
+    XCAFDoc_ColorType,
+    XCAFDoc_DocumentTool,
+    XCAFDoc_ShapeTool,
+    XCAFDoc_Volume,
+)
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.base.whole_files import write_whole
+from tvimdesign.cad.export.part21 import in_fixed_order, plain_text
+from tvimdesign.cad.geometry.kinds import Rgb
+
+_TIME = "2000-01-01T00:00:00"
+"""The time in the header, so that the same design gives the same file."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Product:
+    """What a STEP file says of a part beside its shape."""
+
+    name: str
+    colour: Rgb
+    material: str
+    density: float
+    """kg/m^3."""
+
+
+class _Document:
+    """An XCAF document: products, and one assembly of them."""
+
+    def __init__(self) -> None:
+        self.document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+        XCAFApp_Application.GetApplication_s().InitDocument(self.document)
+        main = self.document.Main()
+        self.shapes = XCAFDoc_DocumentTool.ShapeTool_s(main)
+        self.colours = XCAFDoc_DocumentTool.ColorTool_s(main)
+        self.materials = XCAFDoc_DocumentTool.MaterialTool_s(main)
+        self.shapes.SetAutoNaming_s(False)
+
+    def add(self, solid: cq.Solid, product: Product) -> TDF_Label:
+        """Add a product. It is the solid itself: a compound around it would lose the material."""
+        label = self.shapes.AddShape(solid.wrapped.Located(TopLoc_Location()), False)
+        _name(label, product.name)
+        colour = Quantity_Color(*product.colour, Quantity_TOC_sRGB)
+        self.colours.SetColor(label, colour, XCAFDoc_ColorType.XCAFDoc_ColorGen)
+        self.materials.SetMaterial(
+            label, _text(product.material), _text(""),
+            product.density * 1e-3, _text("mass density"), _text("g/cm^3"),
+        )  # fmt: skip
+        return label
+
+    def write(self, path: Path, name: str) -> None:
+        """Write the document as one STEP file, whole or not at all."""
+        writer = STEPCAFControl_Writer()
+        for key, value in (("write.step.schema", "AP242DIS"), ("write.step.unit", "MM"), ("xstep.cascade.unit", "MM")):
+            Interface_Static.SetCVal_s(key, value)
+        writer.SetColorMode(True)
+        writer.SetNameMode(True)
+        writer.SetMaterialMode(True)
+        writer.SetPropsMode(True)
+        writer.Transfer(self.document, STEPControl_StepModelType.STEPControl_AsIs)
+        header = APIHeaderSection_MakeHeader(writer.ChangeWriter().Model(False))
+        header.SetName(_text(name))
+        header.SetTimeStamp(_text(_TIME))
+        for index in range(1, header.NbAuthor() + 1):
+            header.SetAuthorValue(index, _text("tvimdesign"))
+        for index in range(1, header.NbOrganization() + 1):
+            header.SetOrganizationValue(index, _text("tvimdesign"))
+        header.SetOriginatingSystem(_text("tvimdesign"))
+        with TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
+            beside = Path(folder) / path.name
+            if writer.Write(str(beside)) != IFSelect_ReturnStatus.IFSelect_RetDone:
+                raise GeometryError(f"{name}: the CAD kernel could not write {path}")
+            write_whole(path, plain_text(in_fixed_order(beside.read_text("utf-8"))))
+
+
+def write_part(path: Path, solid: cq.Solid, product: Product) -> None:
+    """Write one part, with the properties by which a reader holds what arrived against what was sent."""
+    document = _Document()
+    _add_validation(document.add(solid, product), solid)
+    document.write(path, product.name)
+
+
+def write_assembly(path: Path, name: str, placed: Mapping[str, cq.Solid], products: Mapping[str, Product]) -> None:
+    """Write placed solids as one assembly, both by name; solids that share their geometry become one product."""
+    document = _Document()
+    top = document.shapes.NewShape()
+    _name(top, name)
+    known: list[tuple[cq.Solid, TDF_Label]] = []
+    for instance, solid in placed.items():
+        label = next((label for other, label in known if other.wrapped.IsPartner(solid.wrapped)), None)
+        if label is None:
+            label = document.add(solid, products[instance])
+            known.append((solid, label))
+        component = document.shapes.AddComponent(top, label, solid.wrapped.Location())
+        _name(component, instance)
+    document.shapes.UpdateAssemblies()
+    document.write(path, name)
+
+
+def _add_validation(label: TDF_Label, solid: cq.Solid) -> None:
+    """Give a product its volume, area and centroid, the geometric validation properties of AP242.
+
+    Parts alone have them: in an assembly the kernel hangs those of a part that stands at the origin on a shape aspect,
+    where other programs do not look.
+    """
+    whole = solid.located(cq.Location())
+    XCAFDoc_Volume.Set_s(label, whole.Volume())
+    XCAFDoc_Area.Set_s(label, whole.Area())
+    XCAFDoc_Centroid.Set_s(label, whole.Center().toPnt())
+
+
+def _text(text: str) -> TCollection_HAsciiString:
+    return TCollection_HAsciiString(text)
+
+
+def _name(label: TDF_Label, name: str) -> None:
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
+
+
+@dataclass(frozen=True)
+class Validation:
+    """What a STEP file says its part must come to, in millimetres."""
+
+    volume: float
+    area: float
+    centroid: tuple[float, float, float]
+
+
+def read_part(path: Path) -> tuple[cq.Solid, Validation]:
+    """Read a part back with its validation properties; raises GeometryError where the file has no one solid or none."""
+    document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+    XCAFApp_Application.GetApplication_s().InitDocument(document)
+    reader = STEPCAFControl_Reader()
+    reader.SetPropsMode(True)
+    if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone or not reader.Transfer(document):
+        raise GeometryError(f"{path.name}: the CAD kernel cannot read it")
+    labels = TDF_LabelSequence()
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(labels)
+    attributes = (XCAFDoc_Volume(), XCAFDoc_Area(), XCAFDoc_Centroid())
+    # Asking for an attribute that is not there takes the process with it.
+    if labels.Length() != 1 or not all(labels.Value(1).IsAttribute(one.GetID_s()) for one in attributes):
+        raise GeometryError(f"{path.name}: does not read back as one part with volume, area and centroid")
+    for one in attributes:
+        labels.Value(1).FindAttribute(one.GetID_s(), one)
+    volume, area, centroid = attributes
+    solids = cq.Shape.cast(XCAFDoc_ShapeTool.GetShape_s(labels.Value(1))).Solids()
+    if len(solids) != 1:
+        raise GeometryError(f"{path.name}: reads back as {len(solids)} solids")
+    where = centroid.Get()
+    return solids[0], Validation(volume.Get(), area.Get(), (where.X(), where.Y(), where.Z()))

@@ -1,0 +1,74 @@
+"""From a design in SI to the dimensions the parts are drawn with: millimetres, radians and plain counts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.device import Input, Output, table_for
+from tvimdesign.study.design import Design
+
+_SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
+"""From SI to what CAD uses, by the unit a row is written in; rows in other units are no dimensions."""
+
+
+_MOST = 64
+"""Parts of one kind beyond which a design is a mistake."""
+
+
+class Dimensions:
+    """The design's lengths [mm], angles [rad] and counts by the names of the table: `dims.wire_diameter`."""
+
+    def __init__(self, mode: str, values: Mapping[str, float]) -> None:
+        """`values` are in mm, rad and plain numbers by row name."""
+        self.mode = mode
+        self._values = values
+
+    @property
+    def by_name(self) -> Mapping[str, float]:
+        """All of them by row name."""
+        return self._values
+
+    def __getattr__(self, name: str) -> float:
+        """Value of a row; raises GeometryError where the design has none that can be drawn."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name not in self._values:
+            raise GeometryError(f"the design has no dimension {name!r}; write it anew with `tvimdesign run`")
+        value = self._values[name]
+        if not math.isfinite(value):
+            raise GeometryError(f"{name} is {value}: no part can be drawn to that; see which rules the design breaks")
+        return value
+
+    def of(self, thing: str, row: str) -> float:
+        """Value of a row that several things have alike: `screw_pilot` of `link` is `link_screw_pilot`."""
+        value: float = getattr(self, f"{thing}_{row}")
+        return value
+
+    def count(self, name: str) -> int:
+        """Value of a row that counts something; raises GeometryError where it is no whole number above zero."""
+        value: float = getattr(self, name)
+        if not 1 <= value <= _MOST or value != round(value):
+            raise GeometryError(f"{name} is {value:g}; it must be a whole number from 1 to {_MOST}")
+        return round(value)
+
+    def azimuths(self, name: str) -> list[float]:
+        """Azimuths [rad] of the things that row counts, evenly spread, the first at zero."""
+        count = self.count(name)
+        return [2.0 * math.pi * index / count for index in range(count)]
+
+
+def dimensions(design: Design) -> Dimensions:
+    """Convert a design's values to the units of CAD; dimensions that only other rows use are worked out first."""
+    table = table_for(design.mode)
+    rows: list[Input | Output] = [*table.inputs, *table.outputs]
+    units = {row.name: row.unit for row in rows if row.unit in _SCALE}
+    values = design.values | table.evaluate(design.values, [row.name for row in table.outputs if _unprinted(row)])
+    lengths = {name: value * _SCALE[units[name]] for name, value in values.items() if name in units}
+    return Dimensions(design.mode, lengths)
+
+
+def _unprinted(row: Output) -> bool:
+    """Whether a row is a dimension that no report shows."""
+    return row.hidden and row.unit == "mm"

@@ -1,0 +1,173 @@
+"""Holds the built parts against the design: sound solids, the sizes the model used, and no part in another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import combinations
+from math import nan, sqrt
+
+import cadquery as cq
+import numpy as np
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
+from OCP.BRepGProp import BRepGProp
+from OCP.gp import gp
+from OCP.GProp import GProp_GProps
+
+from tvimdesign.cad.assembly.assembly import place
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, TURNING, kind_of
+from tvimdesign.cad.geometry.spring_solids import installed_coil
+from tvimdesign.physics.transmission import pin_distance
+from tvimdesign.study.design import Design
+
+MODEL_TOLERANCE = 0.005
+"""How far volumes, masses and inertias of the solids may be from the rows of the table."""
+ENVELOPE_TOLERANCE = 1e-6
+TOUCHING = 0.01
+"""Common volume [mm^3] up to which two parts touch rather than cut each other."""
+_MM3, _MM5 = 1e-9, 1e-15
+Place = tuple[float, float, float]
+
+
+def all_checks(
+    design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], progress: Callable[[str], None] | None = None
+) -> list[Check]:
+    """Run every check at rest and through the stroke."""
+    say = progress or (lambda _: None)
+    say("sizes")
+    found = rest_checks(design, dims, drawn)
+    for share in POSITIONS:
+        found += clearance_checks(dims, drawn, share, say)
+    return found
+
+
+POSITIONS = (0.0, -1.0, -0.5, 0.5, 1.0)
+"""Of the rotor at which parts are held against each other, as shares of the stroke."""
+
+
+def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> list[Check]:
+    """Hold the sizes at rest against the rows, and the legs against their pins."""
+    at_rest = place(dims, drawn)
+    return [*size_checks(design, at_rest), *envelope_checks(dims, at_rest), *bearing_checks(dims)]
+
+
+def clearance_checks(
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, say: Callable[[str], None]
+) -> list[Check]:
+    """Hold every part against every other one at rest; at a share of the stroke, those that do not move together."""
+    where = "at rest" if share == 0.0 else f"at {share * dims.stroke:+.4f} rad"
+    say(f"interference {where}")
+    placed = place(dims, drawn, share * dims.stroke, say)
+    if share == 0.0:
+        return list(interference_checks(placed, where))
+    return list(interference_checks(placed, where, lambda a, b: not _together(dims.mode, a, b)))
+
+
+def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:
+    """Volume, mass and inertia of the solids against the rows of the design."""
+    by_kind: dict[str, list[cq.Solid]] = {}
+    for name, solid in placed.items():
+        by_kind.setdefault(kind_of(name), []).append(solid)
+    mass = inertia = 0.0
+    for kind, solids in by_kind.items():
+        one = kind in SPRINGS  # the row is the volume of one spring, of the others that of all of a kind
+        volume = sum(solid.Volume() for solid in solids) * _MM3
+        density = design.value(KINDS[kind].density)
+        mass += volume * density
+        yield _against(f"{kind}_volume", volume / (len(solids) if one else 1), design.value(KINDS[kind].volume))
+        if kind in TURNING or f"{kind}_inertia" in design.values:
+            about_axis = density * _MM5 * sum(_polar_moment(solid) for solid in solids)
+            inertia += about_axis if kind in TURNING else 0.0
+            if f"{kind}_inertia" in design.values:
+                yield _against(f"{kind}_inertia", about_axis, design.value(f"{kind}_inertia"))
+    yield _against("parts_inertia", inertia, design.value("parts_inertia"))
+    yield _against("module_mass", mass, design.value("module_mass"))
+
+
+def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:
+    """Diameter and height of the whole module at rest against the rows, to rounding."""
+    boxes = [solid.BoundingBox() for solid in placed.values()]
+    height = max(box.zmax for box in boxes) - min(box.zmin for box in boxes)
+    width = max(box.ymax for box in boxes) - min(box.ymin for box in boxes)
+    yield _against("envelope_height", height, dims.envelope_height, ENVELOPE_TOLERANCE)
+    yield _against("envelope_diameter", width, dims.envelope_diameter, ENVELOPE_TOLERANCE)
+
+
+def bearing_checks(dims: Dimensions) -> Iterator[Check]:
+    """How far the legs reach beyond the pins they bear on, at rest and at either end of the stroke [mm]."""
+    for angle in (-dims.stroke, 0.0, dims.stroke):
+        coil = installed_coil(dims, angle)
+        offset = 0.5 * (coil.diameter + coil.wire_diameter + dims.pin_diameter)
+        distance = pin_distance(dims.pin_radius, dims.placement_radius, angle)
+        beyond = coil.leg_length - float(sqrt(distance**2 - offset**2))
+        text = f"the springs' legs reach {beyond:.3g} mm beyond their pins at {angle:+.4f} rad"
+        yield Check(f"leg beyond pin at {angle:+.4f} rad", beyond, 0.0, beyond > 0.0, text)
+
+
+def interference_checks(
+    placed: Mapping[str, cq.Solid], where: str, wanted: Callable[[str, str], bool] = lambda _a, _b: True
+) -> Iterator[Check]:
+    """Common volume of every wanted pair whose boxes overlap; one check that says how many pairs are apart."""
+    boxes = {name: solid.BoundingBox() for name, solid in placed.items()}
+    apart = 0
+    for first, second in combinations(placed, 2):
+        if not wanted(first, second):
+            continue
+        if not _overlap(boxes[first], boxes[second]):
+            apart += 1
+            continue
+        common, place = _common(placed[first], placed[second])
+        text = f"{first} and {second} share {common:.4g} mm3 {where}"
+        yield Check(
+            f"{first} | {second} {where}", common, TOUCHING, common < TOUCHING, text,
+            part=f"{first}, {second}", place=place or _between(boxes[first], boxes[second]), unit="mm³",
+        )  # fmt: skip
+    yield Check(f"pairs apart {where}", apart, 0.0, True, f"{apart} pairs are apart by their boxes {where}")
+
+
+def _common(first: cq.Solid, second: cq.Solid) -> tuple[float, Place | None]:
+    """Volume both solids fill [mm^3], and its centroid; not a number, which fails, where the kernel cannot tell."""
+    operation = BRepAlgoAPI_Common(first.wrapped, second.wrapped)
+    if not operation.IsDone():
+        return nan, None
+    common = cq.Shape.cast(operation.Shape())
+    volume = float(common.Volume())
+    return volume, common.Center().toTuple() if volume > 0.0 else None
+
+
+def _between(a: cq.BoundBox, b: cq.BoundBox) -> Place:
+    """The middle of what two boxes share: where two parts would meet."""
+    low, high = (
+        np.array([[getattr(box, f"{axis}{end}") for axis in "xyz"] for box in (a, b)]) for end in ("min", "max")
+    )
+    x, y, z = (0.5 * (low.max(axis=0) + high.min(axis=0))).tolist()
+    return x, y, z
+
+
+def _together(mode: str, first: str, second: str) -> bool:
+    """Whether two parts both stand, or both turn, so that they are to each other as they were at rest."""
+    kinds = {kind_of(first), kind_of(second)}
+    return kinds <= set(MODULES[mode].fixed) or kinds <= set(TURNING)
+
+
+def _against(name: str, built: float, model: float, tolerance: float = MODEL_TOLERANCE) -> Check:
+    deviation = built / model - 1.0
+    text = f"{name}: solid {built:.6g}, model {model:.6g}"
+    return Check(name, deviation, tolerance, abs(deviation) <= tolerance, text)
+
+
+def _polar_moment(solid: cq.Solid) -> float:
+    """Integral of the squared distance from the rotor's axis over the solid [mm^5]."""
+    properties = GProp_GProps()
+    BRepGProp.VolumeProperties_s(solid.wrapped, properties)
+    return float(properties.MomentOfInertia(gp.OZ_s()))
+
+
+def _overlap(a: cq.BoundBox, b: cq.BoundBox) -> bool:
+    """Whether two boxes share more than a face."""
+    return all(
+        getattr(a, f"{axis}min") < getattr(b, f"{axis}max") and getattr(b, f"{axis}min") < getattr(a, f"{axis}max")
+        for axis in "xyz"
+    )

@@ -1,0 +1,1 @@
+"""The parts, each as one solid: those all modes share, those of one mode, and what is bought."""

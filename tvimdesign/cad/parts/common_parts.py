@@ -1,0 +1,174 @@
+"""The drawn parts that all modes share: rotor axis z, the floor's upper face z = 0. A mode adds its own; no springs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import atan2, hypot, pi, sqrt
+
+import cadquery as cq
+
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.solids import block, bossed_ring, cylinder, join, polar, ring, slot, turned
+from tvimdesign.cad.geometry.spring_solids import installed_coil
+
+LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
+
+
+def hand_of(index: int) -> str:
+    """Hand of a spring by its place around the module: right, left, right ..."""
+    return "right" if index % 2 == 0 else "left"
+
+
+def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
+    """Where the springs' tangs enter the floor, in the order of the springs."""
+    x, y = installed_coil(dims).tang_position
+    radius = hypot(dims.placement_radius + x, y)
+    beside = atan2(y, dims.placement_radius + x)
+    return [
+        polar(radius, azimuth + (beside if hand_of(index) == "right" else -beside))
+        for index, azimuth in enumerate(dims.azimuths("spring_count"))
+    ]
+
+
+def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable[cq.Shape]) -> cq.Shape:
+    """Floor, hub, wall, skirt, spring posts, bosses for a cover, feet, a torque sensor's flange and what the mode adds.
+
+    Less bore, the mode's openings, tang and screw holes, and notches.
+    """
+    floor_bottom = -dims.floor_thickness
+    floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
+    ground = floor_bottom - dims.foot_height
+    hub = cylinder(dims.hub_radius, dims.hub_bottom_level, dims.hub_top_level)
+    posts, holes = spring_places(dims)
+    walls, cover_holes = walls_and_cover_holes(dims, ground)
+    feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
+    mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
+    flange, flange_holes = sensor_flange(dims)
+    body = join(floor, [*walls, hub, *posts, *feet, *flange, *added])
+    return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims), *flange_holes)
+
+
+def sensor_flange(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
+    """The ring under the floor that bears a torque sensor, and its holes; nothing where there is none."""
+    if not dims.flange_outer_radius:
+        return [], []
+    floor_bottom = -dims.floor_thickness
+    ground = floor_bottom - dims.foot_height
+    ring_of_it = ring(dims.flange_bore_radius, dims.flange_outer_radius, ground, floor_bottom)
+    return [ring_of_it], sensor_holes(dims, ground)
+
+
+def sensor_holes(dims: Dimensions, ground: float) -> list[cq.Shape]:
+    """Holes for a torque sensor's screws and pin, upwards from the face it is screwed to."""
+    pitch = 2.0 * pi / dims.count("sensor_screw_count")
+    azimuths = [dims.flange_azimuth + index * pitch for index in range(dims.count("sensor_screw_count"))]
+    screws = [
+        cylinder(0.5 * dims.sensor_screw_pilot, ground, ground + dims.flange_screw_depth, at)
+        for at in (polar(dims.sensor_pitch_radius, azimuth) for azimuth in azimuths)
+    ]
+    pin_at = polar(dims.sensor_pitch_radius, dims.flange_azimuth + 0.5 * pitch)
+    pin = cylinder(0.5 * dims.sensor_pin_diameter, ground, ground + dims.sensor_pin_depth, pin_at)
+    return [*screws, pin]
+
+
+def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
+    """What stands on the floor for the springs, and what is cut from it: posts and tang holes, or pockets."""
+    floor_bottom = -dims.floor_thickness
+    axes = spring_axes(dims)
+    if not dims.adjuster_radius:
+        hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
+        holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
+        return [cylinder(dims.post_radius, 0, dims.post_height, at) for at in axes], holes
+    radius = dims.adjuster_radius + dims.slip_clearance
+    pockets = [cylinder(radius, -dims.adjuster_thickness, 0, at) for at in axes]
+    return [], [*pockets, *(cylinder(0.5 * dims.adjuster_screw_clearance, floor_bottom, 0, at) for at in axes)]
+
+
+def bores(dims: Dimensions) -> list[cq.Shape]:
+    """What is cut from the hub: a plain bore, or a lip's bore with a seat for a bearing at either end."""
+    bottom, top = dims.hub_bottom_level, dims.hub_top_level
+    between = cylinder(dims.lip_radius, bottom, top)
+    if not dims.bearing_width:
+        return [between]
+    lower = cylinder(dims.seat_radius, bottom, bottom + dims.bearing_width)
+    return [between, lower, cylinder(dims.seat_radius, top - dims.bearing_width, top)]
+
+
+def spring_axes(dims: Dimensions) -> list[tuple[float, float]]:
+    """Axes of the springs, in their order."""
+    return [polar(dims.placement_radius, azimuth) for azimuth in dims.azimuths("spring_count")]
+
+
+def mounts(dims: Dimensions) -> list[tuple[float, float]]:
+    """Axes of the screws that fix the housing: midway between the springs."""
+    return between_springs(dims, dims.placement_radius)
+
+
+def between_springs(dims: Dimensions, radius: float) -> list[tuple[float, float]]:
+    """Places midway between the springs at a radius."""
+    half_pitch = pi / dims.count("spring_count")
+    return [polar(radius, azimuth + half_pitch) for azimuth in dims.azimuths("spring_count")]
+
+
+def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shape], list[cq.Shape]]:
+    """Skirt and wall, with bosses where there is a cover, and the holes for its screws."""
+    inner, outer, rim = dims.housing_inner_radius, dims.housing_outer_radius, dims.rim_level
+    if not dims.cover_height:
+        return [ring(inner, outer, ground, rim)], []
+    axes = between_springs(dims, inner)
+    half_pitch = pi / dims.count("spring_count")
+    azimuths = [azimuth + half_pitch for azimuth in dims.azimuths("spring_count")]
+    wall = bossed_ring((inner, outer), dims.cover_boss_radius, dims.cover_corner_radius, azimuths, (0, rim))
+    holes = [cylinder(0.5 * dims.cover_screw_hole, rim - dims.cover_screw_depth, rim, at) for at in axes]
+    return [ring(inner, outer, ground, 0), wall], holes
+
+
+def notches(dims: Dimensions) -> list[cq.Shape]:
+    """What is cut from the skirt outside each spring: air for the pads' cold sides, and a way for their wires."""
+    width, floor_bottom = dims.notch_width, -dims.floor_thickness
+    inside = sqrt(dims.housing_inner_radius**2 - (0.5 * width) ** 2)
+    opening = block((inside, dims.housing_outer_radius + 1.0), width, floor_bottom - dims.foot_height, floor_bottom)
+    return [turned(opening, azimuth) for azimuth in dims.azimuths("spring_count")]
+
+
+def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Iterable[cq.Shape] = ()) -> cq.Shape:
+    """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds.
+
+    Less the screws' holes and the mode's openings.
+    """
+    core_bottom = dims.core_bottom_level
+    plate = cylinder(dims.rotor_radius, dims.rotor_bottom_level, dims.rotor_top_level)
+    core = [
+        cylinder(dims.journal_radius, core_bottom, dims.rotor_top_level),
+        cylinder(dims.core_radius, dims.rotor_bottom_level, dims.link_bottom_level),
+    ]
+    if dims.rotor_bottom_level > dims.hub_top_level:
+        core.append(cylinder(dims.collar_radius, dims.hub_top_level, dims.rotor_top_level))
+    pins = [
+        cylinder(0.5 * dims.pin_diameter, dims.rotor_top_level, dims.pin_top_level, polar(dims.pin_radius, azimuth))
+        for azimuth in dims.azimuths("spring_count")
+    ]
+    core_top = dims.link_bottom_level
+    pilot_bottom = core_top - dims.link_screw_depth
+    pilots = [cylinder(0.5 * dims.link_screw_hole, pilot_bottom, core_top, at) for at in link_screws(dims)]
+    retainer_pilot = cylinder(0.5 * dims.retainer_screw_hole, core_bottom, core_bottom + dims.retainer_screw_depth)
+    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots, *openings)
+
+
+def link(dims: Dimensions) -> cq.Shape:
+    """Output link: an obround from the core to the housing's edge, with its screw holes and the hole for a tool."""
+    bottom, top = dims.link_bottom_level, dims.link_bottom_level + dims.link_thickness
+    holes = [cylinder(0.5 * dims.link_screw_clearance, bottom, top, at) for at in link_screws(dims)]
+    tool_hole = cylinder(0.5 * dims.link_tool_hole, bottom, top, (dims.link_length, 0.0))
+    return slot(dims.link_half_width, dims.link_length, bottom, top).cut(tool_hole, *holes)
+
+
+def retainer(dims: Dimensions) -> cq.Shape:
+    """Disc below the floor, screwed to the core, that keeps the rotor in the housing."""
+    top = dims.retainer_top_level
+    return ring(0.5 * dims.retainer_screw_clearance, dims.retainer_radius, top - dims.retainer_thickness, top)
+
+
+def link_screws(dims: Dimensions) -> list[tuple[float, float]]:
+    """Axes of the four screws that hold the link on the core."""
+    return [polar(dims.link_bolt_circle_radius, azimuth) for azimuth in LINK_SCREW_AZIMUTHS]

@@ -1,0 +1,121 @@
+"""The parts of the compression module: vanes on housing and rotor, PCL blocks between them, pads in vanes.
+
+Drawn in words in `device/compression/__init__.py`. Vanes, pads and blocks are drawn on the x axis and turned in place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import pi
+
+import cadquery as cq
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
+from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
+
+FIXED = (
+    "housing", "peltier_pad", "bearing_outer", "adjuster", "adjuster_screw", "adjuster_insert", "cover", "cover_screw",
+    "cover_insert",
+)  # fmt: skip
+"""Not the blocks: they change their shape as the rotor turns, and each is held against all that stands and turns."""
+_SIDES = (1.0, -1.0)
+
+
+def housing(dims: Dimensions) -> cq.Shape:
+    """Housing with its vanes, which have pockets for two pads and a slot between these, down through the floor."""
+    vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.housing_vane_angle, 0, dims.vane_height)
+    # The pads drop in from above: their pockets are open there, and at both ends.
+    end = dims.peltier_thickness
+    seat, roof = dims.running_clearance, dims.vane_height - dims.window_ledge
+    pocketed = vane.cut(*_beside_faces(dims, end, end, (seat, dims.vane_height + end)))
+    # Beside the pads a slot's corners open into their pockets. Below, it is wider by its corners: a cutter can come by.
+    foot = rounded(_slot(dims, end - dims.corner_radius, -dims.floor_thickness, seat), dims.corner_radius)
+    slot = foot.fuse(_slot(dims, end, seat, roof))
+    azimuths = _housing_vanes(dims)
+    return bare_housing(dims, [turned(pocketed, at) for at in azimuths], [turned(slot, at) for at in azimuths])
+
+
+def _slot(dims: Dimensions, seat: float, bottom: float, top: float) -> cq.Shape:
+    """The slot of a housing vane between two levels, so far behind the vane's faces."""
+    whole = sector(dims.slot_inner_radius, dims.slot_outer_radius, dims.housing_vane_angle, bottom, top)
+    return whole.cut(*_beside_faces(dims, seat, dims.peltier_thickness, (bottom, top)))
+
+
+def rotor(dims: Dimensions) -> cq.Shape:
+    """Rotor with vanes that hang from its plate to a running clearance above the floor."""
+    top = dims.rotor_bottom_level
+    vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.rotor_vane_angle, top - dims.vane_height, top)
+    return bare_rotor(dims, [turned(vane, azimuth) for azimuth in dims.azimuths("vane_count")])
+
+
+def pcl_block(dims: Dimensions, squeeze: float = 0.0) -> cq.Shape:
+    """One block between two vanes, centred on the x axis, squeezed by an angle [rad].
+
+    Squeezed, it is drawn as what the vanes leave of its place. What gives way to its sides is not drawn: the row
+    `squeezed_block_gap` says what room it has.
+    """
+    if not squeeze < dims.block_angle:
+        raise GeometryError(f"pcl_block: of {dims.block_angle:.4g} rad, the rotor's vane takes {squeeze:.4g} rad")
+    span = dims.block_angle - squeeze
+    return sector(dims.pcl_inner_radius, dims.pcl_outer_radius, span, dims.running_clearance, dims.vane_height)
+
+
+def peltier_pad(dims: Dimensions) -> cq.Shape:
+    """One flat Peltier pad, upright along the x axis."""
+    along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
+    return block(along, dims.peltier_thickness, dims.running_clearance, dims.vane_height)
+
+
+DRAWN = {
+    "housing": housing,
+    "rotor": rotor,
+    "link": link,
+    "retainer": retainer,
+    "pcl_block": pcl_block,
+    "peltier_pad": peltier_pad,
+}
+
+
+def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
+    """Place pads, and blocks between the pads and the rotor's vanes at an angle [rad], by name.
+
+    Blocks stay on their pads: of the two beside a vane one is squeezed to what the vane leaves it, the other one parts
+    from the vane and keeps its shape.
+    """
+    placed: dict[str, cq.Shape] = {}
+    for index, azimuth in enumerate(_housing_vanes(dims)):
+        for pad, side in enumerate(_SIDES):
+            at, beside = _pad_place(dims, side)
+            placed[f"peltier_pad_{2 * index + pad + 1}"] = turned(drawn["peltier_pad"], azimuth + at, beside)
+    shapes = {side: max(side * rotor_angle, 0.0) for side in _SIDES}
+    pressed = {side: pcl_block(dims, squeeze) if squeeze else drawn["pcl_block"] for side, squeeze in shapes.items()}
+    for index, azimuth in enumerate(dims.azimuths("vane_count")):
+        for second, side in enumerate(_SIDES):
+            # From the middle of the rotor's vane to the pad's face, and back by half of what is left of the block.
+            middle = 0.5 * (dims.rotor_vane_angle + dims.block_angle + shapes[side])
+            placed[f"pcl_block_{2 * index + second + 1}"] = turned(pressed[side], azimuth + side * middle)
+    return placed
+
+
+def _housing_vanes(dims: Dimensions) -> list[float]:
+    """Azimuths of the housing's vanes [rad], half a pitch beyond the rotor's."""
+    return [azimuth + pi / dims.count("vane_count") for azimuth in dims.azimuths("vane_count")]
+
+
+def _pad_place(dims: Dimensions, side: float) -> tuple[float, float]:
+    """Azimuth from the middle of a housing vane to the hot face of a pad, and how far the pad's middle is beside it."""
+    return _behind_face(dims, side, dims.peltier_thickness)
+
+
+def _behind_face(dims: Dimensions, side: float, thickness: float) -> tuple[float, float]:
+    """Azimuth of a face of a housing vane, and how far beside it the middle of a plate is that lies behind it."""
+    return side * 0.5 * dims.housing_vane_angle, -side * 0.5 * thickness
+
+
+def _beside_faces(dims: Dimensions, thickness: float, more: float, levels: tuple[float, float]) -> list[cq.Shape]:
+    """Plates behind both faces of a housing vane on the x axis, longer than it at either end, between two levels."""
+    longer = (dims.pcl_inner_radius - more, dims.pcl_outer_radius + more)
+    plate = block(longer, thickness, *levels)
+    return [turned(plate, *_behind_face(dims, side, thickness)) for side in _SIDES]

@@ -1,0 +1,41 @@
+"""The cover on the housing's rim, and the screws that hold it between the springs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import cadquery as cq
+
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.solids import cylinder, join, ring
+from tvimdesign.cad.parts.common_parts import between_springs, mounts
+
+
+def cover(dims: Dimensions) -> cq.Shape:
+    """Ring around the core, with holes for its screws and above those that fix the housing."""
+    bottom, top = dims.rim_level, dims.rim_level + dims.cover_height
+    screws = [cylinder(0.5 * dims.cover_screw_clearance, bottom, top, at) for at in _axes(dims)]
+    feet = [cylinder(dims.mount_boss_radius, bottom, top, at) for at in mounts(dims)]
+    return ring(dims.cover_hole_radius, dims.housing_outer_radius, bottom, top).cut(*screws, *feet)
+
+
+def cover_screw(dims: Dimensions) -> cq.Shape:
+    """One of the screws, on the module's axis."""
+    top = dims.rim_level + dims.cover_height
+    shank = cylinder(0.5 * dims.cover_screw_pilot, top - dims.cover_screw_length, top)
+    return join(shank, [cylinder(0.5 * dims.cover_screw_head, top, top + dims.cover_screw_head_height)])
+
+
+DRAWN = {"cover": cover, "cover_screw": cover_screw}
+
+
+def stand(dims: Dimensions, solids: Mapping[str, cq.Solid]) -> dict[str, cq.Shape]:
+    """Place the cover and its screws, by name."""
+    placed: dict[str, cq.Shape] = {"cover": solids["cover"].moved(cq.Location())}
+    for index, at in enumerate(_axes(dims)):
+        placed[f"cover_screw_{index + 1}"] = solids["cover_screw"].moved(cq.Location(cq.Vector(*at, 0)))
+    return placed
+
+
+def _axes(dims: Dimensions) -> list[tuple[float, float]]:
+    return between_springs(dims, dims.housing_inner_radius)

@@ -1,0 +1,153 @@
+"""The motor below the module: hub, housing and retainer, and what is bought, drawn where they stand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from math import pi
+
+import cadquery as cq
+
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.solids import block, cylinder, join, polar, ring, spoked_disc, turned
+from tvimdesign.cad.parts.common_parts import mounts, sensor_holes
+from tvimdesign.device.motor.motor_layout import BASE_SCREWS
+
+Draw = Callable[[Dimensions], cq.Shape]
+
+
+def hub(dims: Dimensions) -> cq.Shape:
+    """Disc with a spoke to each of the housing's feet, barrel for the rotor, collar and journal; less screw holes."""
+    bottom = dims.motor_plate_level
+    top = bottom + dims.motor_plate_thickness
+    half_pitch = pi / dims.count("spring_count")
+    azimuths = [azimuth + half_pitch for azimuth in dims.azimuths("spring_count")]
+    plate = spoked_disc(
+        dims.motor_disc_radius, dims.mount_boss_radius, dims.placement_radius, dims.motor_corner_radius, azimuths,
+        (bottom, top),
+    )  # fmt: skip
+    barrel = ring(dims.motor_barrel_radius, dims.motor_disc_radius, dims.motor_rotor_bottom_level, bottom)
+    collar = cylinder(dims.motor_collar_radius, dims.stator_top_level, bottom)
+    end = dims.motor_journal_level
+    journal = cylinder(dims.motor_journal_radius, end, dims.stator_top_level)
+    pilots = [cylinder(0.5 * dims.mount_screw_pilot, bottom, top, at) for at in mounts(dims)]
+    pilot = cylinder(0.5 * dims.motor_screw_pilot, end, end + dims.motor_screw_depth)
+    body = join(plate, [barrel, collar, journal])
+    return body.cut(pilot, *pilots)
+
+
+def housing(dims: Dimensions) -> cq.Shape:
+    """Base, wall around the stator, tube for two bearings; less bore and seats, screw holes and ways for wires."""
+    bottom, shelf, top = dims.motor_bottom_level, dims.stator_bottom_level, dims.stator_top_level
+    base = cylinder(dims.motor_outer_radius, bottom, shelf)
+    wall = ring(dims.stator_seat_radius, dims.motor_outer_radius, shelf, top)
+    tube = cylinder(dims.motor_tube_radius, shelf, top)
+    across = (0.0, dims.motor_outer_radius + 1.0)
+    # The wires' opening ends at the wall: what it is cut from is the wall alone.
+    wall = wall.cut(block(across, dims.motor_wire_width, top - dims.motor_wire_depth, top))
+    seats = [
+        cylinder(dims.motor_lip_radius, bottom, top),
+        cylinder(dims.motor_seat_radius, bottom, dims.motor_retainer_level + dims.motor_bearing_width),
+        cylinder(dims.motor_seat_radius, top - dims.motor_bearing_width, top),
+    ]
+    holes = base_holes(dims)
+    if not dims.encoder_recess_radius:
+        return join(base, [wall, tube]).cut(*seats, *holes)
+    ceiling = dims.encoder_board_level + dims.encoder_board_height
+    recess = cylinder(dims.encoder_recess_radius, bottom, ceiling)
+    groove = block(across, dims.motor_wire_width, bottom, ceiling)
+    return join(base, [wall, tube]).cut(*seats, *holes, recess, groove)
+
+
+def base_holes(dims: Dimensions) -> list[cq.Shape]:
+    """What fixes the base from below: four holes, or a torque sensor's pattern with the recess for its spigot."""
+    bottom = dims.motor_bottom_level
+    if dims.sensor_recess_depth:
+        recess = cylinder(dims.flange_bore_radius, bottom, bottom + dims.sensor_recess_depth)
+        return [recess, *sensor_holes(dims, bottom)]
+    azimuths = [(index + 0.5) * 2.0 * pi / BASE_SCREWS for index in range(BASE_SCREWS)]
+    return [
+        cylinder(0.5 * dims.mount_screw_pilot, bottom, bottom + dims.motor_base_hole_depth, at)
+        for at in (polar(dims.motor_base_hole_radius, azimuth) for azimuth in azimuths)
+    ]
+
+
+def retainer(dims: Dimensions) -> cq.Shape:
+    """Disc that presses on the lower inner ring, with a counterbore for its screw's head and the magnet below it."""
+    top = dims.motor_retainer_level
+    bottom, floor = top - dims.motor_retainer_thickness, top - dims.motor_retainer_floor
+    return cylinder(dims.motor_collar_radius, bottom, top).cut(
+        cylinder(0.5 * dims.motor_screw_clearance, bottom, top), cylinder(dims.motor_sink_radius, bottom, floor)
+    )
+
+
+def screw(dims: Dimensions) -> cq.Shape:
+    """The screw of that retainer, from below."""
+    under = dims.motor_retainer_level - dims.motor_retainer_floor
+    shank = cylinder(0.5 * dims.motor_screw_pilot, under, under + dims.motor_screw_length)
+    return join(shank, [cylinder(0.5 * dims.motor_screw_head, under - dims.motor_screw_head_height, under)])
+
+
+def mount_screw(dims: Dimensions) -> cq.Shape:
+    """The first of the screws from the module's floor through its feet into the hub."""
+    at = mounts(dims)[0]
+    shank = cylinder(0.5 * dims.mount_screw_pilot, -dims.mount_screw_length, 0, at)
+    return join(shank, [cylinder(0.5 * dims.mount_screw_head, 0, dims.mount_screw_head_height, at)])
+
+
+def rotor(dims: Dimensions) -> cq.Shape:
+    """The motor's rotor as a ring."""
+    bottom = dims.motor_rotor_bottom_level
+    return ring(dims.motor_rotor_bore_radius, dims.motor_rotor_radius, bottom, bottom + dims.motor_rotor_length)
+
+
+def stator(dims: Dimensions) -> cq.Shape:
+    """The motor's stator with its windings as a ring."""
+    return ring(dims.stator_bore_radius, dims.stator_radius, dims.stator_bottom_level, dims.stator_top_level)
+
+
+def bearing(dims: Dimensions) -> cq.Shape:
+    """The upper one of the motor's bearings."""
+    top = dims.stator_top_level
+    return ring(dims.motor_bearing_bore_radius, dims.motor_bearing_radius, top - dims.motor_bearing_width, top)
+
+
+def magnet(dims: Dimensions) -> cq.Shape:
+    """The encoder's magnet, flush with the retainer below."""
+    bottom = dims.motor_retainer_level - dims.motor_retainer_thickness
+    return cylinder(dims.encoder_magnet_radius, bottom, bottom + dims.encoder_magnet_height)
+
+
+def board(dims: Dimensions) -> cq.Shape:
+    """The encoder's board with its chip as a disc, flush with the base below, or over a torque sensor's spigot."""
+    bottom = dims.encoder_board_level
+    return cylinder(dims.encoder_board_radius, bottom, bottom + dims.encoder_board_height)
+
+
+_MOTOR: dict[str, Draw] = {
+    "motor_hub": hub, "motor_housing": housing, "motor_retainer": retainer, "motor_rotor": rotor,
+    "motor_stator": stator, "motor_bearing": bearing, "motor_screw": screw, "mount_screw": mount_screw,
+}  # fmt: skip
+_ENCODER: dict[str, Draw] = {"encoder_magnet": magnet, "encoder_board": board}
+FIXED = (*_MOTOR, *_ENCODER)
+"""Kinds that stand while the link turns: the motor holds its place."""
+
+
+def drawn(dims: Dimensions) -> dict[str, Draw]:
+    """How one of each kind is drawn, of what this module has."""
+    if not dims.drive_height:
+        return {}
+    return {**_MOTOR, **(_ENCODER if dims.encoder_recess_radius else {})}
+
+
+def stand(dims: Dimensions, solids: Mapping[str, cq.Solid]) -> dict[str, cq.Shape]:
+    """Place the motor's parts, by name; all but bearings and screws are drawn where they stand."""
+    several = {"motor_bearing", "mount_screw"}
+    placed: dict[str, cq.Shape] = {kind: turned(solids[kind], 0.0) for kind in drawn(dims) if kind not in several}
+    if not placed:
+        return {}
+    down = dims.motor_retainer_level + dims.motor_bearing_width - dims.stator_top_level
+    placed["motor_bearing_1"] = turned(solids["motor_bearing"], 0.0)
+    placed["motor_bearing_2"] = solids["motor_bearing"].moved(cq.Location(cq.Vector(0, 0, down)))
+    for index, azimuth in enumerate(dims.azimuths("spring_count")):
+        placed[f"mount_screw_{index + 1}"] = turned(solids["mount_screw"], azimuth)
+    return placed

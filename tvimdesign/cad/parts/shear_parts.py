@@ -1,0 +1,88 @@
+"""The parts of the shear module: arcs of PCL on pads that lie in pockets of the floor, with windows below them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import pi
+
+import cadquery as cq
+
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.solids import cylinder, join, polar, rounded, sector, turned
+from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
+
+FIXED = (
+    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "adjuster", "adjuster_screw", "adjuster_insert", "cover",
+    "cover_screw", "cover_insert",
+)  # fmt: skip
+
+
+def housing(dims: Dimensions) -> cq.Shape:
+    """Housing with pockets for the pads and windows below them."""
+    sharp = sector(
+        dims.pcl_inner_radius + dims.window_ledge,
+        dims.pcl_outer_radius - dims.window_ledge,
+        dims.arc_span - 2.0 * dims.window_ledge / dims.pcl_inner_radius,
+        -dims.floor_thickness,
+        -dims.peltier_thickness,
+    )
+    pocket, window = peltier_pad(dims), rounded(sharp, dims.corner_radius)
+    openings = [turned(shape, azimuth) for azimuth in _azimuths(dims) for shape in (pocket, window)]
+    return bare_housing(dims, (), openings)
+
+
+def rotor(dims: Dimensions) -> cq.Shape:
+    """Rotor with pockets in its plate for the keys of the arcs."""
+    return bare_rotor(dims, openings=[turned(key, azimuth) for azimuth in _azimuths(dims) for key in _keys(dims)])
+
+
+def pcl_arc(dims: Dimensions, sheared: float = 0.0) -> cq.Shape:
+    """One arc of PCL between floor and rotor, centred on the x axis, its keys turned with the rotor by an angle [rad].
+
+    The layer itself is drawn unsheared.
+    """
+    layer = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, 0, dims.pcl_thickness)
+    keys = [turned(key, sheared) for key in _keys(dims)]
+    return join(layer, keys) if keys else layer
+
+
+def _keys(dims: Dimensions) -> list[cq.Shape]:
+    """The keys of an arc that is centred on the x axis; none where it has none."""
+    count, bottom = round(dims.key_count), dims.rotor_bottom_level
+    at = [polar(dims.key_circle_radius, dims.arc_span * ((index + 0.5) / count - 0.5)) for index in range(count)]
+    return [cylinder(0.5 * dims.key_diameter, bottom, bottom + dims.key_depth, place) for place in at]
+
+
+def peltier_pad(dims: Dimensions) -> cq.Shape:
+    """One Peltier pad in its pocket under an arc, centred on the x axis."""
+    sharp = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
+    return rounded(sharp, dims.corner_radius)
+
+
+DRAWN = {
+    "housing": housing,
+    "rotor": rotor,
+    "link": link,
+    "retainer": retainer,
+    "pcl_arc": pcl_arc,
+    "peltier_pad": peltier_pad,
+}
+
+
+def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
+    """Place pads and arcs, the keys of these with the rotor at an angle [rad], by name.
+
+    The arcs are drawn unsheared: the floor holds their lower face, the keys go with the rotor.
+    """
+    keyed = rotor_angle != 0.0 and dims.key_count > 0.0
+    shapes = {"peltier_pad": drawn["peltier_pad"], "pcl_arc": pcl_arc(dims, rotor_angle) if keyed else drawn["pcl_arc"]}
+    return {
+        f"{kind}_{index + 1}": turned(shape, azimuth)
+        for kind, shape in shapes.items()
+        for index, azimuth in enumerate(_azimuths(dims))
+    }
+
+
+def _azimuths(dims: Dimensions) -> list[float]:
+    """Middles of the PCL arcs [rad]: between the springs where there are as many of both."""
+    return [azimuth + pi / dims.count("spring_count") for azimuth in dims.azimuths("arc_count")]

@@ -1,0 +1,163 @@
+"""Renders meshes without a display: faces and sharp edges of parts, lights, names of colours, and the PNG."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from importlib import import_module
+from math import ceil
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkPolyDataNormals
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkLight,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
+
+from tvimdesign.base.whole_files import write_whole
+from tvimdesign.cad.export.mesh import Array, Mesh
+from tvimdesign.cad.geometry.kinds import KINDS, Rgb
+
+for _back_end in ("vtkRenderingOpenGL2", "vtkRenderingFreeType"):
+    import_module(f"vtkmodules.{_back_end}")  # it registers itself as what draws, and what writes
+
+_EDGE_ANGLE = 30.0
+_COLUMN, _LINE = 250, 45
+"""Least width and height of a name in the legend [pixels]."""
+
+
+def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer]) -> None:
+    """Render into a PNG of a size in pixels, whole or not at all."""
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(8)
+    window.SetSize(*size)
+    for renderer in renderers:
+        window.AddRenderer(renderer)
+    window.Render()
+    image = vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    with TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
+        beside = Path(folder) / path.name
+        writer = vtkPNGWriter()
+        writer.SetFileName(str(beside))
+        writer.SetInputConnection(image.GetOutputPort())
+        writer.SetCompressionLevel(4)
+        writer.Write()
+        write_whole(path, beside.read_bytes())
+
+
+def lit(renderer: vtkRenderer) -> None:
+    """Light what is shown from two sides of the camera."""
+    for position, intensity in (((-0.6, 0.9, 1.0), 0.8), ((0.9, 0.1, 0.8), 0.45)):
+        light = vtkLight()
+        light.SetLightTypeToCameraLight()
+        light.SetPosition(*position)
+        light.SetIntensity(intensity)
+        renderer.AddLight(light)
+    renderer.ResetCameraClippingRange()
+
+
+def actors(mesh: Mesh, matrix: Array, colour: Rgb) -> tuple[vtkActor, vtkActor]:
+    """The faces of a placed part in its colour, and its sharp edges in black."""
+    return surface_actors(poly_data(mesh, matrix), colour)
+
+
+def surface_actors(surface: vtkPolyData, colour: Rgb) -> tuple[vtkActor, vtkActor]:
+    """Faces of a surface in a colour, and its sharp edges in black."""
+    clean = vtkCleanPolyData()
+    clean.SetInputData(surface)
+    normals = vtkPolyDataNormals()
+    normals.SetInputConnection(clean.GetOutputPort())
+    normals.SetFeatureAngle(_EDGE_ANGLE)
+    normals.SplittingOn()
+    faces = _actor(normals, colour)
+    faces.GetProperty().SetAmbient(0.25)
+    faces.GetProperty().SetDiffuse(0.75)
+    faces.GetProperty().SetSpecular(0.15)
+    edges = vtkFeatureEdges()
+    edges.SetInputConnection(clean.GetOutputPort())
+    edges.SetFeatureAngle(_EDGE_ANGLE)
+    edges.ColoringOff()
+    edges.BoundaryEdgesOff()
+    edges.NonManifoldEdgesOff()
+    lines = _actor(edges, (0.08, 0.08, 0.08))
+    lines.GetProperty().SetLineWidth(1.5)
+    lines.GetProperty().LightingOff()
+    return faces, lines
+
+
+def _actor(source: vtkPolyDataNormals | vtkFeatureEdges, colour: Rgb) -> vtkActor:
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    # Lines that lie in a face are drawn in front of it.
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*colour)
+    return actor
+
+
+def poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
+    """Triangles of a mesh, placed."""
+    points = vtkPoints()
+    placed = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    points.SetData(numpy_to_vtk(placed, deep=True))  # type: ignore[no-untyped-call]  # vtk says no types here
+    cells = np.hstack((np.full((len(mesh.faces), 1), 3), mesh.faces)).astype(np.int64)
+    triangles = vtkCellArray()
+    triangles.SetCells(
+        len(mesh.faces),
+        numpy_to_vtkIdTypeArray(cells.ravel(), deep=True),  # type: ignore[no-untyped-call]  # vtk says no types here
+    )
+    data = vtkPolyData()
+    data.SetPoints(points)
+    data.SetPolys(triangles)
+    return data
+
+
+def _text(text: str, x: int, y: int, background: Rgb | None) -> vtkTextActor:
+    actor = vtkTextActor()
+    actor.SetInput(text)
+    actor.SetPosition(x, y)
+    style = actor.GetTextProperty()
+    style.SetFontSize(24)
+    style.SetColor(0.1, 0.1, 0.1)
+    if background:
+        style.SetBackgroundColor(*background)
+        style.SetBackgroundOpacity(1.0)
+    return actor
+
+
+def legend_height(kinds: Sequence[str], size: tuple[int, int]) -> float:
+    """Share of a picture's height that the names of some kinds take."""
+    return (_LINE * _lines(kinds, size[0]) + 15) / size[1]
+
+
+def _lines(kinds: Sequence[str], width: int) -> int:
+    return ceil(len(kinds) / min(len(kinds), max(1, width // _COLUMN)))
+
+
+def legend(kinds: Sequence[str], size: tuple[int, int]) -> vtkRenderer:
+    """A strip below a picture of a size in pixels, with the names of the parts in their colours."""
+    renderer = vtkRenderer()
+    renderer.SetViewport(0.0, 0.0, 1.0, legend_height(kinds, size))
+    renderer.SetBackground(1.0, 1.0, 1.0)
+    rows = _lines(kinds, size[0])
+    columns = ceil(len(kinds) / rows)
+    for index, kind in enumerate(kinds):
+        x, y = round((index % columns + 0.12) * size[0] / columns), 15 + _LINE * (rows - 1 - index // columns)
+        renderer.AddViewProp(_text("     ", x, y, KINDS[kind].colour))
+        renderer.AddViewProp(_text(kind.replace("_", " "), x + 42, y, None))
+    return renderer

@@ -1,0 +1,246 @@
+"""The PCL blocks of the compression module and what they press on: stiffness, damping, strain, torque they hold.
+
+Of the 2 N blocks only the N that are pressed count. Small motions about rest keep every block touching, so no contact
+is lost here; how a gap opens in large ones is a matter of time and history (`device/core/creep_under_hold.py`).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.joint_impedance import book as shared
+from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.physics import block, hold, layer, structure, vane
+from tvimdesign.physics.motion import Modes
+
+book = Book(shared.group)
+
+
+@book.output("1")
+def shape_factor(block_width: Scalar, block_height: Scalar, block_depth: Scalar) -> Scalar:
+    """Loaded face of a block over its force-free sides, S."""
+    return block.shape_factor(block_width, block_height, block_depth)
+
+
+def blocks_moment(shape_factor: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar) -> Scalar:
+    """Stiffness of the pressed blocks over shear modulus, times depth [m^4]: 3 (1 + 2 S^2) N A r^2."""
+    return block.stiffness(3.0 * block.shape_stiffening(shape_factor), vane_count, block_area, pcl_mean_radius, 1.0)
+
+
+@book.helper()
+def pcl_moment(shape_factor: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar) -> Scalar:
+    """What the PCL's shear modulus over its depth is multiplied with [m^4]."""
+    return blocks_moment(shape_factor, vane_count, block_area, pcl_mean_radius)
+
+
+@book.helper()
+def volume_stiffness(
+    pcl_flexural_modulus: Scalar,
+    pcl_poissons_ratio: Scalar,
+    shape_factor: Scalar,
+    vane_count: Scalar,
+    block_area: Scalar,
+    pcl_mean_radius: Scalar,
+    block_depth: Scalar,
+) -> Scalar:
+    """Stiffness of the blocks against a change of volume, in series with their shear modes [N*m/rad]."""
+    bulk = block.bulk_modulus(pcl_flexural_modulus, pcl_poissons_ratio)
+    modulus = block.volumetric_modulus(bulk, shape_factor)
+    return block.stiffness(modulus, vane_count, block_area, pcl_mean_radius, block_depth)
+
+
+@book.helper(per_point=True)
+def pcl_dynamic_stiffness(
+    pcl_moduli: tuple[Scalar, Scalar], pcl_moment: Scalar, block_depth: Scalar, volume_stiffness: Scalar
+) -> tuple[Scalar, Scalar]:
+    """Real and imaginary stiffness of the blocks [N*m/rad]."""
+    storage, loss = (modulus * pcl_moment / block_depth for modulus in pcl_moduli)
+    return layer.series_stiffness(storage, loss, volume_stiffness)
+
+
+@book.output("N*m/rad", per_point=True, headline=True)
+def pcl_stiffness(pcl_dynamic_stiffness: tuple[Scalar, Scalar]) -> Scalar:
+    """Stiffness of the PCL blocks alone, those of one sense, K_PCL."""
+    return pcl_dynamic_stiffness[0]
+
+
+@book.output("N*m*s/rad", per_point=True, headline=True)
+def pcl_damping(pcl_dynamic_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
+    """Damping of the PCL blocks alone, those of one sense, b_PCL."""
+    return pcl_dynamic_stiffness[1] / (2.0 * np.pi * frequency)
+
+
+@book.helper()
+def rotor_vane_stiffness(
+    structure_youngs_modulus: Scalar,
+    structure_shear_modulus: Scalar,
+    block_width: Scalar,
+    vane_thickness: Scalar,
+    vane_height: Scalar,
+    vane_count: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """Stiffness of the rotor's vanes about the axis [N*m/rad], pressed over their whole height."""
+    one = vane.stiffness(structure_youngs_modulus, structure_shear_modulus, block_width, vane_thickness, vane_height)
+    return vane_count * one * pcl_mean_radius**2
+
+
+@book.output("mm")
+def housing_vane_thickness(slot_angle: Scalar, pcl_mean_radius: Scalar) -> Scalar:
+    """Thickness of the housing's vanes between their pads, at the mean radius."""
+    return slot_angle * pcl_mean_radius
+
+
+@book.helper()
+def housing_vane_stiffness(
+    structure_youngs_modulus: Scalar,
+    structure_shear_modulus: Scalar,
+    slot_web: Scalar,
+    housing_vane_thickness: Scalar,
+    vane_height: Scalar,
+    vane_count: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """Stiffness of the housing's vanes about the axis [N*m/rad]: of what stands on either side of their slots."""
+    one = vane.stiffness(
+        structure_youngs_modulus, structure_shear_modulus, 2.0 * slot_web, housing_vane_thickness, vane_height
+    )
+    return vane_count * one * pcl_mean_radius**2
+
+
+@book.output("N*m/rad")
+def structure_stiffness(
+    core_stiffness: Scalar,
+    plate_stiffness: Scalar,
+    rotor_vane_stiffness: Scalar,
+    housing_vane_stiffness: Scalar,
+    structure_shear_modulus: Scalar,
+    pcl_mean_radius: Scalar,
+    floor_span: tuple[Scalar, Scalar],
+    floor_thickness: Scalar,
+    vane_count: Scalar,
+    slot_angle: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    block_area: Scalar,
+) -> Scalar:
+    """Stiffness in series with the blocks: core, plate, vanes of both, pads, and floor up to its feet or its flange."""
+    # The floor is weakest where slots cut it: what is left of its circumference there counts.
+    whole = floor_thickness * (1.0 - vane_count * slot_angle / (2.0 * np.pi))
+    return structure.series(
+        core_stiffness,
+        plate_stiffness,
+        rotor_vane_stiffness,
+        housing_vane_stiffness,
+        structure.ring_stiffness(structure_shear_modulus, whole, *floor_span),
+        # A sheet pressed through its thickness, E = 3 G as of rubber, its pellets' share not counted on top.
+        block.stiffness(3.0 * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness),
+    )
+
+
+@book.helper()
+def elastic_support(structure_stiffness: Scalar, volume_stiffness: Scalar) -> Scalar:
+    """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure, and the blocks' volume."""
+    return structure.series(structure_stiffness, volume_stiffness)
+
+
+_SQUEEZED = (
+    "squeezed by more than half its depth, the molten block is pressed out of its place (assumed, 0.3 to 0.6; a study "
+    "may require its own)"
+)
+
+
+@book.output("1", Rule(sense="<=", value=0.5, reason=_SQUEEZED), headline=True)
+def block_strain(pcl_mean_radius: Scalar, stroke: Scalar, block_depth: Scalar) -> Scalar:
+    """Compression of the molten block at full stroke, of its depth.
+
+    Its volume stays, so a block squeezed by half has twice the face (textbook), which the running clearances beside it
+    do not leave it. Where it is pressed out depends on how it is held, which nobody has measured: the limit is assumed.
+    """
+    return block.strain(pcl_mean_radius, stroke, block_depth)
+
+
+@book.output("N*m")
+def block_holding_torque(
+    pcl_tensile_yield: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar
+) -> Scalar:
+    """Torque at which the frozen blocks yield."""
+    return block.torque_at_stress(pcl_tensile_yield, vane_count, block_area, pcl_mean_radius)
+
+
+@book.helper()
+def vane_arm(block_height: Scalar, running_clearance: Scalar) -> Scalar:
+    """Distance of the middle of a block from the root of the vane it presses on [m]."""
+    return 0.5 * block_height + running_clearance
+
+
+@book.output("N*m")
+def rotor_vane_holding_torque(
+    structure_layer_strength: Scalar,
+    block_width: Scalar,
+    vane_thickness: Scalar,
+    vane_arm: Scalar,
+    vane_count: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """Torque at which the roots of the rotor's vanes yield in bending and shear, cold."""
+    force = vane.force_at_yield(structure_layer_strength, block_width, vane_thickness, vane_arm)
+    return vane_count * force * pcl_mean_radius
+
+
+@book.output("N*m")
+def housing_vane_holding_torque(
+    structure_layer_strength: Scalar,
+    slot_web: Scalar,
+    housing_vane_thickness: Scalar,
+    vane_arm: Scalar,
+    vane_count: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """Torque at which the roots of the housing's vanes yield in bending and shear, cold."""
+    force = vane.force_at_yield(structure_layer_strength, 2.0 * slot_web, housing_vane_thickness, vane_arm)
+    return vane_count * force * pcl_mean_radius
+
+
+_PARTS = (
+    "block_holding_torque", "rotor_vane_holding_torque", "housing_vane_holding_torque", "core_holding_torque",
+    "link_holding_torque",
+)  # fmt: skip
+
+
+@book.output("N*m", headline=True, least_of=_PARTS)
+def holding_torque(
+    block_holding_torque: Scalar,
+    rotor_vane_holding_torque: Scalar,
+    housing_vane_holding_torque: Scalar,
+    core_holding_torque: Scalar,
+    link_holding_torque: Scalar,
+) -> Scalar:
+    """Torque the frozen joint holds: the least of what blocks, vanes, core and the link's screws bear."""
+    vanes = np.fmin(rotor_vane_holding_torque, housing_vane_holding_torque)
+    return np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
+
+
+@book.output("1", headline=True)
+def parting_share() -> Scalar:
+    """Share of the PCL that can part from what presses on it: all, a block pushes and never pulls.
+
+    It is bonded to one vane at most, and what a hold has crept of its depth is a gap when the load is gone.
+    """
+    return 1.0
+
+
+@book.output("MPa", per_point=True)
+def block_pressure(
+    hold_torque: Scalar,
+    spring_stiffness: Scalar,
+    elastic_support: Scalar,
+    pcl_modes: Modes,
+    vane_count: Scalar,
+    block_area: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """Highest mean pressure on the blocks' faces in a hold: when the load has just come on."""
+    borne = hold.first_torque(hold_torque, spring_stiffness, elastic_support, pcl_modes)
+    return block.stress(borne, vane_count, block_area, pcl_mean_radius)

@@ -1,0 +1,143 @@
+"""What must hold for the vanes, blocks, pads and slots of the compression module."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
+from tvimdesign.device.core.clearances import book as shared
+from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.physics import block
+
+book = Book(shared.group)
+
+
+@book.output("mm", at_least(0.0, "blocks and vanes must clear the hub"))
+def hub_block_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: Scalar) -> Scalar:
+    """Room between the hub and the blocks and vanes beyond the radial clearance."""
+    return pcl_inner_radius - hub_radius - radial_clearance
+
+
+@book.output("mm", at_least(3.0 * MM, "blocks and pads need a width", 0.0))
+def block_breadth(block_width: Scalar) -> Scalar:
+    """Radial width of the blocks, held against the least that can be made."""
+    return block_width
+
+
+@book.output("mm", at_least(2.0 * MM, "air must pass between the two pads of a housing vane", 0.0))
+def slot_opening(housing_vane_angle: Scalar, slot_inner_radius: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Distance of the two pads of a housing vane around the axis, at the inner end of the slot."""
+    return slot_inner_radius * (housing_vane_angle - 2.0 * np.arcsin(peltier_thickness / slot_inner_radius))
+
+
+@book.output("mm", at_least(1.0 * MM, "the pads' cold sides must be open somewhere", 0.0))
+def slot_reach(slot_height: Scalar) -> Scalar:
+    """Height of the pads' open cold sides, held against the least that lets air in."""
+    return slot_height
+
+
+@book.output("mm", at_least(0.0, "the housing's vanes must carry their pads beside the slot", 0.0))
+def slot_web(block_width: Scalar, slot_width: Scalar) -> Scalar:
+    """Radial width of what a housing vane has on either side of its slot."""
+    return 0.5 * (block_width - slot_width)
+
+
+@book.output("mm", at_least(0.0, "what carries the pads beside the slots is thinner than the process can make it"))
+def slot_web_reserve(slot_web: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Housing vane on either side of its slot beyond the process's least wall."""
+    return slot_web - minimum_wall
+
+
+@book.output("mm")
+def vane_root(rotor_vane_angle: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+    """Thickness of the rotor's vanes at their inner end, where they are thinnest."""
+    return rotor_vane_angle * pcl_inner_radius
+
+
+@book.output("mm", at_least(0.0, "the rotor's vanes are thinner at their inner end than the process can make them"))
+def vane_root_reserve(vane_root: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Rotor vanes at their inner end beyond the process's least wall."""
+    return vane_root - minimum_wall
+
+
+@book.output("mm", at_least(0.0, "the slots are too narrow for their depth: the cutter cannot reach their ends"))
+def slot_pocket_reserve(
+    slot_opening: Scalar,
+    pocket_depth_ratio: Scalar,
+    floor_thickness: Scalar,
+    vane_height: Scalar,
+    window_ledge: Scalar,
+) -> Scalar:
+    """Depth the slots, milled from below, may have for their width beyond the one they have."""
+    return pocket_depth_ratio * slot_opening - (floor_thickness + vane_height - window_ledge)
+
+
+@book.output("mm", at_least(0.0, "the slots are too deep, the cutter cannot reach into their corners so far"))
+def slot_corner_reserve(
+    corner_radius: Scalar,
+    corner_depth_ratio: Scalar,
+    floor_thickness: Scalar,
+    vane_height: Scalar,
+    window_ledge: Scalar,
+) -> Scalar:
+    """Depth the corners of the slots, milled from below, may have beyond the one they have."""
+    return corner_depth_ratio * corner_radius - (floor_thickness + vane_height - window_ledge)
+
+
+_NARROW = "a slot must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
+
+
+@book.output("mm", at_least(0.0, _NARROW))
+def slot_width_reserve(slot_width: Scalar, corner_radius: Scalar) -> Scalar:
+    """Radial width of the slots beyond what their corners need."""
+    return slot_width - POCKET_WIDTH * corner_radius
+
+
+@book.helper()
+def solid_floor(floor_thickness: Scalar) -> Scalar:
+    """Floor that may be drilled into from below [m]: all of it, pads stand in the vanes."""
+    return floor_thickness
+
+
+@book.helper()
+def floor_opening_radius(slot_inner_radius: Scalar) -> Scalar:
+    """Radius at which the openings of the floor begin [m]: the slots."""
+    return slot_inner_radius
+
+
+_PRESSED_OUT = "what is squeezed out of the blocks' places could reach the springs, were all of it to go outwards"
+
+
+@book.output("mm", advice=(Rule(sense=">=", value=0.0, reason=_PRESSED_OUT),))
+def squeezed_block_gap(
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    block_angle: Scalar,
+    stroke: Scalar,
+    placement_radius: Scalar,
+    spring_reach: Scalar,
+    radial_clearance: Scalar,
+) -> Scalar:
+    """Room between springs and fully squeezed blocks, all of which gives way outwards, beyond the radial clearance."""
+    # A block squeezed by half needs half its own volume beside its place. Some of that goes inwards, and into the
+    # running clearances; so this is advice.
+    squeezed = block.squeezed_outer_radius(pcl_inner_radius, pcl_outer_radius, block_angle, stroke)
+    return placement_radius - spring_reach - squeezed - radial_clearance
+
+
+@book.output("mm", at_least(0.0, "the feet must clear the slots"))
+def mount_slot_gap(
+    placement_radius: Scalar, mount_boss_radius: Scalar, slot_outer_radius: Scalar, radial_clearance: Scalar
+) -> Scalar:
+    """Room between the mounting feet and the slots in the floor beyond the radial clearance."""
+    return placement_radius - mount_boss_radius - slot_outer_radius - radial_clearance
+
+
+_FALLS = "slots are wider below the pads, by the radius of their corners, and leave these nothing to stand on"
+
+
+@book.output("mm", at_least(0.2 * MM, _FALLS, 0.0))
+def pad_seat(peltier_thickness: Scalar, corner_radius: Scalar) -> Scalar:
+    """Width of what a pad stands on beside its slot."""
+    return peltier_thickness - corner_radius

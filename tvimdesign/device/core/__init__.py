@@ -1,0 +1,1 @@
+"""The quantities all modules have: layout, springs, impedance, heat, mass, clearances, materials."""

@@ -1,0 +1,75 @@
+"""What a hold under load leaves behind: how far the PCL has crept, and what of the joint's impedance it costs.
+
+The joint is at rest and its PCL free of stress; a load comes on at once, stays for `hold_time`, and goes. Meanwhile the
+PCL relaxes, so that it would be free of stress somewhere else: `set_angle`. Each mode says in its own room how much of
+it can part from what presses on it, `parting_share`. A block that only pushes leaves a gap as wide as its set; a
+layer bonded to both faces cannot part and acts in both senses from where it is, so that a hold takes nothing of its
+impedance, however much of its stress has relaxed. The springs turn such a joint back all the same, more slowly.
+"""
+
+from __future__ import annotations
+
+from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.physics import block, hold, one_sided
+from tvimdesign.physics.motion import Modes
+from tvimdesign.physics.one_sided import Touching
+
+book = Book("Hold")
+
+book.inputs()
+
+
+@book.output("N*m")
+def hold_torque(hold_share: Scalar, spring_stiffness: Scalar, stroke: Scalar) -> Scalar:
+    """Load of the hold; at `hold_share` 1 it turns the springs alone by the stroke."""
+    return hold_share * spring_stiffness * stroke
+
+
+@book.helper(per_point=True)
+def held(
+    hold_torque: Scalar, hold_time: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
+) -> hold.Held:
+    """Joint and PCL at the end of the hold."""
+    return hold.held(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
+
+
+@book.output("rad", per_point=True)
+def hold_angle(held: hold.Held) -> Scalar:
+    """Angle to which the load has turned the joint at the end of the hold."""
+    return held.angle
+
+
+@book.output("1", per_point=True)
+def pcl_relaxation(hold_time: Scalar, pcl_modes: Modes) -> Scalar:
+    """Share of its stress that the PCL loses when it is held at an angle as long; not a share of the impedance."""
+    return block.relaxation_loss(hold_time, pcl_modes)
+
+
+@book.output("rad", per_point=True)
+def set_angle(held: hold.Held) -> Scalar:
+    """Angle at which the PCL is free of stress right after the hold; before, that was at rest."""
+    return held.set_angle
+
+
+@book.output("rad", per_point=True, headline=True)
+def backlash(set_angle: Scalar, parting_share: Scalar) -> Scalar:
+    """Angle over which only the springs act right after the hold; none where the PCL is bonded to both its faces."""
+    return parting_share * set_angle
+
+
+@book.output("1", per_point=True, headline=True)
+def relaxation_loss(
+    hold_angle: Scalar, backlash: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
+) -> Scalar:
+    """Share of the impedance lost in the hold: of the torque of a quick turn from rest to where the joint was held.
+
+    A bonded layer that has relaxed takes the whole torque of such a turn: it starts from the stress it has.
+    """
+    return hold.impedance_loss(hold_angle, backlash, spring_stiffness, elastic_support, pcl_modes)
+
+
+@book.swing("1")
+def contact_lost(touching: Touching) -> Scalar:
+    """Share of the first swing of a released link, up to its second turn, in which no PCL is in contact."""
+    return one_sided.out_of_contact(touching)

@@ -1,0 +1,248 @@
+"""Stiffness and damping of the joint at its operating points: PCL, structure and springs together.
+
+Each mode says in its own room what its PCL and its structure are: `pcl_stiffness` and `pcl_damping`, and for spectra
+`pcl_moment` over `pcl_depth` times the shear modulus, in series with the lossless `elastic_support`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.catalog import Record
+from tvimdesign.device.core.mass_properties import LINK_SCREWS
+from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.physics import crystallization, dynamics, layer, motion, peg, polymer, structure
+
+book = Book("Impedance")
+
+book.inputs()
+
+
+@book.helper()
+def pcl_melting(
+    pcl_specific_heat_solid: Scalar,
+    pcl_specific_heat_melt: Scalar,
+    pcl_latent_heat: Scalar,
+    pcl_melting_start: Scalar,
+    pcl_melting_end: Scalar,
+    enthalpy_smoothing: Scalar,
+) -> polymer.Melting:
+    """Melting curve of the PCL."""
+    return polymer.Melting(pcl_specific_heat_solid, pcl_specific_heat_melt, pcl_latent_heat, pcl_melting_start,
+                           pcl_melting_end, enthalpy_smoothing)  # fmt: skip
+
+
+@book.helper()
+def pcl_kinetics(
+    pcl_avrami_exponent: Scalar,
+    pcl_crystallization_half_time: Scalar,
+    pcl_crystallization_reference: Scalar,
+    pcl_nucleation_constant: Scalar,
+    pcl_equilibrium_melting_temperature: Scalar,
+    pcl_glass_transition: Scalar,
+    pcl_transport_energy: Scalar,
+    melting_time: Scalar,
+) -> crystallization.Kinetics:
+    """Freezing and melting of the PCL in time."""
+    return crystallization.Kinetics(pcl_avrami_exponent, pcl_crystallization_half_time, pcl_crystallization_reference,
+                                    pcl_nucleation_constant, pcl_equilibrium_melting_temperature, pcl_glass_transition,
+                                    pcl_transport_energy, melting_time)  # fmt: skip
+
+
+@book.helper()
+def pcl_solid_modulus(
+    pcl_flexural_modulus: Scalar,
+    pcl_reference_temperature: Scalar,
+    pcl_softening_slope: Scalar,
+    pcl_softening_onset: Scalar,
+    pcl_softening_width: Scalar,
+    pcl_poissons_ratio: Scalar,
+) -> polymer.SolidModulus:
+    """Modulus of the frozen PCL."""
+    return polymer.SolidModulus(pcl_flexural_modulus, pcl_reference_temperature, pcl_softening_slope,
+                                pcl_softening_onset, pcl_softening_width, pcl_poissons_ratio)  # fmt: skip
+
+
+@book.helper()
+def pcl_rheology(
+    pcl_solid_modulus: polymer.SolidModulus,
+    pcl_grade: Record,
+    pcl_flow_activation_energy: Scalar,
+    pcl_melt_reference: Scalar,
+    melt_viscosity_factor: Scalar,
+) -> polymer.Rheology:
+    """Relaxation spectrum of the PCL at any temperature and solid fraction.
+
+    Chains of another length relax sooner or later; the melt's plateau modulus is the same (Ferry, ch. 13).
+    """
+    solid = [(row["relaxation_time"], row["relative_modulus"]) for row in pcl_grade.table("solid_spectrum")]
+    melt = [
+        (melt_viscosity_factor * row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")
+    ]
+    return polymer.Rheology(pcl_solid_modulus, solid, melt, pcl_flow_activation_energy, pcl_melt_reference)
+
+
+@book.helper()
+def pcl_linear_range(pcl_linear_strain_solid: Scalar, pcl_linear_strain_melt: Scalar) -> polymer.LinearRange:
+    """Strains up to which the PCL's moduli do not depend on strain."""
+    return polymer.LinearRange(pcl_linear_strain_solid, pcl_linear_strain_melt)
+
+
+@book.output("1", per_point=True)
+def solid_fraction(temperature: Scalar, pcl_melting: polymer.Melting) -> Scalar:
+    """Share of the PCL that is frozen, on the equilibrium melting curve."""
+    return polymer.solid_fraction(polymer.enthalpy(temperature, pcl_melting), pcl_melting)
+
+
+@book.output("%", per_point=True)
+def linear_strain(solid_fraction: Scalar, pcl_linear_range: polymer.LinearRange) -> Scalar:
+    """Shear strain up to which the PCL's moduli do not depend on it: the storage modulus has fallen 5 % there."""
+    return polymer.linear_strain(solid_fraction, pcl_linear_range)
+
+
+@book.helper(per_point=True)
+def pcl_modes(
+    temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology, pcl_moment: Scalar, pcl_depth: Scalar
+) -> motion.Modes:
+    """Maxwell elements of the PCL as it loads the joint: relaxation times [s] and stiffnesses [N*m/rad]."""
+    return motion.layer_modes(polymer.spectrum(temperature, solid_fraction, pcl_rheology), pcl_moment, pcl_depth)
+
+
+@book.helper(per_point=True)
+def pcl_moduli(
+    temperature: Scalar, frequency: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology
+) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of the PCL [Pa]."""
+    return polymer.moduli(temperature, solid_fraction, 2.0 * np.pi * frequency, pcl_rheology)
+
+
+@book.output("Pa", per_point=True)
+def storage_modulus(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+    """Storage shear modulus of the PCL, G'."""
+    return pcl_moduli[0]
+
+
+@book.output("Pa", per_point=True)
+def loss_modulus(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+    """Loss shear modulus of the PCL, G''."""
+    return pcl_moduli[1]
+
+
+@book.output("1", per_point=True)
+def loss_factor(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+    """Loss factor of the PCL, tan(delta)."""
+    return pcl_moduli[1] / pcl_moduli[0]
+
+
+@book.helper()
+def structure_shear_modulus(structure_youngs_modulus: Scalar, structure_poissons_ratio: Scalar) -> Scalar:
+    """Shear modulus of the structure [Pa]."""
+    return structure.shear_modulus(structure_youngs_modulus, structure_poissons_ratio)
+
+
+@book.helper()
+def pcl_mean_radius(pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Mean radius of the PCL [m]."""
+    return 0.5 * (pcl_inner_radius + pcl_outer_radius)
+
+
+@book.helper()
+def core_stiffness(
+    structure_shear_modulus: Scalar, core_radius: Scalar, link_bottom_level: Scalar, rotor_top_level: Scalar
+) -> Scalar:
+    """Torsional stiffness of the core between rotor plate and output link [N*m/rad]."""
+    return structure.shaft_stiffness(structure_shear_modulus, core_radius, link_bottom_level - rotor_top_level)
+
+
+@book.helper()
+def plate_stiffness(
+    structure_shear_modulus: Scalar, rotor_thickness: Scalar, core_radius: Scalar, pcl_mean_radius: Scalar
+) -> Scalar:
+    """Torsional stiffness of the rotor plate between the core and the middle of the PCL [N*m/rad]."""
+    return structure.ring_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_mean_radius)
+
+
+@book.helper(per_point=True)
+def branch_stiffness(
+    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, structure_stiffness: Scalar
+) -> tuple[Scalar, Scalar]:
+    """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
+    return layer.series_stiffness(pcl_stiffness, 2.0 * np.pi * frequency * pcl_damping, structure_stiffness)
+
+
+@book.output("N*m/rad", per_point=True)
+def joint_impedance(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
+    """Magnitude of the joint's dynamic stiffness, springs and damping together."""
+    return np.sqrt((spring_stiffness + branch_stiffness[0]) ** 2 + branch_stiffness[1] ** 2)
+
+
+@book.output("N*m/rad", per_point=True, headline=True)
+def joint_stiffness(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
+    """Stiffness of the joint: springs, parallel to the layer in series with the structure."""
+    return spring_stiffness + branch_stiffness[0]
+
+
+@book.output("N*m*s/rad", per_point=True, headline=True)
+def joint_damping(branch_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
+    """Damping of the joint: layer in series with the structure."""
+    return branch_stiffness[1] / (2.0 * np.pi * frequency)
+
+
+@book.output("Hz", per_point=True, headline=True)
+def natural_frequency(joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+    """Undamped natural frequency of the joint with its load."""
+    return dynamics.natural_frequency(joint_stiffness, moving_inertia)
+
+
+@book.output("1", per_point=True, headline=True)
+def damping_ratio(joint_damping: Scalar, joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+    """Damping ratio of the joint with its load; above one it creeps back without ringing."""
+    return dynamics.damping_ratio(joint_damping, joint_stiffness, moving_inertia)
+
+
+@book.output("Hz")
+def spring_natural_frequency(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+    """Undamped natural frequency on the springs alone."""
+    return dynamics.natural_frequency(spring_stiffness, moving_inertia)
+
+
+@book.output("N*m*s/rad")
+def critical_damping(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+    """Damping above which the joint on its springs no longer rings."""
+    return dynamics.critical_damping(spring_stiffness, moving_inertia)
+
+
+@book.output("1", headline=True)
+def impedance_range(joint_stiffness_at_cold: Scalar, joint_stiffness_at_hot: Scalar) -> Scalar:
+    """Stiffness of the joint cold over hot."""
+    return joint_stiffness_at_cold / joint_stiffness_at_hot
+
+
+@book.output("1")
+def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -> Scalar:
+    """Damping of the joint cold over hot."""
+    return joint_damping_at_cold / joint_damping_at_hot
+
+
+@book.output("N*m")
+def core_holding_torque(structure_layer_strength: Scalar, core_radius: Scalar) -> Scalar:
+    """Torque at which the core yields in torsion, its screw holes not counted."""
+    return structure.shaft_torque(structure.shear_yield(structure_layer_strength), core_radius)
+
+
+@book.output("N*m")
+def link_holding_torque(
+    structure_strength: Scalar, link_screw_pilot: Scalar, link_thickness: Scalar, link_bolt_circle_radius: Scalar
+) -> Scalar:
+    """Torque at which the four screws of the output link start to press into it, friction not counted."""
+    bearing = peg.bearing_force(structure_strength, link_screw_pilot, link_thickness)
+    return LINK_SCREWS * bearing * link_bolt_circle_radius
+
+
+@book.output(
+    "kg*mm^2", advice=(Rule(sense=">=", value=0.0, reason="the module's own parts have more inertia than that"),)
+)
+def load_inertia(moving_inertia: Scalar, parts_inertia: Scalar) -> Scalar:
+    """Inertia that is left for the load: the moving inertia less that of the module's own parts."""
+    return moving_inertia - parts_inertia

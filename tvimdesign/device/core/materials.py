@@ -1,0 +1,100 @@
+"""What the module is made of: the chosen catalogue records and the numbers taken from them."""
+
+from __future__ import annotations
+
+from tvimdesign.device.table.quantity_group import Book
+
+book = Book("Materials")
+
+book.record("spring_material", "spring_materials", "music_wire", "Spring steel of the torsion springs")
+book.record("process", "processes", "print_petg", "How housing, rotor, link and retainer are made")
+book.record(
+    "structure_material",
+    "structure_materials",
+    ("process", "structure_material"),
+    "Material of housing, rotor, link and retainer",
+)
+book.record("pcl_grade", "polymers", "pcl_80k", "Grade of polycaprolactone in the layer")
+book.record(
+    "peltier_module",
+    "peltiers",
+    "flexible_1600",
+    "Peltier module under the layer",
+    only=("form", "flexible", "the pads have the outline of the PCL, which a rigid module cannot be cut to"),
+)
+
+for name, unit, field, description in (
+    ("spring_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the spring wire"),
+    ("spring_density", "kg/m^3", "density", "Density of the spring wire"),
+    ("spring_yield_ratio", "1", "yield_ratio", "Static yield in bending as a share of tensile strength"),
+    ("spring_fatigue_ratio", "1", "fatigue_strength_ratio", "Repeated-bending strength at 1e6 cycles over tensile"),
+):
+    book.property(name, unit, ("spring_material", field), description)
+
+for name, unit, field, description in (
+    ("structure_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the structure"),
+    ("structure_poissons_ratio", "1", "poissons_ratio", "Poisson's ratio of the structure"),
+    ("structure_density", "kg/m^3", "density", "Density of the structure"),
+    ("structure_conductivity", "W/m/K", "thermal_conductivity", "Thermal conductivity of the structure"),
+    ("structure_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the structure"),
+    ("structure_strength", "MPa", "yield_strength", "Yield strength of the structure"),
+    ("structure_layer_strength", "MPa", "yield_strength_across_layers", "Yield strength across the layers of a print"),
+    ("structure_service_temperature", "degC", "service_temperature", "Highest continuous temperature of the structure"),
+):
+    book.property(name, unit, ("structure_material", field), description)
+
+for name, unit, field, description in (
+    ("pcl_density", "kg/m^3", "density_solid", "Density of the frozen PCL"),
+    ("pcl_specific_heat_solid", "J/kg/K", "specific_heat_solid", "Specific heat of the frozen PCL"),
+    ("pcl_specific_heat_melt", "J/kg/K", "specific_heat_melt", "Specific heat of the molten PCL"),
+    ("pcl_conductivity_solid", "W/m/K", "conductivity_solid", "Thermal conductivity of the frozen PCL"),
+    ("pcl_conductivity_melt", "W/m/K", "conductivity_melt", "Thermal conductivity of the molten PCL"),
+    ("pcl_latent_heat", "kJ/kg", "latent_heat", "Latent heat of melting of the semicrystalline PCL"),
+    ("pcl_melting_start", "degC", "melting_start", "Temperature at which melting starts"),
+    ("pcl_melting_end", "degC", "melting_end", "Temperature at which melting ends"),
+    ("pcl_flexural_modulus", "MPa", "flexural_modulus", "Young's modulus of the frozen PCL at its reference"),
+    ("pcl_reference_temperature", "degC", "reference_temperature", "Reference temperature of that modulus"),
+    ("pcl_softening_slope", "1/K", "softening_slope", "Fall of ln E per kelvin well above the softening onset"),
+    ("pcl_softening_onset", "degC", "softening_onset", "Temperature at which the frozen PCL starts to soften"),
+    ("pcl_softening_width", "K", "softening_width", "Width of that onset"),
+    ("pcl_poissons_ratio", "1", "poissons_ratio", "Poisson's ratio of the frozen PCL"),
+    ("pcl_linear_strain_solid", "%", "linear_strain_solid", "Strain at which the frozen PCL's G' has fallen 5 %"),
+    ("pcl_linear_strain_melt", "%", "linear_strain_melt", "Strain at which the molten PCL's G' has fallen 5 %"),
+    ("pcl_tensile_yield", "MPa", "tensile_yield", "Tensile yield strength of the frozen PCL"),
+    (
+        "pcl_decomposition_temperature",
+        "degC",
+        "decomposition_temperature",
+        "Temperature at which PCL starts to decompose",
+    ),
+    ("pcl_flow_activation_energy", "kJ/mol", "flow_activation_energy", "Flow activation energy of the melt"),
+    ("pcl_melt_reference", "degC", "melt_reference_temperature", "Temperature of the melt's relaxation spectrum"),
+    ("pcl_avrami_exponent", "1", "avrami_exponent", "Avrami exponent of the freezing PCL"),
+    ("pcl_crystallization_half_time", "s", "crystallization_half_time", "Time in which half freezes at its reference"),
+    ("pcl_crystallization_reference", "degC", "crystallization_reference", "Reference temperature of that half-time"),
+    ("pcl_nucleation_constant", "K^2", "nucleation_constant", "Nucleation constant K_g of the freezing PCL"),
+    ("pcl_equilibrium_melting_temperature", "degC", "equilibrium_melting_temperature", "No PCL freezes above that"),
+    ("pcl_glass_transition", "degC", "glass_transition", "Glass transition of the PCL"),
+    ("pcl_transport_energy", "kJ/mol", "transport_energy", "Activation energy of transport to the growing crystal"),
+):
+    book.property(name, unit, ("pcl_grade", field), description)
+
+for name, unit, field, description in (
+    ("pcl_bond_strength", "MPa", "bond_strength", "Traction the bond of layer and faces bears"),
+    ("pcl_melt_strain_limit", "1", "melt_strain_limit", "Shear strain the molten layer bears without tearing"),
+):
+    book.property(name, unit, ("pcl_grade", field), description, mode="shear")
+
+for name, unit, field, description in (
+    ("peltier_seebeck", "V/K", "seebeck", "Seebeck coefficient of one Peltier module"),
+    ("peltier_resistance", "ohm", "resistance", "Electrical resistance of one Peltier module"),
+    ("peltier_conductance", "W/K", "conductance", "Thermal conductance of one Peltier module"),
+    ("peltier_shear_modulus", "MPa", "shear_modulus", "Shear modulus of the Peltier module as a sheet"),
+    ("peltier_thickness", "mm", "thickness", "Thickness of the Peltier module"),
+    ("peltier_area", "mm^2", "area", "Area of one Peltier module"),
+    ("peltier_unit_mass", "g", "mass", "Mass of one Peltier module"),
+    ("peltier_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the Peltier module"),
+    ("peltier_max_temperature", "degC", "max_temperature", "Highest temperature the Peltier module is rated for"),
+    ("peltier_max_current", "A", "max_current", "Highest current the Peltier module is rated for"),
+):
+    book.property(name, unit, ("peltier_module", field), description)

@@ -1,0 +1,190 @@
+"""Which frameless motor, bearings and encoder drive the module, if any, and the sizes they are bought in."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from tvimdesign.catalog import Record
+from tvimdesign.device.table.quantity import Extra, Scalar
+from tvimdesign.device.table.quantity_group import Book
+
+WITHOUT = "none"
+
+WITH_MOTOR = (Extra("motor", WITHOUT),)
+WITH_ENCODER = (*WITH_MOTOR, Extra("encoder", WITHOUT))
+
+book = Book("Layout", WITH_MOTOR)
+"""The layout's own room asks for the motor, so its name is not taken from there."""
+
+book.record("motor", "motors", WITHOUT, "Frameless motor that turns the module's housing, or none", others=(WITHOUT,))
+book.record("encoder", "encoders", WITHOUT, "Encoder of that motor, or none", others=(WITHOUT,), extras=WITH_MOTOR)
+book.record("motor_bearing", "bearings", "ball_6802", "Ball bearings of that motor, two of a kind", extras=WITH_MOTOR)
+book.record("motor_screw", "screws", "iso_7380_m3", "Screw that holds that motor's retainer", extras=WITH_MOTOR)
+for screw, words in (("motor_screw", "motor's retainer screw"), ("mount_screw", "screws in the housing's feet")):
+    for name, unit, field, description in (
+        ("diameter", "mm", "nominal_diameter", "Nominal diameter"),
+        ("pilot", "mm", "tap_drill", "Hole for the thread"),
+        ("head", "mm", "head_diameter", "Head diameter"),
+        ("head_height", "mm", "head_height", "Head height"),
+        ("density", "kg/m^3", "density", "Density"),
+    ):
+        book.property(f"{screw}_{name}", unit, (screw, field), f"{description} of the {words}")
+book.property("motor_screw_clearance", "mm", ("motor_screw", "clearance_hole"), "Clearance hole of that screw")
+
+
+class Motor(NamedTuple):
+    """A motor by its record, and its bearings: radii, lengths [m], masses [kg]."""
+
+    stator_radius: float
+    stator_bore: float
+    stator_length: float
+    rotor_radius: float
+    rotor_bore: float
+    rotor_length: float
+    stator_mass: float
+    rotor_mass: float
+    rotor_inertia: float
+    torque_constant: float
+    continuous_torque: float
+    bearing_bore: float
+    bearing_radius: float
+    bearing_width: float
+    inner_shoulder: float
+    outer_shoulder: float
+    bearing_rating: float
+    """Static rating of one bearing [N]."""
+
+
+class Encoder(NamedTuple):
+    """An encoder by its record: radii, lengths [m], mass [kg]."""
+
+    magnet_radius: float
+    magnet_height: float
+    magnet_density: float
+    air_gap: float
+    board_radius: float
+    board_height: float
+    board_mass: float
+    resolution: float
+    """Steps a turn."""
+
+
+def motor_of(motor: Record, bearing: Record) -> Motor:
+    """What the records of a motor and of its bearings say; diameters become radii."""
+    return Motor(
+        stator_radius=0.5 * motor.value("stator_diameter"),
+        stator_bore=0.5 * motor.value("stator_bore"),
+        stator_length=motor.value("stator_length"),
+        rotor_radius=0.5 * motor.value("rotor_diameter"),
+        rotor_bore=0.5 * motor.value("rotor_bore"),
+        rotor_length=motor.value("rotor_length"),
+        stator_mass=motor.value("stator_mass"),
+        rotor_mass=motor.value("rotor_mass"),
+        rotor_inertia=motor.value("rotor_inertia"),
+        torque_constant=motor.value("torque_constant"),
+        continuous_torque=motor.value("continuous_torque"),
+        bearing_bore=0.5 * bearing.value("bore"),
+        bearing_radius=0.5 * bearing.value("outer_diameter"),
+        bearing_width=bearing.value("width"),
+        inner_shoulder=0.5 * bearing.value("inner_shoulder"),
+        outer_shoulder=0.5 * bearing.value("outer_shoulder"),
+        bearing_rating=bearing.value("static_load_rating"),
+    )
+
+
+def encoder_of(encoder: Record) -> Encoder:
+    """What the record of an encoder says; diameters become radii."""
+    return Encoder(
+        magnet_radius=0.5 * encoder.value("magnet_diameter"),
+        magnet_height=encoder.value("magnet_height"),
+        magnet_density=encoder.value("magnet_density"),
+        air_gap=encoder.value("air_gap"),
+        board_radius=0.5 * encoder.value("board_diameter"),
+        board_height=encoder.value("board_height"),
+        board_mass=encoder.value("board_mass"),
+        resolution=2.0 ** encoder.value("resolution_bits"),
+    )
+
+
+@book.helper(otherwise=None)
+def drive(motor: Record, motor_bearing: Record) -> Motor:
+    """The motor with its bearings; None without one."""
+    return motor_of(motor, motor_bearing)
+
+
+@book.helper(extras=WITH_ENCODER, otherwise=None)
+def angle_sensor(encoder: Record) -> Encoder:
+    """The encoder; None without one, or without a motor."""
+    return encoder_of(encoder)
+
+
+@book.output("mm")
+def stator_radius(drive: Motor) -> Scalar:
+    """Outer radius of the motor's stator; zero without one."""
+    return drive.stator_radius
+
+
+@book.output("mm")
+def stator_bore_radius(drive: Motor) -> Scalar:
+    """Inner radius of the motor's stator; zero without one."""
+    return drive.stator_bore
+
+
+@book.output("mm")
+def motor_rotor_radius(drive: Motor) -> Scalar:
+    """Outer radius of the motor's rotor; zero without one."""
+    return drive.rotor_radius
+
+
+@book.output("mm")
+def motor_rotor_bore_radius(drive: Motor) -> Scalar:
+    """Inner radius of the motor's rotor; zero without one."""
+    return drive.rotor_bore
+
+
+@book.output("mm")
+def motor_rotor_length(drive: Motor) -> Scalar:
+    """Length of the motor's rotor; zero without one."""
+    return drive.rotor_length
+
+
+@book.output("mm")
+def motor_bearing_bore_radius(drive: Motor) -> Scalar:
+    """Inner radius of the motor's bearings; zero without one."""
+    return drive.bearing_bore
+
+
+@book.output("mm")
+def motor_bearing_radius(drive: Motor) -> Scalar:
+    """Outer radius of the motor's bearings; zero without one."""
+    return drive.bearing_radius
+
+
+@book.output("mm")
+def motor_bearing_width(drive: Motor) -> Scalar:
+    """Width of one of the motor's bearings; zero without one."""
+    return drive.bearing_width
+
+
+@book.output("mm", extras=WITH_ENCODER)
+def encoder_magnet_radius(angle_sensor: Encoder) -> Scalar:
+    """Radius of the encoder's magnet; zero without one."""
+    return angle_sensor.magnet_radius
+
+
+@book.output("mm", extras=WITH_ENCODER)
+def encoder_magnet_height(angle_sensor: Encoder) -> Scalar:
+    """Height of the encoder's magnet; zero without one."""
+    return angle_sensor.magnet_height
+
+
+@book.output("mm", extras=WITH_ENCODER)
+def encoder_board_radius(angle_sensor: Encoder) -> Scalar:
+    """Radius of the encoder's board; zero without one."""
+    return angle_sensor.board_radius
+
+
+@book.output("mm", extras=WITH_ENCODER)
+def encoder_board_height(angle_sensor: Encoder) -> Scalar:
+    """Height of the encoder's board with its chip; zero without one."""
+    return angle_sensor.board_height

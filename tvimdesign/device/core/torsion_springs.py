@@ -1,0 +1,293 @@
+"""The torsion springs in the module: their rate, what they are to the output, and what they bear.
+
+Each function is a row of the table; its parameters are the rows it needs (see device/table/quantity.py). Kinematics are those of
+a right-hand spring, which winds up when the rotor turns in its negative sense; the other hand is its mirror image.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.catalog import Record
+from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.physics import spring
+from tvimdesign.physics.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness
+
+book = Book("Springs")
+
+book.option("rate_model", ("bending", "smi"), "Spring rate: pure bending, or the handbook's, 6 % softer by friction")
+book.option("stress_factor", ("shigley", "en_13906"), "Rise of the stress at the inner fibre by the coil's curvature")
+book.option("leg_model", ("bending", "ignored"), "Whether the rotor-side leg bends with the coils")
+book.option(
+    "transmission",
+    ("unity", "geometry"),
+    "Winding of a spring per angle of the rotor: the paper's ratio of one, or the leg on its pin",
+)
+
+
+@book.output("1")
+def active_coils(coil_count: Scalar, coil_diameter: Scalar, leg_arm: Scalar, leg_model: str) -> Scalar:
+    """Coils that bend, the rotor-side leg included."""
+    # The tang on the other side is held by the floor right where it leaves the coil.
+    return spring.active_coils(coil_count, coil_diameter, leg_arm if leg_model == "bending" else 0.0)
+
+
+@book.output("N*m/rad", headline=True)
+def spring_rate(
+    spring_youngs_modulus: Scalar,
+    wire_diameter: Scalar,
+    coil_diameter: Scalar,
+    active_coils: Scalar,
+    rate_model: spring.RateModel,
+) -> Scalar:
+    """Rate of one torsion spring, k_torsion."""
+    return spring.rate(spring_youngs_modulus, wire_diameter, coil_diameter, active_coils, rate_model)
+
+
+@book.output("1", Rule(sense=">=", value=4.0, reason="cold coiling, EN 13906-3", exists_above=1.2),
+             Rule(sense="<=", value=20.0, reason="cold coiling, EN 13906-3"))  # fmt: skip
+def spring_index(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
+    """Coil diameter over wire diameter, C."""
+    return spring.spring_index(wire_diameter, coil_diameter)
+
+
+@book.output("1")
+def transmission_ratio(pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str) -> Scalar:
+    """Winding of a spring per angle of the rotor at rest."""
+    if transmission == "unity":
+        return 1.0
+    # The leg turns against the rotor: the spring winds when the rotor turns the other way.
+    return -leg_ratio(pin_radius, placement_radius, 0.0, leg_offset)
+
+
+@book.output("1/rad")
+def transmission_curvature(
+    pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
+) -> Scalar:
+    """Change of that ratio with the winding direction of the rotor, at rest."""
+    if transmission == "unity":
+        return 0.0
+    return leg_curvature(pin_radius, placement_radius, 0.0, leg_offset)
+
+
+@book.output("N*m/rad", headline=True)
+def spring_stiffness(
+    spring_count: Scalar,
+    spring_rate: Scalar,
+    preload_angle: Scalar,
+    transmission_ratio: Scalar,
+    transmission_curvature: Scalar,
+) -> Scalar:
+    """Stiffness of all springs about the axis at rest, K_s."""
+    return output_stiffness(spring_count, spring_rate, preload_angle, transmission_ratio, transmission_curvature)
+
+
+@book.helper()
+def full_stroke(
+    stroke: Scalar,
+    preload_angle: Scalar,
+    pin_radius: Scalar,
+    placement_radius: Scalar,
+    leg_offset: Scalar,
+    transmission: str,
+) -> tuple[Scalar, Scalar]:
+    """Torque and tangent stiffness at full stroke of one spring of either hand, over the rate: [rad] and [1].
+
+    T = (a + w) w', dT/dtheta = w'^2 + (a + w) w'' for each spring, the other hand at the opposite angle.
+    """
+    if transmission == "unity":
+        return 2.0 * stroke, 2.0
+    torque: Scalar = 0.0
+    stiffness: Scalar = 0.0
+    for sign in (-1.0, 1.0):
+        where = (pin_radius, placement_radius, sign * stroke, leg_offset)
+        wound = preload_angle + leg_turned(*where)
+        torque = torque - sign * wound * -leg_ratio(*where)
+        stiffness = stiffness + leg_ratio(*where) ** 2 + wound * leg_curvature(*where)
+    return torque, stiffness
+
+
+@book.output("N*m")
+def spring_torque_full_stroke(spring_pairs: Scalar, spring_rate: Scalar, full_stroke: tuple[Scalar, Scalar]) -> Scalar:
+    """Torque of all springs about the axis at full stroke."""
+    return spring_pairs * spring_rate * full_stroke[0]
+
+
+@book.output("N*m/rad")
+def spring_stiffness_full_stroke(
+    spring_pairs: Scalar, spring_rate: Scalar, full_stroke: tuple[Scalar, Scalar]
+) -> Scalar:
+    """Stiffness of all springs about the axis at full stroke, the slope of torque over angle."""
+    return spring_pairs * spring_rate * full_stroke[1]
+
+
+_BENT = "the springs' stiffness changes by more than a tenth over the stroke"
+
+
+@book.output(
+    "1", advice=(Rule(sense=">=", value=0.9, reason=_BENT), Rule(sense="<=", value=1.1, reason=_BENT)), headline=True
+)
+def stiffness_over_stroke(spring_stiffness_full_stroke: Scalar, spring_stiffness: Scalar) -> Scalar:
+    """Stiffness of the springs at full stroke over that at rest."""
+    return spring_stiffness_full_stroke / spring_stiffness
+
+
+@book.output("rad")
+def spring_winding(
+    stroke: Scalar,
+    preload_angle: Scalar,
+    pin_radius: Scalar,
+    placement_radius: Scalar,
+    leg_offset: Scalar,
+    transmission: str,
+) -> Scalar:
+    """Largest winding of a spring: the preload and the full stroke in its winding direction."""
+    if transmission == "unity":
+        return preload_angle + stroke
+    return preload_angle + leg_turned(pin_radius, placement_radius, -stroke, leg_offset)
+
+
+@book.output("rad")
+def spring_unwinding(
+    stroke: Scalar, pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
+) -> Scalar:
+    """Unwinding of a spring from rest over the full stroke against its winding direction."""
+    if transmission == "unity":
+        return stroke
+    return -leg_turned(pin_radius, placement_radius, stroke, leg_offset)
+
+
+@book.output("rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act"))
+def preload_reserve(preload_angle: Scalar, spring_unwinding: Scalar) -> Scalar:
+    """Preload that is left at the end of the stroke of the opposing springs."""
+    return preload_angle - spring_unwinding
+
+
+@book.helper()
+def stress_per_angle(spring_rate: Scalar, wire_diameter: Scalar, spring_index: Scalar, stress_factor: str) -> Scalar:
+    """Stress at the inner fibre per radian of winding [Pa]."""
+    factor = {"shigley": spring.inner_fibre_factor, "en_13906": spring.inner_fibre_factor_en}[stress_factor]
+    return spring.bending_stress(spring_rate, wire_diameter, factor(spring_index))
+
+
+@book.output("MPa")
+def spring_stress(stress_per_angle: Scalar, spring_winding: Scalar) -> Scalar:
+    """Largest stress in the springs, at the inner fibre at full winding."""
+    return stress_per_angle * spring_winding
+
+
+@book.output("MPa")
+def spring_tensile_strength(wire_diameter: Scalar, spring_material: Record) -> Scalar:
+    """Tensile strength of the wire at its diameter."""
+    rows = spring_material.table("strength")
+    return spring.tensile_strength(wire_diameter, [(row["coefficient"], row["exponent"]) for row in rows])
+
+
+@book.output("1", advice=(Rule(sense=">=", value=1.0, reason="the strength of this wire is extrapolated to its size"),))
+def wire_range_reserve(wire_diameter: Scalar, spring_material: Record) -> Scalar:
+    """Wire diameter against the nearer end of the range the material's strength is known for, above one inside."""
+    rows = spring_material.table("strength")
+    thinnest = min(row["wire_diameter_from"] for row in rows)
+    thickest = max(row["wire_diameter_to"] for row in rows)
+    return np.fmin(wire_diameter / thinnest, thickest / wire_diameter)
+
+
+@book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield"), headline=True)
+def spring_static_safety(
+    spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, spring_winding: Scalar
+) -> Scalar:
+    """Static safety of the springs: bending yield over the largest stress."""
+    return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * spring_winding)
+
+
+@book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield while the module is put together"))
+def spring_assembly_safety(
+    spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, preload_angle: Scalar
+) -> Scalar:
+    """Static safety while the module is put together: fitting one hand winds the other by twice the preload."""
+    return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * 2.0 * np.fmax(preload_angle, 1e-6))
+
+
+@book.output(
+    "1", advice=(Rule(sense=">=", value=1.0, reason="the spring would break before 1e6 cycles"),), headline=True
+)
+def spring_fatigue_safety(
+    stress_per_angle: Scalar,
+    spring_winding: Scalar,
+    preload_reserve: Scalar,
+    spring_tensile_strength: Scalar,
+    spring_fatigue_ratio: Scalar,
+) -> Scalar:
+    """Fatigue safety of the springs for 1e6 full strokes to both sides, Gerber."""
+    least = np.fmax(preload_reserve, 0.0)  # a spring without preload lifts off; it does not unwind further
+    amplitude = 0.5 * stress_per_angle * (spring_winding - least)
+    mean = 0.5 * stress_per_angle * (spring_winding + least)
+    endurance = spring.endurance_strength(spring_tensile_strength, spring_fatigue_ratio)
+    return spring.gerber_safety(amplitude, mean, endurance, spring_tensile_strength)
+
+
+@book.output("mm")
+def spring_wound_diameter(coil_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar) -> Scalar:
+    """Mean coil diameter at full winding."""
+    return spring.loaded_coil_diameter(coil_diameter, coil_count, spring_winding)
+
+
+@book.output("mm")
+def spring_body_length(wire_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar, coil_gap: Scalar) -> Scalar:
+    """Axial length of the coils at full winding."""
+    return spring.body_length(wire_diameter, coil_count, spring_winding, coil_gap)
+
+
+_GRADE_2 = 1.0  # the factor Q of DIN 2194 for its middle grade
+
+
+@book.output("mm")
+def coil_diameter_tolerance(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
+    """Tolerance of the coil diameter, DIN 2194 grade 2, to either side."""
+    return spring.diameter_tolerance(wire_diameter, coil_diameter, _GRADE_2)
+
+
+@book.output("deg")
+def free_angle_tolerance(coil_count: Scalar, spring_index: Scalar) -> Scalar:
+    """Tolerance of a spring's free angle, DIN 2194 grade 2, to either side."""
+    return spring.free_angle_tolerance(coil_count, spring_index, _GRADE_2)
+
+
+_SPREAD = "springs as bought spread more than the preload that is left: make it adjustable"
+
+
+@book.output("1", advice=(Rule(sense="<=", value=1.0, reason=_SPREAD),))
+def free_angle_over_preload(
+    free_angle_tolerance: Scalar, preload_adjustment: Scalar, preload_reserve: Scalar
+) -> Scalar:
+    """Free-angle tolerance of a spring that no adjustment takes out, over the preload that is left at full stroke."""
+    left = np.fmax(free_angle_tolerance - 0.5 * preload_adjustment, 0.0)
+    return left / np.fmax(preload_reserve, 1e-3)
+
+
+@book.output("1")
+def free_angle_over_stroke(free_angle_tolerance: Scalar, stroke: Scalar) -> Scalar:
+    """Free-angle tolerance as a multiple of the stroke; above about one the preload must be adjustable."""
+    return free_angle_tolerance / np.abs(stroke)
+
+
+@book.output(
+    "1", Rule(sense=">=", value=1.0, reason="the rotor's pins would break off between two layers of the print")
+)
+def pin_safety(
+    spring_rate: Scalar,
+    spring_winding: Scalar,
+    leg_arm: Scalar,
+    coil_end_level: Scalar,
+    helix_slope: Scalar,
+    rotor_top_level: Scalar,
+    pin_diameter: Scalar,
+    wire_diameter: Scalar,
+    structure_layer_strength: Scalar,
+) -> Scalar:
+    """Bending strength of the rotor's pins, cold, over the stress under the leg at full winding."""
+    force = spring_rate * spring_winding / leg_arm
+    # No leg lies lower than on the plate; without that, the search is lost beyond the pole at height zero.
+    height = np.fmax(coil_end_level + helix_slope * leg_arm - rotor_top_level, 0.5 * wire_diameter)
+    return structure_layer_strength / spring.bending_stress(force * height, pin_diameter, 1.0)

@@ -1,0 +1,56 @@
+"""What a motor below the feet has to turn: the housing's moment of inertia, and that of all that goes with it.
+
+It stands apart from the volumes because nothing else asks for it: without a motor the housing stands still. Holes of
+tangs count at the springs' axes, the rounding of pockets and windows at their mean radius: right to a thousandth or so
+(the checks on the solids hold it to half a hundredth).
+"""
+
+from __future__ import annotations
+
+from tvimdesign.device.core.mass_properties import book as shared
+from tvimdesign.device.core.motor_choice import WITH_MOTOR, Motor
+from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.physics.shapes import Section
+
+book = Book(shared.group)
+
+
+@book.output("kg*mm^2")
+def housing_inertia(housing_moments: Section, structure_density: Scalar) -> Scalar:
+    """Moment of inertia of the housing about the axis."""
+    return housing_moments.polar * structure_density
+
+
+@book.output("kg*mm^2", extras=WITH_MOTOR)
+def driven_inertia(
+    drive_inertia: Scalar,
+    housing_inertia: Scalar,
+    springs_mass: Scalar,
+    adjusters_mass: Scalar,
+    placement_radius: Scalar,
+    coil_diameter: Scalar,
+    pcl_mass: Scalar,
+    peltier_mass: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    cover_section: Section,
+    cover_height: Scalar,
+    structure_density: Scalar,
+) -> Scalar:
+    """Moment of inertia of all the motor turns while the link stands; zero without a motor.
+
+    Springs and adjusters as rings about the springs' axes, PCL and pads spread over their ring; a cover's screws not
+    counted, nor the outer rings of the module's bearings, near the axis.
+    """
+    at_springs = placement_radius**2 + 0.25 * coil_diameter**2
+    at_pcl = 0.5 * (pcl_inner_radius**2 + pcl_outer_radius**2)
+    carried = (springs_mass + adjusters_mass) * at_springs + (pcl_mass + peltier_mass) * at_pcl
+    cover = cover_section.polar * cover_height * structure_density
+    return drive_inertia + housing_inertia + cover + carried
+
+
+@book.output("rad/s^2", extras=WITH_MOTOR)
+def motor_acceleration(drive: Motor, driven_inertia: Scalar) -> Scalar:
+    """Acceleration of the housing by the motor's continuous torque while the link is free; zero without a motor."""
+    return drive.continuous_torque / driven_inertia

@@ -1,0 +1,115 @@
+"""The PCL layer of the shear module and what it works against: stiffness, damping, strain, and the torque it holds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.joint_impedance import book as shared
+from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.physics import hold, layer, structure
+from tvimdesign.physics.motion import Modes
+from tvimdesign.physics.shapes import Section
+
+book = Book(shared.group)
+
+
+@book.output("m^4")
+def layer_polar_moment(pcl_section: Section) -> Scalar:
+    """Polar second moment of area of the PCL layer."""
+    return pcl_section.polar
+
+
+@book.output("N*m/rad", per_point=True, headline=True)
+def pcl_stiffness(storage_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Stiffness of the PCL layer alone, K_PCL."""
+    return storage_modulus * layer_polar_moment / pcl_thickness
+
+
+@book.output("N*m*s/rad", per_point=True, headline=True)
+def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar, frequency: Scalar) -> Scalar:
+    """Damping of the PCL layer alone, b_PCL."""
+    return loss_modulus * layer_polar_moment / pcl_thickness / (2.0 * np.pi * frequency)
+
+
+@book.output("N*m/rad")
+def structure_stiffness(
+    core_stiffness: Scalar,
+    plate_stiffness: Scalar,
+    structure_shear_modulus: Scalar,
+    floor_span: tuple[Scalar, Scalar],
+    floor_web: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    layer_polar_moment: Scalar,
+) -> Scalar:
+    """Stiffness in series with the layer: core, rotor plate, pads, and floor up to its feet or its sensor flange."""
+    return structure.series(
+        core_stiffness,
+        plate_stiffness,
+        # The floor is weakest where pockets and windows thin it; its web counts.
+        structure.ring_stiffness(structure_shear_modulus, floor_web, *floor_span),
+        peltier_shear_modulus * layer_polar_moment / peltier_thickness,
+    )
+
+
+@book.helper()
+def pcl_moment(layer_polar_moment: Scalar) -> Scalar:
+    """What the PCL's shear modulus over its depth is multiplied with [m^4]: the layer's polar moment."""
+    return layer_polar_moment
+
+
+@book.helper()
+def elastic_support(structure_stiffness: Scalar) -> Scalar:
+    """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure."""
+    return structure_stiffness
+
+
+@book.output("1", headline=True)
+def layer_strain(pcl_outer_radius: Scalar, stroke: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Shear strain of the molten layer at its outer radius at full stroke."""
+    return layer.shear_strain(pcl_outer_radius, stroke, pcl_thickness)
+
+
+@book.output("1", Rule(sense=">=", value=1.0, reason="the molten layer would tear or slip"))
+def layer_strain_safety(pcl_melt_strain_limit: Scalar, layer_strain: Scalar) -> Scalar:
+    """Strain the molten layer bears over the strain it sees."""
+    return pcl_melt_strain_limit / layer_strain
+
+
+@book.output("N*m")
+def layer_holding_torque(
+    pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
+) -> Scalar:
+    """Torque at which the frozen layer's bond, or its shear yield, gives way at its outer rim."""
+    traction = np.fmin(pcl_bond_strength, structure.shear_yield(pcl_tensile_yield))
+    return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
+
+
+@book.output("N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque"))
+def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
+    """Torque the frozen joint holds: the least of what the layer, the core and the link's screws bear."""
+    return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
+
+
+@book.output("1", headline=True)
+def parting_share() -> Scalar:
+    """Share of the PCL that can part from what presses on it: none, the layer is bonded to both its faces.
+
+    It pulls as well as it pushes, so no hold opens a gap and a swing loses no contact. The bond pays for it.
+    """
+    return 0.0
+
+
+@book.output("N*m", per_point=True)
+def layer_torque(
+    hold_torque: Scalar, spring_stiffness: Scalar, structure_stiffness: Scalar, pcl_modes: Modes
+) -> Scalar:
+    """What the layer bears in a hold when the load has just come on: the springs bear the rest."""
+    return hold.first_torque(hold_torque, spring_stiffness, structure_stiffness, pcl_modes)
+
+
+@book.output("MPa", per_point=True)
+def bond_traction(layer_torque: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Highest traction on the layer's bond in a hold: at its outer rim, when the load has just come on."""
+    return layer.traction(layer_torque, layer_polar_moment, pcl_outer_radius)

@@ -1,0 +1,21 @@
+"""Where the rotor plate stands in the shear module: on the PCL layer, which lies on the floor."""
+
+from __future__ import annotations
+
+from tvimdesign.device.core.layout import book as shared
+from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity_group import Book
+
+book = Book(shared.group)
+
+
+@book.output("mm", hidden=True)
+def rotor_bottom_level(pcl_thickness: Scalar) -> Scalar:
+    """Lower face of the rotor plate, which lies on the layer."""
+    return pcl_thickness
+
+
+@book.helper()
+def pcl_depth(pcl_thickness: Scalar) -> Scalar:
+    """Way of heat and load through the PCL [m]."""
+    return pcl_thickness

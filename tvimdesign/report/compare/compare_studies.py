@@ -1,0 +1,132 @@
+"""One comparison, from study files to a finished folder: the order of things, and what is written."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+
+from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
+from tvimdesign.device import table_for
+from tvimdesign.report.compare.children import Asked, answers
+from tvimdesign.report.compare.comparison import Outcome
+from tvimdesign.report.compare.comparison_plot_data import drawings
+from tvimdesign.report.compare.comparison_summary import print_comparison, summary_text
+from tvimdesign.report.compare.comparison_table import compare_csv
+from tvimdesign.report.figures.plot_process import PlotProcess
+from tvimdesign.report.output.progress import talk, wide_console
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.run.run_study import catalog_of, check_study
+from tvimdesign.study.conditions import Entrant, refuse_unequal
+from tvimdesign.study.design import Design, design_json
+from tvimdesign.study.text.mistakes import Problem, StudyError
+from tvimdesign.study.text.named_file import printable
+
+
+def compare_studies(
+    paths: Sequence[Path], out: Path, *, points: int, overwrite: bool, plots: bool, as_json: bool
+) -> None:
+    """Compare studies and write the folder. Raises InputError for what cannot be compared, TvimError for failures."""
+    began = time.perf_counter()
+    entrants = labelled(_read(paths))
+    with ExitStack() as stack:
+        folder = stack.enter_context(ResultsFolder(out, overwrite))
+        progress = stack.enter_context(talk())
+        asked = [Asked(label, entrant.path) for label, entrant in entrants.items()]
+        drawing: PlotProcess | None = None
+
+        def begin_drawing() -> None:
+            nonlocal drawing
+            drawing = stack.enter_context(PlotProcess()) if plots else None
+
+        outcome = Outcome(entrants, answers(asked, points, progress, begin_drawing))
+        outcome.seconds["all answers"] = time.perf_counter() - began
+        asked_for = drawings(outcome)
+        if drawing:
+            drawing.begin(folder.path, asked_for)
+        _write(folder, outcome)
+        progress("")
+        if not as_json:
+            print_comparison(outcome, wide_console())
+        troubles = [f"{label}, {trouble['step']}: {trouble['error']}" for label, trouble in outcome.troubles]
+        if drawing and asked_for:
+            progress("drawing the plots")
+            try:
+                drawing.finish()
+            except TvimError as error:
+                troubles.append(str(error))
+        progress("")
+        outcome.seconds["whole"] = time.perf_counter() - began
+        told = outcome.plain()
+        folder.write_json("compare.json", told)
+        studies = {label: entrant.study.model_dump(mode="json") for label, entrant in entrants.items()}
+        inputs = {label: entrant.path for label, entrant in entrants.items()}
+        folder.finish("partly done" if troubles else "compared", inputs, studies, outcome.seconds)
+    if as_json:
+        print(json.dumps({**told, "folder": str(folder.path), "not_done": troubles}, indent=2, allow_nan=False))
+    else:
+        wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
+    if troubles:
+        raise _trouble(outcome, troubles)
+
+
+def labelled(entrants: Sequence[Entrant]) -> dict[str, Entrant]:
+    """Studies by what they are called: their modes where these differ, else their files' names, else their paths."""
+    for names in (
+        [entrant.study.mode for entrant in entrants],
+        [entrant.path.stem for entrant in entrants],
+        [printable(entrant.path) for entrant in entrants],
+    ):
+        if len(set(names)) == len(names):
+            break
+    return dict(zip(names, entrants, strict=True))
+
+
+def _read(paths: Sequence[Path]) -> list[Entrant]:
+    """All studies, read and found comparable. Raises StudyError with everything that is wrong with any of them."""
+    if len(paths) < 2:
+        raise InputError("compare takes two studies or more; `tvimdesign run` answers one")
+    problems: list[Problem] = []
+    found = []
+    for path in paths:
+        try:
+            study = check_study(path, proof=False)  # each search looks for itself
+        except StudyError as error:
+            problems += error.problems
+        except InputError as error:
+            shown = printable(path)
+            problems.append(Problem(shown, 0, 0, "", str(error).removeprefix(f"{shown}: ").removeprefix(f"{shown} ")))
+        else:
+            found.append(Entrant(path, study, catalog_of(study), table_for(study.mode)))
+    if problems:
+        raise StudyError(problems)
+    refuse_unequal(found)
+    return found
+
+
+def _write(folder: ResultsFolder, outcome: Outcome) -> None:
+    folder.write("compare.csv", compare_csv(outcome.rows, outcome.alone))
+    folder.write("summary.txt", summary_text(outcome))
+    if outcome.fronts:
+        folder.write("fronts.csv", outcome.fronts_csv())
+        folder.write_json("fronts.json", outcome.fronts_plain())
+    for label, found in outcome.found.items():
+        name = Path(label).stem
+        for which in ("drawn", "optimised"):
+            if which in found:
+                design = Design.model_validate(found[which]["design"])
+                folder.write(f"{name}/{which}.json", design_json(design))
+        folder.write(f"{name}/study.yaml", outcome.entrants[label].path.read_bytes())
+
+
+def _trouble(outcome: Outcome, troubles: Sequence[str]) -> TvimError:
+    """What is told last: infeasible where that is all that went wrong, done in part otherwise."""
+    codes = {trouble["exit_code"] for _, trouble in outcome.troubles}
+    text = "\n".join(troubles) + "\nWhat the other studies came to is kept."
+    if codes == {InfeasibleError.exit_code} and len(troubles) == len(outcome.troubles):
+        return InfeasibleError(text)
+    error = TvimError(f"done in part: {text}")
+    error.exit_code = 4
+    return error

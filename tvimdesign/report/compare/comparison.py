@@ -1,0 +1,199 @@
+"""What a comparison came to: the answers of the child processes as designs, rows, fronts and who leads where."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from typing import Any
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.report.compare.comparison_table import Row, common_rows, lone_values, plain
+from tvimdesign.report.compare.sentence import Contest, against, ahead, conditions, held_back, standing, wins
+from tvimdesign.solve.pareto.front_leads import leads
+from tvimdesign.study.conditions import Entrant
+from tvimdesign.study.design import Design
+
+COMPARISONS = {"drawn": "as drawn", "optimised": "each optimised for itself"}
+_SAID_FIRST = ("envelope_diameter", "module_mass", "cycle_time", "response_time")
+
+
+class Outcome:
+    """All studies' answers under their labels; the first study is what the others are held against."""
+
+    def __init__(self, entrants: Mapping[str, Entrant], found: Mapping[str, dict[str, Any]]) -> None:
+        """`found` holds what each child process wrote."""
+        self.entrants, self.found = dict(entrants), dict(found)
+        self.tables = {label: entrant.table for label, entrant in entrants.items()}
+        self.seconds: dict[str, float] = {}
+
+    @property
+    def troubles(self) -> list[tuple[str, dict[str, Any]]]:
+        """(study, what failed) of everything that was not done."""
+        return [(label, trouble) for label, found in self.found.items() for trouble in found["troubles"]]
+
+    @cached_property
+    def designs(self) -> dict[str, dict[str, Design]]:
+        """Designs by comparison and study; only those there are."""
+        return {
+            which: {
+                label: Design.model_validate(found[which]["design"])
+                for label, found in self.found.items() if which in found
+            }
+            for which in COMPARISONS
+        }  # fmt: skip
+
+    @cached_property
+    def rows(self) -> dict[str, list[Row]]:
+        """What all have, by comparison; none where fewer than two studies have an answer."""
+        return {which: common_rows(designs, self.tables) for which, designs in self.designs.items() if len(designs) > 1}
+
+    @cached_property
+    def alone(self) -> dict[str, list[tuple[str, Row]]]:
+        """Outputs that some study has and not all of them, by comparison."""
+        return {which: lone_values(self.designs[which], self.tables) for which in self.rows}
+
+    # --- fronts ---
+
+    @property
+    def fronts(self) -> dict[tuple[str, str], dict[str, dict[str, Any]]]:
+        """Fronts by their two outputs, then by study."""
+        found: dict[tuple[str, str], dict[str, dict[str, Any]]] = {}
+        for label, answer in self.found.items():
+            for front in answer["fronts"]:
+                found.setdefault((front["first"], front["second"]), {})[label] = front
+        return found
+
+    def unit(self, name: str) -> str:
+        """Unit of a row that any of the studies has."""
+        return next(table.unit(name) for table in self.tables.values() if name.partition("@")[0] in table.by_name)
+
+    @cached_property
+    def contests(self) -> list[Contest]:
+        """Who leads where: each pair of outputs with a limit on either of them."""
+        found = []
+        for (first, second), fronts in self.fronts.items():
+            points = {label: _curve(front, second, first) for label, front in fronts.items()}
+            for gained, limited, curves in (
+                (first, second, points),
+                (second, first, {label: [(y, x) for x, y in curve] for label, curve in points.items()}),
+            ):
+                led = tuple(leads(curves))
+                if led and len(fronts) > 1:
+                    found.append(Contest(gained, limited, self.unit(gained), self.unit(limited), led))
+        return found
+
+    def fronts_plain(self) -> dict[str, Any]:
+        """Every front, its points in their units; null is never."""
+        names = {name for _, _, point in self._points() for name in point["values"]}
+        return {
+            "units": {name: pretty(self.unit(name)) for name in sorted(names)},
+            "fronts": [
+                {
+                    "study": label, "first": first, "second": second,
+                    "points": [self._point(point) for point in front["points"]],
+                    **{kind: front[kind] for kind in ("dominated", "failures", "notes")},
+                }
+                for (first, second), fronts in self.fronts.items() for label, front in fronts.items()
+            ],
+        }  # fmt: skip
+
+    def fronts_csv(self) -> str:
+        """A line for each point of each front, every input and output of its design in a column."""
+        names = list(dict.fromkeys(name for _, _, point in self._points() for name in point["values"]))
+        stream = io.StringIO()
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(["study", "front", *(f"{name} [{pretty(self.unit(name))}]" for name in names)])
+        for label, front, point in self._points():
+            values = [self._in_unit(name, point["values"].get(name)) for name in names]
+            writer.writerow([label, front, *("" if value is None else f"{value:.8g}" for value in values)])
+        return stream.getvalue()
+
+    def _points(self) -> Iterator[tuple[str, str, dict[str, Any]]]:
+        for (first, second), fronts in self.fronts.items():
+            for label, front in fronts.items():
+                yield from ((label, f"{first} against {second}", point) for point in front["points"])
+
+    def _point(self, point: dict[str, Any]) -> dict[str, Any]:
+        values = {name: self._in_unit(name, value) for name, value in point["values"].items()}
+        return {"where": point["where"], "values": values, "drives": point["drives"]}
+
+    def _in_unit(self, name: str, value: float | None) -> float | None:
+        return None if value is None else from_si(value, self.unit(name))
+
+    # --- what follows ---
+
+    @cached_property
+    def conclusions(self) -> list[str]:
+        """The sentences that follow, the conditions first."""
+        said = [self.sentence]
+        for which, rows in self.rows.items():
+            labels = list(self.designs[which])
+            texts = self._against(which) if which == "drawn" else []
+            broken = [
+                f"{label} as drawn does not keep {', '.join(self.found[label][which]['broken'])}"
+                for label in labels if self.found[label][which]["broken"]
+            ]  # fmt: skip
+            texts += [*broken, *(text for label in labels[1:] if (text := ahead(label, labels[0], rows)))]
+            texts += [text for label in labels if (text := held_back(label, self.found[label][which]["held"]))]
+            said += [f"{COMPARISONS[which].capitalize()}: {text}." for text in texts]
+        return [*said, *(standing(contest) for contest in self.contests)]
+
+    @property
+    def sentence(self) -> str:
+        """The answer with its conditions: how the others stand against the first, and for what each of them wins."""
+        which = "optimised" if any(entrant.study.vary for entrant in self.entrants.values()) else "drawn"
+        told = [*self._without_design(), *self._against(which)]
+        told += [wins(label, self.contests) for label in self.entrants] if self.contests else []
+        return f"With {', '.join(conditions(self.entrants))}, {COMPARISONS[which]}: {'; '.join(told)}."
+
+    def _without_design(self) -> list[str]:
+        return [
+            f"no design was found for {label} that keeps every limit"
+            for label, trouble in self.troubles
+            if trouble["step"] == "optimised"
+        ]
+
+    def _against(self, which: str) -> list[str]:
+        labels = list(self.designs[which])
+        rows = self.rows.get(which, [])
+        return [against(label, labels[0], rows, self._names_said()) for label in labels[1:]]
+
+    def _names_said(self) -> list[str]:
+        asked = next(iter(self.entrants.values())).study.minimize
+        return list(asked) or list(_SAID_FIRST)
+
+    def plain(self) -> dict[str, Any]:
+        """Everything a script wants to know."""
+        return {
+            "sentence": self.sentence,
+            "conclusions": self.conclusions,
+            "studies": {label: self._study(label) for label in self.entrants},
+            "comparisons": {which: [plain(row) for row in rows] for which, rows in self.rows.items()},
+            "alone": {
+                which: [{"study": label, **plain(row)} for label, row in rows] for which, rows in self.alone.items()
+            },
+            "leads": [contest.plain() for contest in self.contests],
+            "fronts": self.fronts_plain() if self.fronts else {},
+            "release": {
+                label: {key: found["release"][key] for key in ("findings", "notes")}
+                for label, found in self.found.items() if "release" in found
+            },
+            "seconds": self.seconds,
+        }  # fmt: skip
+
+    def _study(self, label: str) -> dict[str, Any]:
+        entrant, found = self.entrants[label], self.found[label]
+        return {
+            "file": str(entrant.path), "name": entrant.study.name, "mode": entrant.study.mode,
+            **{which: {key: value for key, value in found[which].items() if key != "design"}
+               for which in COMPARISONS if which in found},
+            "troubles": found["troubles"], "seconds": found["seconds"],
+        }  # fmt: skip
+
+
+def _curve(front: dict[str, Any], x: str, y: str) -> list[tuple[float, float]]:
+    points = [(point["values"][x], point["values"][y]) for point in front["points"]]
+    return sorted((a, b) for a, b in points if a is not None and b is not None and math.isfinite(a + b))

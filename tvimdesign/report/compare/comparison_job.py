@@ -1,0 +1,181 @@
+"""The child process that answers one study of a comparison.
+
+`python -m tvimdesign.report.compare.comparison_job STUDY OUT POINTS OTHERS`, the others being the studies it is
+compared with. It says each step as a line of JSON on standard output and writes what it found to OUT, one JSON object.
+What fails stands there under `troubles`; all else is kept.
+"""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.base.errors import InfeasibleError, TvimError
+from tvimdesign.base.units import from_si
+from tvimdesign.base.whole_files import write_whole
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table, table_for
+from tvimdesign.report.compare import normalization
+from tvimdesign.report.output.tables import check_row
+from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.run_study import catalog_of
+from tvimdesign.report.run.why import binding
+from tvimdesign.report.simulate_study import figure_data, findings
+from tvimdesign.simulation.resolved_module import rig_of_design
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
+from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
+from tvimdesign.solve.result import Answer, answer
+from tvimdesign.study import Study, drawn, read_study
+from tvimdesign.virtual_tests.registry import find_test
+
+Say = Callable[[str], None]
+HELD_TOLD = 3
+"""Count of the limits that are told of a design, those that hold it back most."""
+
+
+def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
+    """The time, the mass and the size that fronts are drawn of: those the study minimises, else the usual ones."""
+    times = [name for name in study.minimize if table.unit(name) == "s"]
+    sizes = [name for name in study.minimize if name in {"envelope_diameter", "envelope_volume", "envelope_height"}]
+    return (times or ["response_time"])[0], "module_mass", (sizes or ["envelope_diameter"])[0]
+
+
+class Job:
+    """One study on its way: what was found, what failed, how long each step took."""
+
+    def __init__(self, path: Path, points: int, others: Sequence[Path], say: Say) -> None:
+        """Read the study, and those it is compared with; the parent has seen that they can be read."""
+        self.study = read_study(path)
+        self.others = others
+        self.catalog: Catalog = catalog_of(self.study)
+        self.table = table_for(self.study.mode)
+        self.points, self.say = points, say
+        self._built: list[tuple[Optimizer, list[Run]]] = []
+        self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}}
+
+    def run(self) -> dict[str, Any]:
+        """Do every step that can be done."""
+        best: Answer | None = None
+        with self._step("as drawn"):
+            self.say("as drawn")
+            best = answer(drawn(self.study, self.catalog, self.table), self.catalog, self.table)
+            self.found["drawn"] = self._told(best)
+        if self.study.vary:
+            with self._step("optimised"):
+                best = self._optimised()
+            if best and best.solution and self.points:
+                with self._step("fronts"):
+                    self._trade(best)
+        if best:
+            with self._step("release"):
+                self.say("release")
+                self._release(best)
+            self.found["heat"] = self._heat(best)
+        return self.found
+
+    @contextmanager
+    def _step(self, name: str) -> Iterator[None]:
+        """Time a step and note its failure, so that the others are done."""
+        began = time.perf_counter()
+        try:
+            yield
+        except TvimError as error:
+            self.found["troubles"].append({"step": name, "error": str(error), "exit_code": error.exit_code})
+        finally:
+            self.found["seconds"][name] = time.perf_counter() - began
+
+    def _optimised(self) -> Answer:
+        starts = [normalization.at_its_start(study) for study in (self.study, *map(read_study, self.others))]
+        common = normalization.common(starts)
+        traded = front_outputs(self.study, self.table) if self.points else ()
+        answered = answer(self.study, self.catalog, self.table, self.say, common, self._keep, traded)
+        if not answered.found:
+            raise InfeasibleError(complaint(answered, self.table))
+        self.found["optimised"] = self._told(answered)
+        return answered
+
+    def _keep(self, built: Optimizer, runs: list[Run]) -> None:
+        self._built.append((built, runs))
+
+    def _told(self, answered: Answer) -> dict[str, Any]:
+        checks = [check_row(check, self.table) for check in answered.checks]
+        solution = answered.solution
+        return {
+            "design": answered.design.model_dump(mode="json"),
+            "broken": [check["limit"] for check in checks if not check["kept"]],
+            "warnings": [
+                {"output": check.output, "value": check.value, "because": check.origin} for check in answered.warnings
+            ],
+            "held": [
+                {"limit": held.text, "because": held.origin, "price": held.price}
+                for held in binding(answered)[:HELD_TOLD]
+            ],
+            "starts": len(solution.free_starts) if solution else 0,
+            "converged": sum(start.converged for start in solution.free_starts) if solution else 0,
+            "optima": [{"objective": s.objective, "variables": s.end} for s in solution.distinct_optima()]
+            if solution else [],
+        }  # fmt: skip
+
+    def _trade(self, best: Answer) -> None:
+        assert best.solution is not None
+        trade = Tradeoff(self.study, best.solution, *self._built[0], self.say)
+        first, *others = front_outputs(self.study, self.table)
+        for second in others:
+            front = completed(trace_front(trade, (first, second), self.points), trade)
+            self.found["fronts"].append(self._plain(front, trade.optimum))
+
+    @staticmethod
+    def _plain(front: Front, optimum: Point) -> dict[str, Any]:
+        """A front in SI, with the study's own optimum where it is on it; null where something never happens."""
+        first, second = front.outputs
+        points = sorted(undominated([*front.points, optimum], front.outputs), key=lambda point: point.values[first])
+        told = {
+            "first": first, "second": second, "notes": front.notes, "dominated": front.dominated,
+            "failures": [asdict(failure) for failure in front.failures],
+            "points": [{"where": one.where, "values": one.values, "drives": one.drives} for one in points],
+        }  # fmt: skip
+        plain: dict[str, Any] = json.loads(json.dumps(told), parse_constant=lambda _: None)
+        return plain
+
+    def _release(self, best: Answer) -> None:
+        trial = find_test("release")(rig_of_design(best.design, self.catalog, self.table))
+        panel = next(panel for panel in figure_data(trial)["panels"] if panel["title"] == "Angle")
+        lines = [line for line in panel["lines"] if not line["dashed"]]
+        self.found["release"] = {**findings(trial), "x_label": panel["x_label"], "y_label": panel["y_label"],
+                                 "lines": lines}  # fmt: skip
+
+    def _heat(self, best: Answer) -> dict[str, Any]:
+        """Temperatures [degC] through the polymer while it heats: a row for each depth [mm]."""
+        history = best.histories["softening"]
+        cells = [name for name in history if name.startswith("cell_")]
+        depth = from_si(self.table.evaluate(best.design.values, ["pcl_depth"])["pcl_depth"], "mm")
+        depths = [0.0, *((i + 0.5) / len(cells) * depth for i in range(len(cells))), depth]
+        rows = [history[name] for name in ("near_face", *cells, "far_face")]
+        return {"time": history["time"], "depth": depths, "temperature": rows}
+
+
+def main(arguments: list[str]) -> int:
+    """Run the job; an error that ends it is said, too."""
+
+    def say(text: str) -> None:
+        sys.stdout.write(json.dumps({"progress": text}) + "\n")
+        sys.stdout.flush()
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
+    path, out, points, *others = arguments
+    found = Job(Path(path), int(points), [Path(other) for other in others], say).run()
+    write_whole(Path(out), json.dumps(found).encode())
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,97 @@
+"""What the pictures of a comparison are drawn from: fronts, release curves and heat of all studies together."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.report.compare.comparison import Outcome
+from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.study.design import Design
+
+_STILL = 1e-3
+"""Share of its angle by which a released link has moved where its curve begins: the axis of time is logarithmic."""
+
+
+def drawings(outcome: Outcome) -> list[Drawing]:
+    """Every picture there is something for."""
+    found = []
+    if outcome.fronts:
+        found.append(Drawing("fronts", "comparison_figures.fronts", _fronts(outcome)))
+    if any("release" in answer for answer in outcome.found.values()):
+        found.append(Drawing("release", "test_figures.trial", _release(outcome)))
+    if any("heat" in answer for answer in outcome.found.values()):
+        found.append(Drawing("heat", "comparison_figures.heat", _heat(outcome)))
+    return found
+
+
+def _best(outcome: Outcome, label: str) -> Design:
+    """The design that release and heat are of: the optimum, or the drawn module where there is none."""
+    return outcome.designs["optimised"].get(label) or outcome.designs["drawn"][label]
+
+
+def _title(outcome: Outcome, of: str) -> str:
+    which = "each optimised for itself" if len(outcome.designs["optimised"]) > 1 else "as drawn"
+    return f"{of}, {which}"
+
+
+def _fronts(outcome: Outcome) -> dict[str, Any]:
+    panels = []
+    for (first, second), fronts in outcome.fronts.items():
+        units = {name: outcome.unit(name) for name in (first, second)}
+
+        def shown(name: str, values: Any, units: dict[str, str] = units) -> float:
+            return from_si(values[name], units[name])
+
+        lines = []
+        for label, front in fronts.items():
+            points = sorted((shown(second, p["values"]), shown(first, p["values"])) for p in front["points"])
+            optimum = _best(outcome, label).values
+            lines.append({
+                "label": label, "x": [x for x, _ in points], "y": [y for _, y in points],
+                "optimum": [[shown(second, optimum)], [shown(first, optimum)]],
+            })  # fmt: skip
+        axes = {f"{axis}_label": f"{name} ({pretty(units[name])})" for axis, name in (("x", second), ("y", first))}
+        panels.append({"lines": lines, **axes})
+    return {"title": "Fronts; filled: each study's optimum", "panels": panels}
+
+
+def _release(outcome: Outcome) -> dict[str, Any]:
+    """A panel for each operating point, a colour for each study."""
+    panels: dict[str, dict[str, Any]] = {}
+    for label, found in outcome.found.items():
+        for line in found.get("release", {}).get("lines", ()):
+            point, _, rest = line["label"].partition(", ")
+            temperature, _, history = rest.partition(", ")
+            panel = panels.setdefault(point, {
+                "title": f"{point}, {temperature}", "x_label": found["release"]["x_label"],
+                "y_label": found["release"]["y_label"], "log_x": True, "log_y": False, "lines": [],
+            })  # fmt: skip
+            panel["lines"].append({**line, "label": f"{label}, {history}" if history else label})
+    for panel in panels.values():
+        panel["lines"] = _from_where_it_moves(panel["lines"])
+    return {"title": _title(outcome, "Released from the same angle"), "panels": list(panels.values())}
+
+
+def _from_where_it_moves(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Lines of a panel from the time on at which the first of them has left where it began by a thousandth."""
+    start = min(_begins_to_move(line["x"], line["y"]) for line in lines)
+    found = []
+    for line in lines:
+        kept = [pair for pair in zip(line["x"], line["y"], strict=True) if pair[0] >= start]
+        found.append({**line, "x": [x for x, _ in kept], "y": [y for _, y in kept]})
+    return found
+
+
+def _begins_to_move(times: list[float], angles: list[float]) -> float:
+    still = _STILL * abs(angles[0])
+    return next((x for x, y in zip(times, angles, strict=True) if abs(y - angles[0]) > still), times[-1])
+
+
+def _heat(outcome: Outcome) -> dict[str, Any]:
+    studies = [{"label": label, **found["heat"]} for label, found in outcome.found.items() if "heat" in found]
+    every = [value for one in studies for row in one["temperature"] for value in row]
+    design = _best(outcome, studies[0]["label"])
+    melting = [from_si(design.value(name), "degC") for name in ("pcl_melting_start", "pcl_melting_end")]
+    title = _title(outcome, "Heat through the PCL until the switch ends (lines: melting range)")
+    return {"title": title, "studies": studies, "coldest": min(every), "hottest": max(every), "melting": melting}

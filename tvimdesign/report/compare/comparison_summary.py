@@ -1,0 +1,117 @@
+"""The summary of a comparison, for the terminal and for summary.txt."""
+
+from __future__ import annotations
+
+import io
+import math
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as Grid
+
+from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
+from tvimdesign.report.compare.comparison_table import Row
+from tvimdesign.report.output.progress import WIDTH
+from tvimdesign.report.output.tables import number
+
+_COLOURS = {"better": "green", "worse": "red"}
+
+
+def print_comparison(outcome: Outcome, console: Console) -> None:
+    """Print a comparison for people: what follows first, then the tables it follows from."""
+    console.print(f"[bold]{escape(' against '.join(outcome.entrants))}[/bold]")
+    for sentence in outcome.conclusions:
+        console.print(f"- {escape(sentence)}")
+    console.print()
+    for which, rows in outcome.rows.items():
+        asked = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
+        _print_rows(COMPARISONS[which].capitalize(), [r for r in rows if r.headline or r.name in asked], console)
+    for which, alone in outcome.alone.items():
+        shown = [f"{label}: {row.name} {_value(row, label, with_unit=True)}" for label, row in alone if row.headline]
+        if shown:
+            console.print(
+                f"[dim]{COMPARISONS[which].capitalize()}, not in every study: {escape('; '.join(shown))}.[/dim]"
+            )
+    _print_searches(outcome, console)
+    _print_fronts(outcome, console)
+    _print_warnings(outcome, console)
+    for label, trouble in outcome.troubles:
+        console.print(f"[red]Not done[/red] {escape(label)}, {trouble['step']}: {escape(trouble['error'])}")
+
+
+def summary_text(outcome: Outcome) -> str:
+    """The same as plain text."""
+    stream = io.StringIO()
+    print_comparison(outcome, Console(file=stream, width=WIDTH, highlight=False, color_system=None))
+    return stream.getvalue()
+
+
+def _print_rows(title: str, rows: list[Row], console: Console) -> None:
+    if not rows:
+        return
+    labels = list(rows[0].values)
+    grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    grid.add_column("", header_style="dim")
+    for label in labels:
+        grid.add_column(label, justify="right", header_style="dim")
+    grid.add_column("unit", header_style="dim")
+    for label in labels[1:]:
+        grid.add_column(f"{label} / {labels[0]}", justify="right", header_style="dim")
+        grid.add_column(f"{label} is", header_style="dim")
+    for row in rows:
+        against: list[str] = []
+        for label in labels[1:]:
+            ratio, verdict = row.ratio(label), row.verdict(label)
+            colour = _COLOURS.get(verdict)
+            against += [
+                "" if ratio is None else number(ratio, 3),
+                f"[{colour}]{verdict}[/{colour}]" if colour else verdict,
+            ]
+        grid.add_row(row.name, *(_value(row, label) for label in labels), pretty(row.unit), *against)
+    console.print(grid)
+
+
+def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
+    """A value for people; low to high where history leaves it open."""
+    if label in row.ends:
+        return " to ".join(number(from_si(end, row.unit), 2) for end in row.ends[label])
+    value = row.values[label]
+    if with_unit and math.isfinite(value):
+        return format_quantity(value, row.unit)
+    return "-" if math.isnan(value) else number(from_si(value, row.unit))
+
+
+def _print_searches(outcome: Outcome, console: Console) -> None:
+    for label, found in outcome.found.items():
+        told: dict[str, Any] | None = found.get("optimised")
+        if told is None:
+            continue
+        optima = [f"{optimum['objective']:.5g}" for optimum in told["optima"]]
+        agree = "all at one optimum" if len(optima) == 1 else f"at {len(optima)} optima"
+        console.print(
+            f"[dim]{escape(label)}: {told['converged']} of {told['starts']} starts converged, {agree}, "
+            f"objective {', '.join(optima)} over what is drawn on average; "
+            f"{found['seconds']['optimised']:.1f} s.[/dim]"
+        )
+
+
+def _print_warnings(outcome: Outcome, console: Console) -> None:
+    """The advice that designs do not follow: of the optima, or of what is drawn where nothing is optimised."""
+    for label, found in outcome.found.items():
+        told: dict[str, Any] = found.get("optimised") or found.get("drawn") or {"warnings": []}
+        for warning in told["warnings"]:
+            value = format_quantity(warning["value"], outcome.unit(warning["output"]))
+            console.print(
+                f"[yellow]Mind[/yellow] {escape(label)}: {warning['output']} is {value}: {escape(warning['because'])}."
+            )
+
+
+def _print_fronts(outcome: Outcome, console: Console) -> None:
+    for (first, second), fronts in outcome.fronts.items():
+        for label, front in fronts.items():
+            told = [f"{len(front['points'])} points", *front["notes"]]
+            told += [f"{front['dominated']} more are no better in anything"] if front["dominated"] else []
+            told += [f"no design at {failure['where']}: {failure['reason']}" for failure in front["failures"]]
+            console.print(f"[dim]Front of {first} against {second}, {escape(label)}: {escape('; '.join(told))}.[/dim]")

@@ -1,0 +1,39 @@
+"""What the minimised outputs of every compared study are divided by: one yardstick, so that all minimise the same.
+
+A study alone divides each output by its value at its own start. Of two studies with the same weights one would then
+pay less for a second than the other, because it was drawn slower.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from tvimdesign.base.errors import TvimError
+from tvimdesign.device import table_for
+from tvimdesign.report.run.run_study import catalog_of
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.study import Study, given
+
+Values = Mapping[str, float]
+
+
+def at_its_start(study: Study) -> dict[str, float] | None:
+    """The minimised outputs of a study as it is drawn, SI; None where that cannot be simulated."""
+    table, catalog = table_for(study.mode), catalog_of(study)
+    try:
+        model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        values = model.values(model.start, Simulator(model).run(model.start).values)
+    except TvimError:
+        return None
+    horizon = float(model.start[model.index["horizon"]])
+    return {name: values[name] if math.isfinite(values[name]) else horizon for name in study.minimize}
+
+
+def common(starts: Sequence[Values | None]) -> dict[str, float]:
+    """Geometric mean of every output over the studies, whatever their order; of nothing but zeros, one."""
+    found = [values for values in starts if values is not None]
+    names = dict.fromkeys(name for values in found for name in values)
+    sizes = {name: [abs(values[name]) for values in found if values[name] != 0.0] for name in names}
+    return {name: math.exp(math.fsum(map(math.log, of)) / len(of)) if of else 1.0 for name, of in sizes.items()}

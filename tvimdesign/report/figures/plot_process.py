@@ -1,0 +1,114 @@
+"""Draws a run's plots from plain data, in a process of its own that loads matplotlib while the solver works.
+
+Run as `python -m tvimdesign.report.figures.plot_process`: reads one JSON object on standard input, `{"folder": ...,
+"drawings": [{"file": ..., "figure": ..., "data": ...}]}`, and writes a PNG file for each. `PlotProcess` is the other
+end.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+from types import TracebackType
+from typing import Any, NamedTuple
+
+from tvimdesign.base.errors import TvimError
+from tvimdesign.base.whole_files import write_whole
+
+TIME_LIMIT = 120.0  # s
+
+
+class Drawing(NamedTuple):
+    """One plot: its file's name without ending, the function that draws it, and from what.
+
+    A function of another room than `figures` is written `room.function`.
+    """
+
+    file: str
+    figure: str
+    data: dict[str, Any]
+
+
+class PlotProcess:
+    """A process that has matplotlib loaded by the time there is something to draw; stopped if there never is."""
+
+    def __init__(self) -> None:
+        """Start it."""
+        self._child = subprocess.Popen(
+            [sys.executable, "-m", "tvimdesign.report.figures.plot_process"],
+            stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        )  # fmt: skip
+
+    def __enter__(self) -> PlotProcess:
+        """Return itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        """End the process if it has not ended."""
+        if self._child.poll() is None:
+            self._child.kill()
+        self._child.communicate()
+
+    def begin(self, folder: Path, drawings: Sequence[Drawing]) -> None:
+        """Ask for every plot, and come back at once."""
+        asked = [drawing._asdict() for drawing in drawings]
+        message = json.dumps({"folder": str(folder.resolve()), "drawings": asked}).encode()
+        assert self._child.stdin is not None
+        with contextlib.suppress(BrokenPipeError):  # a process that has died says why in `finish`
+            self._child.stdin.write(message)
+            self._child.stdin.close()
+        self._child.stdin = None
+
+    def finish(self) -> None:
+        """Wait until every plot is in the folder. Raises TvimError where that fails."""
+        try:
+            _, complaint = self._child.communicate(timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired as error:
+            raise TvimError(f"the plots took longer than {TIME_LIMIT:g} s and were stopped") from error
+        if self._child.returncode != 0:
+            last = complaint.decode(errors="replace").strip().splitlines()[-1:]
+            raise TvimError(f"the plots could not be drawn: {' '.join(last)}")
+
+
+def main() -> None:
+    """Load matplotlib, wait for the data, draw."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
+    gc.disable()  # a tenth of the time; all there ever is to collect is a few figures
+    from tvimdesign.report.figures import run_figures
+
+    run_figures.warm_up()
+    request = json.load(sys.stdin)
+    folder = Path(request["folder"])
+    folder.mkdir(parents=True, exist_ok=True)
+    drawings = [Drawing(**asked) for asked in request["drawings"]]
+    if not hasattr(os, "fork"):
+        _draw(folder, drawings)
+        return
+    # Matplotlib is slow and single-threaded: two processes with it loaded share the plots. Taking the interpreter down
+    # in order would take as long as two plots, so they leave at once.
+    other = os.fork()
+    _draw(folder, drawings[int(bool(other)) :: 2])
+    if not other or os.waitpid(other, 0)[1] == 0:
+        os._exit(0)
+    raise SystemExit(1)
+
+
+def _draw(folder: Path, drawings: Sequence[Drawing]) -> None:
+    from tvimdesign.report.figures.canvas import png
+
+    for drawing in drawings:
+        room, _, function = drawing.figure.rpartition(".")
+        drawn_by = import_module(f"tvimdesign.report.figures.{room or 'run_figures'}")
+        write_whole(folder / f"{drawing.file}.png", png(getattr(drawn_by, function)(drawing.data)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""What all reports write with: the results folder, progress on the terminal, tables."""

@@ -1,0 +1,134 @@
+"""What choosing from lists came to: the best combinations, what standard sizes cost, and how sure that is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.device import Table
+from tvimdesign.solve.nlp.solution import Choosing, Standard
+
+_NEAR = 1e-4
+"""Share within which a number in between is the listed size."""
+_BETTER = 1e-5
+"""Share by which a design must be better to count as better."""
+
+
+def best_rows(choosing: Choosing, table: Table) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Columns, and a row for each of the best combinations: choices, then objective and outputs against the best."""
+    best = choosing.best[0]
+    rows = []
+    for one in choosing.best:
+        choices = (_shown(name, value, table) for name, value in one.choices.items())
+        shares = (one.objective / best.objective - 1.0, *_shares(one, best).values())
+        rows.append((*choices, *(f"{share:+.1%}" for share in shares)))
+    return (*best.choices, "objective", *best.values), rows
+
+
+def price_in_words(choosing: Choosing, table: Table) -> str:
+    """What standard sizes cost against the best design in between; empty where none is known."""
+    if choosing.between is None or not choosing.best:
+        return ""
+    best, between = choosing.best[0], choosing.between
+    moved = []
+    for name, free in between.choices.items():
+        value = best.choices[name]
+        if isinstance(value, str) and value != free:
+            moved.append(f"{name} {value} instead of {free}")
+        elif isinstance(value, float) and isinstance(free, float) and abs(value - free) > _NEAR * abs(value):
+            moved.append(f"{name} {_shown(name, value, table)} instead of {_between(name, free, table)}")
+    if not moved:
+        return "Going standard costs nothing: the best design has listed sizes anyway."
+    shares = ", ".join(f"{name} {share:+.1%}" for name, share in _shares(best, between).items())
+    whole = best.objective / between.objective - 1.0
+    return f"The price of going standard: {', '.join(moved)}: {shares}; objective {whole:+.1%}."
+
+
+def tally_in_words(choosing: Choosing) -> str:
+    """How many combinations there are, what became of them, and how far that can be trusted."""
+    work = choosing.work
+    runs = work.warm + work.cold
+    said = [f"{_count(choosing.combinations, 'combination')}: {_fates(choosing)}."]
+    if runs:
+        each = f"{(work.warm_iterations + work.cold_iterations) / runs:.0f} iterations each"
+        without = f"; {_count(work.screened, 'set')} of sizes needed none, by arithmetic alone" if work.screened else ""
+        said.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}{without}.")
+    if runs and choosing.proven and choosing.improved > _BETTER:
+        said.append(
+            f"All were then solved or bounded, and one is {choosing.improved:.2%} better than branch and bound found: "
+            "it is the answer. More `solver.starts` make branch and bound better."
+        )
+    elif runs and choosing.proven:
+        proof = choosing.proof
+        said.append(
+            f"All were then solved ({_count(proof.warm + proof.cold, 'run')}), ruled out by arithmetic "
+            f"({proof.screened}), or cannot cost less by bounds of their own: the same best."
+        )
+    elif runs:
+        if choosing.inside > _BETTER:
+            said.append(f"A design in a box of sizes was {choosing.inside:.1%} better than the bound of the box.")
+        said.append(
+            "Bounds are local optima, good as far as the starts go; `--prove` solves or bounds every combination."
+        )
+    return " ".join(said)
+
+
+def _fates(choosing: Choosing) -> str:
+    parts = [f"{choosing.solved} solved"]
+    if choosing.pruned:
+        parts.append(f"{choosing.pruned} ruled out by their bounds")
+    parts.append(f"{choosing.without_design} without a design that keeps the limits")
+    return ", ".join(parts)
+
+
+def choosing_data(choosing: Choosing | None, table: Table) -> dict[str, Any]:
+    """The account as plain data in the rows' units; empty where nothing is listed."""
+    if choosing is None:
+        return {}
+    best, between = choosing.best[0] if choosing.best else None, choosing.between
+    price = _shares(best, between) if best and between else {}
+    return {
+        "combinations": choosing.combinations,
+        "solved": choosing.solved,
+        "pruned_by_bound": choosing.pruned,
+        "without_design": choosing.without_design,
+        "proven": choosing.proven,
+        "better_by_proof": choosing.improved,
+        "better_than_bound": choosing.inside,
+        "ruled_out_by_arithmetic": choosing.work.screened,
+        "runs": choosing.work.warm + choosing.work.cold,
+        "iterations": choosing.work.warm_iterations + choosing.work.cold_iterations,
+        "best": [_plain(one, table) for one in choosing.best],
+        "between_sizes": _plain(between, table) if between else None,
+        "price": price | ({"objective": best.objective / between.objective - 1.0} if best and between else {}),
+    }
+
+
+def _plain(one: Standard, table: Table) -> dict[str, Any]:
+    def numbers(values: Mapping[str, str | float]) -> dict[str, Any]:
+        return {
+            name: value
+            if isinstance(value, str)
+            else {"value": from_si(value, table.unit(name)), "unit": pretty(table.unit(name))}
+            for name, value in values.items()
+        }
+
+    return {"choices": numbers(one.choices), "objective": one.objective, "outputs": numbers(one.values)}
+
+
+def _shares(one: Standard, other: Standard) -> dict[str, float]:
+    """How much more of each minimised output a design has than another, as a share."""
+    return {name: value / other.values[name] - 1.0 for name, value in one.values.items()}
+
+
+def _shown(name: str, value: str | float, table: Table) -> str:
+    return value if isinstance(value, str) else format_quantity(value, table.unit(name))
+
+
+def _between(name: str, value: float, table: Table) -> str:
+    return f"{from_si(value, table.unit(name)):.4g}"
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"

@@ -1,0 +1,192 @@
+"""The results folder: every file whole, a manifest of what made it, nobody else's files touched."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import platform
+import shutil
+import subprocess
+from datetime import UTC, datetime
+from functools import cached_property
+from importlib import metadata
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from tvimdesign import __version__
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.whole_files import write_whole
+
+MANIFEST = "manifest.json"
+RUNNING = "running"
+PROGRESS = "front/progress"
+"""Folder of what a run can go on from where it was killed."""
+_LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh",
+              "ezdxf")  # fmt: skip
+
+
+class ResultsFolder:
+    """A folder that one run writes; files go in whole, and the manifest says which and with what hash.
+
+    As a context manager it always leaves a manifest: of a run that ended early, too.
+    """
+
+    def __init__(self, path: Path, overwrite: bool = False, resume: bool = False) -> None:
+        """Make the folder, or empty it of an earlier run's files where `overwrite` says so. Raises InputError.
+
+        With `resume` what an unfinished run can go on from stays.
+        """
+        if overwrite and resume:
+            raise InputError("--overwrite and --resume: choose one")
+        self.path = path
+        self._started = datetime.now(UTC)
+        self._finished = False
+        try:
+            self._claim(overwrite, resume)
+        except OSError as error:
+            raise InputError(f"{path}: cannot be used as a results folder: {error.strerror}") from error
+        self.write_json(MANIFEST, {"status": RUNNING, "process": os.getpid(), "host": platform.node()})
+
+    def __enter__(self) -> ResultsFolder:
+        """Return itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        """Leave a manifest of a run that did not come to its end."""
+        if not self._finished:
+            self.finish("interrupted" if kind is KeyboardInterrupt else "failed", {}, {})
+
+    def look_up_versions(self) -> None:
+        """Do now what takes time of the manifest: good where a run waits for something else."""
+        _ = self._made_by
+
+    @cached_property
+    def _made_by(self) -> dict[str, Any]:
+        """Versions and commit."""
+        return {
+            "tvimdesign": __version__,
+            "commit": _commit(),
+            "python": platform.python_version(),
+            "platform": platform.platform(),
+            "libraries": {name: _version(name) for name in _LIBRARIES},
+        }
+
+    def _claim(self, overwrite: bool, resume: bool) -> None:
+        if self.path.exists() and not self.path.is_dir():
+            raise InputError(f"{self.path}: is a file; name a folder with --out")
+        self.path.mkdir(parents=True, exist_ok=True)
+        if not any(self.path.iterdir()):
+            return
+        if resume and (self.path / MANIFEST).exists() and not (self.path / PROGRESS).is_dir():
+            raise InputError(f"{self.path}: there is nothing to resume in it; --overwrite to do it again")
+        if (
+            not (overwrite or resume)
+            and (self.path / MANIFEST).exists()
+            and any(p.name != MANIFEST for p in self.path.iterdir())
+        ):
+            raise InputError(
+                f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder; "
+                "--resume goes on with a front that was stopped"
+            )
+        for target in self._earlier():
+            if resume and target.parent == self.path / PROGRESS:
+                continue
+            if target.resolve().is_relative_to(self.path.resolve()):
+                target.unlink(missing_ok=True)
+        for folder in ("plots", "cad", "front"):
+            _remove_if_empty(self.path / folder)
+
+    def _earlier(self) -> list[Path]:
+        """Files of an earlier run; raises InputError where another run is at work, or none ever was."""
+        manifest = self.path / MANIFEST
+        if not manifest.exists():
+            raise InputError(
+                f"{self.path}: not a folder of results (no {MANIFEST}); --overwrite would lose other files"
+            )
+        try:
+            said = json.loads(manifest.read_bytes())
+            files = [*said.get("files", {}), MANIFEST]
+        except (ValueError, AttributeError) as error:
+            raise InputError(f"{manifest}: not written by tvimdesign; --overwrite would lose other files") from error
+        if said.get("status") != RUNNING:
+            return [self.path / name for name in files]
+        if said.get("host") == platform.node() and _alive(said.get("process")):
+            raise InputError(f"{self.path}: another run (process {said['process']}) is writing it; name another --out")
+        # A run that was killed: it began in an empty folder, so what is here is its own.
+        return [path for path in self.path.rglob("*") if path.is_file()]
+
+    def write(self, name: str, data: str | bytes) -> Path:
+        """Write one file, whole."""
+        path = self.path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, data.encode() if isinstance(data, str) else data)
+        return path
+
+    def write_json(self, name: str, data: Any) -> Path:
+        """Write one JSON file, whole; infinities are not JSON and raise ValueError."""
+        return self.write(name, json.dumps(data, indent=2, allow_nan=False) + "\n")
+
+    def finish(
+        self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float] | None = None
+    ) -> None:
+        """Write the manifest: versions, commit, seed, hashes of what went in and of what came out."""
+        self._finished = True
+        files = sorted(p for p in self.path.rglob("*") if p.is_file() and p.name != MANIFEST)
+        self.write_json(
+            MANIFEST,
+            {
+                "status": status,
+                **self._made_by,
+                "started": self._started.isoformat(timespec="seconds"),
+                "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
+                "timing": timing or {},
+                "seed": study.get("solver", {}).get("seed"),
+                "inputs": {name: _hash(path) for name, path in inputs.items()},
+                "files": {p.relative_to(self.path).as_posix(): _hash(p) for p in files},
+            },
+        )
+
+
+def _alive(process: object) -> bool:
+    """Whether a process of this number runs here."""
+    if not isinstance(process, int) or process == os.getpid():
+        return False
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def _remove_if_empty(folder: Path) -> None:
+    if folder.is_dir() and not any(p.is_file() for p in folder.rglob("*")):
+        shutil.rmtree(folder)
+
+
+def _hash(path: Path) -> str:
+    return "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _version(name: str) -> str | None:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def _commit() -> str | None:
+    """Commit of the source tree this package runs from, or None when it runs from an installed wheel."""
+    source = Path(__file__).resolve().parents[3]
+    if not (source / ".git").exists():
+        return None
+    try:
+        found = subprocess.run(
+            ["git", "rev-parse", "HEAD"], cwd=source, capture_output=True, text=True, timeout=5, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return found.stdout.strip() or None

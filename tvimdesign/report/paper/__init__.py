@@ -1,0 +1,1 @@
+"""The paper against its own numbers."""

@@ -1,0 +1,116 @@
+"""What gives the paper's response time: its module with another thickness, contact, current or place of the sensor.
+
+The paper states one time and neither thickness nor contacts; many designs keep it. `write_level_sets` computes them for
+the module as published and writes tables and a figure; beside them, what the ratio of both modes hangs on.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.progress import talk, wide_console
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.paper import paper_case
+from tvimdesign.report.paper.paper_check import published_model
+from tvimdesign.report.paper.paper_claims import from_paper
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, level_set
+
+THICKNESSES = np.geomspace(0.2e-3, 2e-3, 8)  # m
+AGAINST = {
+    "hot_contact": np.geomspace(1e2, 1e5, 13),  # W/m^2 K, from dry to well wetted
+    "rotor_contact": np.geomspace(1e2, 1e5, 13),
+    "current": np.linspace(1.4, 2.8, 15),  # A
+}
+
+
+def write_level_sets(out: Path, overwrite: bool) -> Path:
+    """Compute and draw them, and write the folder; returns it. Raises InputError where the folder is in use."""
+    model, wanted, thin = published_model(), from_paper("response_time"), list(THICKNESSES)
+    with ResultsFolder(out, overwrite) as folder, talk() as say, PlotProcess() as drawing:
+        sets = [level_set(model, name, list(values), thin, wanted, say) for name, values in AGAINST.items()]
+        say("what the ratio of compression to shear hangs on: every assumed input through its range")
+        case = Drawing("paper_case", "test_figures.tornado", paper_case.figure_data())
+        say("drawing")
+        drawing.begin(
+            folder.path, [Drawing("level_sets", "test_figures.level_sets", _figure_data(sets, model, wanted)), case]
+        )
+        units = {one.parameter: model.table.unit(one.parameter) for one in sets}
+        folder.write("level_sets.csv", _table(_line_rows(sets, units)))
+        folder.write("response_times.csv", _table(_time_rows(sets, units)))
+        folder.write("paper_case.csv", _table(_in_cells(paper_case.table_rows())))
+        folder.write("paper_case_choices.csv", _table(_in_cells(paper_case.alternative_rows())))
+        drawing.finish()
+        folder.finish("evaluated", {}, {})
+    return folder.path
+
+
+def print_level_sets(out: Path, overwrite: bool, as_json: bool) -> None:
+    """Write the folder, and tell people where it is; scripts know."""
+    folder = write_level_sets(out, overwrite)
+    if not as_json:
+        wide_console().print(f"\nWhat gives the paper's response times is in [bold]{folder}[/bold]", soft_wrap=True)
+
+
+def _figure_data(sets: list[LevelSet], model: Model, wanted: float) -> dict[str, Any]:
+    """Plain data for the process that draws, in the units people read."""
+    ends = [1e3 * float(end) for end in (THICKNESSES[0], THICKNESSES[-1])]
+    return {"wanted": wanted, "range": ends, "panels": [_panel(one, model) for one in sets]}
+
+
+def _panel(one: LevelSet, model: Model) -> dict[str, Any]:
+    """One parameter's lines, a gap being None, and the module as assumed here."""
+    row, unit = model.table.row(one.parameter), model.table.unit(one.parameter)
+    start = {name: float(model.start[model.index[name]]) for name in (one.parameter, "pcl_thickness")}
+    return {
+        "label": f"{row.description.partition(',')[0]} ({pretty(unit)})",
+        "logarithmic": bool(one.values[-1] / one.values[0] > 10.0),
+        "x": [from_si(float(value), unit) for value in one.values],
+        "lines": {place: [None if math.isnan(t) else 1e3 * t for t in one.line[place].tolist()] for place in PLACES},
+        "published": [from_si(start[one.parameter], unit), 1e3 * start["pcl_thickness"]],
+    }
+
+
+def _line_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str, str]]:
+    for one in sets:
+        unit = units[one.parameter]
+        for i, value in enumerate(one.values):
+            lines = {f"pcl_thickness for {place} [mm]": _cell(1e3 * one.line[place][i]) for place in PLACES}
+            yield {"parameter": one.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit, **lines}
+
+
+def _time_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str, str]]:
+    for one in sets:
+        unit = units[one.parameter]
+        for i, value in enumerate(one.values):
+            for j, thickness in enumerate(one.thicknesses):
+                times = {f"{place} [s]": _cell(one.times[place][i, j]) for place in PLACES}
+                place = {"parameter": one.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit}
+                yield {**place, "pcl_thickness [mm]": f"{1e3 * thickness:.6g}", **times}
+
+
+def _in_cells(rows: Iterable[dict[str, str | float]]) -> Iterable[dict[str, str]]:
+    for row in rows:
+        yield {name: value if isinstance(value, str) else _cell(value) for name, value in row.items()}
+
+
+def _cell(value: float) -> str:
+    """A number, or nothing where there is none."""
+    return f"{value:.6g}" if math.isfinite(value) else ""
+
+
+def _table(rows: Iterable[dict[str, str]]) -> str:
+    listed, stream = list(rows), io.StringIO()
+    writer = csv.DictWriter(stream, list(listed[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(listed)
+    return stream.getvalue()

@@ -1,0 +1,184 @@
+"""The paper's 70 s in shear and 140 s in compression: a calibrated pair of modules, and what their ratio hangs on.
+
+The pair and the ranges of what is assumed stand in `paper_case.yaml`, and in the records of the catalogue; all times
+are simulated when they are asked for.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Any
+
+import numpy as np
+import yaml
+
+from tvimdesign.base.units import from_si, pretty, to_si
+from tvimdesign.catalog import Catalog
+from tvimdesign.catalog.record import Entry
+from tvimdesign.device import Input, table_for
+from tvimdesign.report.paper.paper_claims import from_paper
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.sensitivity.ratio_sensitivity import Array, Influence, Pair, Span, ratio
+from tvimdesign.study import given, read_study_text
+
+SHOWN = 0.01  # of the ratio: inputs that move it by less have no bar in the figure
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """The same pair with another choice: what is said of it, and both times [s]."""
+
+    label: str
+    times: Array
+
+
+@cache
+def case() -> dict[str, Any]:
+    """The pair, the ranges and the choices as they stand in the file."""
+    text = resources.files("tvimdesign.report.paper").joinpath("paper_case.yaml").read_text(encoding="utf-8")
+    loaded: dict[str, Any] = yaml.safe_load(text)
+    return loaded
+
+
+def _model(mode: str, **choices: str) -> Model:
+    study = read_study_text(case()["studies"][mode], f"the calibrated {mode} module")
+    study = study.model_copy(update={"module": {**study.module, **choices}})
+    table = table_for(mode)
+    return Model(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+
+
+@cache
+def pair(**choices: str) -> Pair:
+    """Shear and compression module, compiled; `choices` changes words of both."""
+    return Pair(_model("shear", **choices), _model("compression", **choices))
+
+
+def _row(name: str) -> Input:
+    mode = "shear" if name in pair().models[0].index else "compression"
+    row = table_for(mode).row(name)
+    assert isinstance(row, Input)
+    return row
+
+
+@cache
+def ranges() -> dict[str, Entry]:
+    """What is assumed in the case and how far it may be off [SI]: this case's own ranges, then those of the records."""
+    found = {name: _entry(said) | {"value": pair().value(name)} for name, said in case()["ranges"].items()}
+    entries = {name: Entry(**fields) for name, fields in found.items()}
+    for model in pair().models:
+        needed = model.table.ancestors(case()["event"])
+        for row in model.table.inputs:
+            if row.record and row.name in needed:
+                entry = model.words[row.record[0]].entry(row.record[1])
+                if entry.low is not None:
+                    entries[row.name] = entry
+    return entries
+
+
+def _entry(said: dict[str, Any]) -> dict[str, Any]:
+    """Fields of a range in SI."""
+    ends = {end: to_si(float(said[end]), said["unit"]) for end in ("low", "high")}
+    return {"unit": said["unit"], "source": said["source"], "status": said["status"], **ends}
+
+
+@cache
+def influences() -> tuple[Influence, ...]:
+    """What each assumed input does to both times through its range; first what moves their ratio most."""
+    spans = (Span(name, float(entry.low or 0.0), float(entry.high or 0.0)) for name, entry in ranges().items())
+    found = [pair().influence(case()["event"], span) for span in spans]
+    # What only freezing asks for is assumed too, and changes nothing here.
+    moving = (influence for influence in found if np.any(influence.at_low != influence.at_high))
+    return tuple(sorted(moving, key=lambda influence: -influence.reach))
+
+
+@cache
+def alternatives() -> tuple[Alternative, ...]:
+    """The pair with its thermometer elsewhere, and made of something else."""
+    places = [Alternative(f"a thermometer at the {_place(name)}", pair().times(name)) for name in case()["places"]]
+    others = [pair(structure_material=name) for name in case()["materials"]]
+    materials = [
+        Alternative(f"structures of {other.models[0].words['structure_material'].title}", other.times(case()["event"]))
+        for other in others
+    ]
+    return (*places, *materials)
+
+
+def _place(event: str) -> str:
+    return {"near_face_time": "near face", "mean_time": "mean", "far_face_time": "far face"}[event]
+
+
+def sentence() -> str:
+    """The row of the ledger: what the pair takes, what else it could be read as, what carries the ratio."""
+    event = case()["event"]
+    times = pair().times(event)
+    others = "; ".join(f"with {one.label}: {_both(one.times)}" for one in alternatives())
+    most = influences()[0]
+    ends = [end for influence in influences() for end in influence.ratios]
+    stated = [from_paper(name) for name in ("response_time", "response_time_compression")]
+    inputs = f"{len(influences())} assumed inputs, each alone through its range"
+    return (
+        f"a pair calibrated to it (studies/calibrated_*.yaml): {_place(event)} of the PCL at 100 °C after "
+        f"{times[0]:.1f} s in shear and {times[1]:.1f} s in compression, a ratio of {ratio(times):.2f} against "
+        f"{ratio(stated):g}. Otherwise: {others}. Of {inputs}, `{most.span.name}` "
+        f"carries the ratio most: {_through(most.ratios)}; over all of them it lies between "
+        f"{min(ends):.2f} and {max(ends):.2f}"
+    )
+
+
+def _both(times: Array) -> str:
+    return f"{times[0]:.0f} and {times[1]:.0f} s ({ratio(times):.2f})"
+
+
+def _through(ends: tuple[float, float]) -> str:
+    low, high = sorted(ends)
+    return f"{low:.2f} to {high:.2f}"
+
+
+def table_rows() -> Iterator[dict[str, str | float]]:
+    """Every assumed input with its range, both times and their ratio at its ends, and the elasticities."""
+    event = case()["event"]
+    for influence in influences():
+        name = influence.span.name
+        entry, unit = ranges()[name], _row(name).unit
+        first, second = pair().elasticities(event, name)
+        low, high = influence.ratios
+        yield {
+            "input": name, "value": from_si(influence.value, unit), "low": from_si(influence.span.low, unit),
+            "high": from_si(influence.span.high, unit), "unit": unit,
+            "calibrated": "yes" if name in case()["solved"] else "no", "status": entry.status, "source": entry.source,
+            "shear time at low [s]": influence.at_low[0], "shear time at high [s]": influence.at_high[0],
+            "compression time at low [s]": influence.at_low[1], "compression time at high [s]": influence.at_high[1],
+            "ratio at low": low, "ratio at high": high, "elasticity of shear time": first,
+            "elasticity of compression time": second, "elasticity of ratio": second - first,
+        }  # fmt: skip
+
+
+def alternative_rows() -> Iterator[dict[str, str | float]]:
+    """The pair as calibrated, and with each other choice."""
+    event = case()["event"]
+    for one in (Alternative(f"as calibrated: {_place(event)} of the PCL", pair().times(event)), *alternatives()):
+        yield {"choice": one.label, "shear time [s]": one.times[0], "compression time [s]": one.times[1],
+               "ratio": ratio(one.times)}  # fmt: skip
+
+
+def figure_data() -> dict[str, Any]:
+    """Plain data of the tornado: a bar for each input and each choice that moves the ratio."""
+    nominal = ratio(pair().times(case()["event"]))
+    bars = [_bar(influence) for influence in influences() if influence.reach - 1.0 > SHOWN]
+    choices = [{"label": one.label, "ratio": ratio(one.times)} for one in alternatives()]
+    return {"ratio": nominal, "bars": bars, "choices": choices}
+
+
+def _bar(influence: Influence) -> dict[str, Any]:
+    """One input's bar: the ratio at either end, and what the ends are."""
+    row, span = _row(influence.span.name), influence.span
+    label = re.split("[,:]", row.description)[0]
+    return {
+        "label": label if row.unit == "1" else f"{label} ({pretty(row.unit)})",
+        "ends": [f"{from_si(end, row.unit):.4g}" for end in (span.low, span.high)],
+        "ratios": [value if np.isfinite(value) else None for value in influence.ratios],
+    }

@@ -1,0 +1,1 @@
+"""The command `run`: one study answered, written to a folder and told on one screen."""

@@ -1,0 +1,202 @@
+"""`check --deep`: the problem of a study looked at before it is trusted, in words and as plain data."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.device import Choice, table_for
+from tvimdesign.report.output.progress import Progress, talk, wide_console
+from tvimdesign.report.output.tables import number
+from tvimdesign.report.run.infeasible_report import endings
+from tvimdesign.report.run.run_study import catalog_of, check_study, describe
+
+if TYPE_CHECKING:
+    from tvimdesign.solve.infeasibility.inspection import Conditioning, Derivatives, Spread, Structure
+    from tvimdesign.solve.infeasibility.lower_bound import LowerBound
+    from tvimdesign.solve.nlp.solution import Start
+    from tvimdesign.study import Study
+
+SECONDS = 2.0
+"""Processor time for the lower bound."""
+_BADLY_SCALED = 1e8
+_NEARLY_SINGULAR = 1e12
+_SHOWN = 12
+
+
+@dataclass(frozen=True)
+class Deep:
+    """Everything the check found."""
+
+    rows: Spread
+    columns: Spread
+    conditioning: Conditioning
+    derivatives: Derivatives
+    structure: Structure
+    start: Start
+    """One run of the solver from the first point."""
+    bound: LowerBound
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing speaks against the problem."""
+        return (
+            self.derivatives.right
+            and not self.structure.idle
+            and self.conditioning.equations < _NEARLY_SINGULAR
+            and max(self.rows.ratio, self.columns.ratio) < _BADLY_SCALED
+        )
+
+
+def check_deep(path: Path, *, as_json: bool) -> None:
+    """Check a study, build its problem and look at that. Raises InputError, InfeasibleError."""
+    study = check_study(path)
+    with talk() as progress:
+        found = inspect_study(study, progress)
+        progress("")
+    if as_json:
+        print(json.dumps(plain(found), indent=2, allow_nan=False))
+        return
+    console = wide_console()
+    console.print(describe(study), markup=False, soft_wrap=True)
+    for line in in_words(found):
+        console.print(line, markup=False, soft_wrap=True)
+
+
+def inspect_study(study: Study, progress: Progress) -> Deep:
+    """Build the problem of a study at its start's records, inspect it, and solve it once. Raises InputError."""
+    from tvimdesign.solve.infeasibility.infeasibility_proof import ranges_of
+    from tvimdesign.solve.infeasibility.inspection import Inspection
+    from tvimdesign.solve.infeasibility.lower_bound import lower_bound
+    from tvimdesign.solve.optimizer.optimizer import Optimizer
+    from tvimdesign.study import Range
+
+    table, catalog = table_for(study.mode), catalog_of(study)
+    if not any(isinstance(vary, Range) for vary in study.vary.values()):
+        raise InputError(f"{study.name}: varies no number between limits, so there is no problem to look at deeper")
+    numbers = {name: vary for name, vary in study.vary.items() if not isinstance(table.row(name), Choice)}
+    words = {
+        name: str(vary.values[0])
+        for name, vary in study.vary.items()
+        if name not in numbers and not isinstance(vary, Range) and name not in study.module
+    }
+    study = study.model_copy(update={"vary": numbers, "module": {**study.module, **words}})
+    progress("building the problem")
+    optimizer = Optimizer(study, catalog, table, progress=progress)
+    inspection = Inspection(optimizer)
+    rows, columns = inspection.scaling()
+    progress("comparing derivatives with differences")
+    derivatives = inspection.derivatives()
+    progress("conditioning")
+    conditioning = inspection.conditioning()
+    ranges = ranges_of(study, catalog, table)
+    structure = inspection.structure(ranges)
+    progress("solving once")
+    start = optimizer.solve(begin=inspection.begin).start
+    progress("bounding from below")
+    bound = lower_bound(optimizer, ranges, start.objective if start.converged else None, SECONDS)
+    return Deep(rows, columns, conditioning, derivatives, structure, start, bound)
+
+
+def in_words(found: Deep) -> list[str]:
+    """The check for people, every finding with what to do about it."""
+    lines = [*_scaling(found), *_conditioning(found.conditioning), *_derivatives(found.derivatives)]
+    lines += _structure(found.structure)
+    converged = f"converged in {found.start.iterations} iterations, objective {found.start.objective:.5g}"
+    lines.append(f"One solve from the start {converged}." if found.start.converged else endings([found.start])[0])
+    lines.append(bound_in_words(found.bound))
+    return [*lines, "Nothing speaks against the problem." if found.sound else "Look at what is marked with !."]
+
+
+def _mark(good: bool) -> str:
+    return " " if good else "!"
+
+
+def _scaling(found: Deep) -> list[str]:
+    lines = []
+    for what, spread in (("rows", found.rows), ("unknowns", found.columns)):
+        (most, greatest), (least, smallest) = spread.largest, spread.smallest
+        lines.append(
+            f"{_mark(spread.ratio < _BADLY_SCALED)} scaling of {what}: greatest derivative {number(greatest, 2)} "
+            f"({most}), least {number(smallest, 2)} ({least}); {spread.ratio:.1e} apart."
+        )
+    return lines
+
+
+def _conditioning(found: Conditioning) -> list[str]:
+    good = found.equations < _NEARLY_SINGULAR
+    lines = [
+        f"{_mark(good)} conditioning: equations of heat and time {found.equations:.1e}; "
+        f"limits and goal by the variables {_number(found.decisions)}."
+    ]
+    lines += [
+        f"  {' and '.join(names)} can be traded for each other at the start, and no limit or goal notices; "
+        "fix one of them, or minimise something that tells them apart."
+        for names in found.traded
+        if names
+    ]
+    return lines
+
+
+def _number(value: float) -> str:
+    return f"{value:.1e}" if math.isfinite(value) else "not determined"
+
+
+def _derivatives(found: Derivatives) -> list[str]:
+    row, by, error = found.worst[0]
+    lines = [f"{_mark(found.right)} derivatives: exact and differenced agree to {error:.0e} ({row} by {by})."]
+    if not found.right:
+        lines += [f"    {row} by {by}: off by {error:.1e}" for row, by, error in found.worst]
+        lines.append("    A row may have a kink at the start; move the start a little, and look again.")
+    return lines
+
+
+def _structure(found: Structure) -> list[str]:
+    lines = []
+    if found.idle:
+        lines.append(f"! no limit and no goal depends on {', '.join(found.idle)}; take it out of `vary`.")
+    if found.unchangeable:
+        lines.append(f"  nothing under `vary` can change {'; '.join(found.unchangeable)}; it holds.")
+    if found.slack:
+        lines.append(f"  bounds prove these to hold anywhere in the ranges: {'; '.join(found.slack)}.")
+    if found.slack_rules:
+        lines.append(f"  bounds prove {found.slack_rules} of the machine's rules to hold anywhere in the ranges.")
+    return lines
+
+
+def bound_in_words(found: LowerBound) -> str:
+    """The certified bound, how far the best design is from it, and how much that says."""
+    weak = ""
+    if found.left_out:
+        weak = f" It is weak: limits on times are left out, and so is the share of {', '.join(found.left_out)}."
+    if not math.isfinite(found.bound):
+        return f"  lower bound: none; nothing is certain of {', '.join(found.left_out)} without simulating."
+    if not found.boxes:
+        return f"  lower bound: {found.bound:.5g}, and no more, as all that is minimised hangs on a simulation."
+    if found.gap is None:
+        return f"  lower bound: no design has an objective below {found.bound:.5g}.{weak}"
+    return (
+        f"  lower bound: no design has an objective below {found.bound:.5g}; this one may be improved by "
+        f"{found.gap:.1%} at most ({found.boxes} boxes).{weak}"
+    )
+
+
+def plain(found: Deep) -> dict[str, Any]:
+    """The check as plain data; null for what is infinite."""
+    told = asdict(found) | {"sound": found.sound}
+    told["bound"]["gap"] = found.bound.gap
+    told["start"].pop("seconds")
+    finite: dict[str, Any] = _finite(told)
+    return finite
+
+
+def _finite(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_finite(value) for value in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data

@@ -1,0 +1,65 @@
+"""Keeps the points of a front in the results folder while it is sought, so that a run that was killed goes on there."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tvimdesign import __version__
+from tvimdesign.base.errors import InputError
+from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
+from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.solver_run import Trace
+from tvimdesign.solve.pareto.tradeoff import Failure, Point
+from tvimdesign.study import Study
+
+
+class FolderMemory:
+    """The answers of a trade-off as files, one for each design that was sought, in their order."""
+
+    def __init__(self, folder: ResultsFolder, study: Study) -> None:
+        """Use what the folder holds; raises InputError where that is of another study or another version."""
+        self._folder = folder
+        asked = {"tvimdesign": __version__, "study": study.model_dump(mode="json")}
+        known = _read(folder.path / PROGRESS / "asked.json")
+        if known is not None and known != asked:
+            raise InputError(f"{folder.path}: holds the front of another study or version; --overwrite to begin anew")
+        folder.write_json(f"{PROGRESS}/asked.json", asked)
+
+    def recall(self, number: int, goal: Goal) -> Point | Failure | None:
+        """The answer to a question; None where it is not there, or was of another goal."""
+        known = _read(self._folder.path / PROGRESS / f"{number:04d}.json")
+        if known is None or known["goal"] != _plain_goal(goal):
+            return None
+        if "reason" in known:
+            return Failure(known["where"], known["reason"])
+        trace = Trace(*(np.array(known["trace"][name]) for name in Trace._fields))
+        kept = {name: known[name] for name in ("where", "values", "drives", "cost", "root")}
+        return Point(**kept, trace=trace, goal=goal)
+
+    def keep(self, number: int, goal: Goal, found: Point | Failure) -> None:
+        """Write an answer, every digit of it."""
+        told: dict[str, Any] = {"goal": _plain_goal(goal), "where": found.where}
+        if isinstance(found, Failure):
+            told["reason"] = found.reason
+        else:
+            assert found.trace is not None  # whatever was sought has one
+            told |= {name: getattr(found, name) for name in ("values", "drives", "cost", "root")}
+            told["trace"] = {name: getattr(found.trace, name).tolist() for name in Trace._fields}
+        self._folder.write(f"{PROGRESS}/{number:04d}.json", json.dumps(told))
+
+
+def _plain_goal(goal: Goal) -> dict[str, Any]:
+    return {"weights": dict(goal.weights), "bounds": [asdict(bound) for bound in goal.bounds]}
+
+
+def _read(path: Path) -> dict[str, Any] | None:
+    try:
+        found: dict[str, Any] = json.loads(path.read_bytes())
+    except (FileNotFoundError, ValueError):
+        return None
+    return found

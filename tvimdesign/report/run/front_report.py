@@ -1,0 +1,245 @@
+"""A study's front: sought point by point, kept as it goes, and told as tables, words, a figure and a design a point."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import shutil
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table as Grid
+
+from tvimdesign import __version__
+from tvimdesign.base.errors import TvimError
+from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.device import Table
+from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.progress import Progress
+from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
+from tvimdesign.report.run.front_memory import FolderMemory
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.pareto.front import Front, completed, trace_front
+from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
+from tvimdesign.solve.result import Answer
+from tvimdesign.study import Study
+from tvimdesign.study.design import Design, design_json
+
+ROWS_SHOWN = 12
+"""Rows of the table in the terminal; the whole front is in its file."""
+
+
+class FrontOfRun:
+    """The front a study asks for, where it does, on its way through a run."""
+
+    def __init__(self, study: Study, table: Table, folder: ResultsFolder) -> None:
+        """Nothing is done yet. Raises InputError where the folder holds the beginning of another study's front."""
+        self.study, self.table = study, table
+        self.outputs: tuple[str, ...] = study.front.of if study.front else ()
+        self.front: Front | None = None
+        self.kept: list[float] = []
+        """Of a robust study, the share of modules drawn at random that keep all limits, for each point."""
+        self._folder = folder
+        self._memory = FolderMemory(folder, study) if study.front else None
+        self._built: list[tuple[Optimizer, list[Run]]] = []
+
+    def keep(self, built: Optimizer, runs: list[Run]) -> None:
+        """Take what found the study's optimum: the front is sought with it."""
+        self._built.append((built, runs))
+
+    def seek(self, found: Answer, progress: Progress, told: dict[str, Any], troubles: list[TvimError]) -> list[Drawing]:
+        """Seek the front and write all of it but its figure, which is returned; nothing where none is asked for.
+
+        What is to be told goes into `told`, points without a design into `troubles`.
+        """
+        if self.study.front is None or found.solution is None or not found.found:
+            return []
+        trade = Tradeoff(self.study, found.solution, *self._built[0], progress, self._memory)
+        sought = trace_front(trade, self.outputs, self.study.front.points)
+        progress("simulating the whole cycle of the front's points")
+        front = self.front = completed(sought, trade)
+        self.kept = kept_at(trade.optimizer, front) if self.study.robust else []
+        folder, names = self._folder, shown_names(self.study, front)
+        told["front"] = plain(front, names, self.table, self.kept)
+        folder.write("front.csv", front_csv(front, names, self.table, self.kept))
+        folder.write_json("front.json", told["front"])
+        for number, point in enumerate(front.points, start=1):
+            design = design_of(point, number, found)
+            folder.write(f"front/{number:02d}.design.json", design_json(design))
+        shutil.rmtree(folder.path / PROGRESS, ignore_errors=True)
+        if front.failures:
+            where = "; ".join(f"{one.where}: {one.reason}" for one in front.failures)
+            troubles.append(TvimError(f"the front has {len(front.points)} points, but no design was found at {where}"))
+        if not front.points:
+            return []
+        return [Drawing("front", "front_figure.front", figure_data(front, trade.optimum, self.table))]
+
+    def show(self, console: Console) -> None:
+        """Print it."""
+        if self.front:
+            print_front(self.front, self.table, console, self.kept)
+
+
+def design_of(point: Point, number: int, found: Answer) -> Design:
+    """A point as a design of its own, as `tvimdesign cad` takes it."""
+    return found.design.model_copy(
+        update={
+            "tvimdesign": __version__, "name": f"{found.design.name}, point {number} of its front", "status": "optimal",
+            "values": point.values, "drives": point.drives, "intervals": {}, "solution": {"front": point.where},
+        }
+    )  # fmt: skip
+
+
+def shown_names(study: Study, front: Front) -> list[str]:
+    """What a table of the front has: the traded outputs, the other minimised ones, every variable that is a number."""
+    numbers = [name for name in study.vary if name in front.points[0].values] if front.points else []
+    return list(dict.fromkeys([*front.outputs, *study.minimize, *numbers]))
+
+
+def kept_at(optimizer: Optimizer, front: Front) -> list[float]:
+    """The share of modules drawn at random that keep all limits, for each point."""
+    inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
+    from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
+
+    return [yields_of(optimizer).at(one).together.share for one in inputs]
+
+
+def front_csv(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> str:
+    """A line for each point, in units."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    heads = [f"{name} [{pretty(table.unit(name))}]" for name in names]
+    writer.writerow(["point", "status", *heads, *(["yield"] if kept else [])])
+    for number, point in enumerate(front.points, start=1):
+        values = (from_si(point.values[name], table.unit(name)) for name in names)
+        writer.writerow(
+            [number, status(front, number - 1), *(f"{value:.8g}" for value in values), *kept[number - 1 : number]]
+        )
+    return stream.getvalue()
+
+
+def status(front: Front, place: int) -> str:
+    """What a point is: the knee, an end, or one between."""
+    if place == front.knee:
+        return "knee"
+    return front.points[place].where if front.points[place].where.startswith("least ") else "between"
+
+
+def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> dict[str, Any]:
+    """The front as plain data, in units; null is never."""
+
+    def shown(point: Point, name: str) -> float | None:
+        value = from_si(point.values[name], table.unit(name))
+        return value if math.isfinite(value) else None
+
+    return {
+        "of": list(front.outputs),
+        "units": {name: pretty(table.unit(name)) for name in names},
+        "points": [
+            {
+                "number": number, "status": status(front, number - 1), "design": f"front/{number:02d}.design.json",
+                "values": {name: shown(point, name) for name in names},
+                **({"yield": kept[number - 1]} if kept else {}),
+            }
+            for number, point in enumerate(front.points, start=1)
+        ],
+        "knee": None if front.knee is None else front.knee + 1,
+        "in_words": in_words(front, table),
+        "spread": front.spread,
+        "sought": front.sought,
+        "dominated": front.dominated,
+        "failures": [{"where": one.where, "reason": one.reason} for one in front.failures],
+        "notes": list(front.notes),
+    }  # fmt: skip
+
+
+def in_words(front: Front, table: Table) -> list[str]:
+    """What the front says: its knee and what things cost there, what is degenerate, what is missing."""
+    said = []
+    if front.knee is not None:
+        point = front.points[front.knee]
+        at = ", ".join(f"{name} {format_quantity(point.values[name], table.unit(name))}" for name in front.outputs)
+        said.append(f"The knee is point {front.knee + 1}: {at}. Beyond it {'; '.join(_costs(front, front.knee))}.")
+    elif len(front.points) > 2:
+        said.append("It has no knee: it is nearly straight.")
+    said += [f"{note[0].upper()}{note[1:]}." for note in front.notes]
+    said += [f"No design at {one.where}: {one.reason}." for one in front.failures]
+    return said
+
+
+def _costs(front: Front, knee: int) -> list[str]:
+    """What a hundredth less of each output costs from the knee to the nearest point that has less of it."""
+    points, here, shares = front.points, front.points[knee], front.shares
+    distances = np.linalg.norm(shares - shares[knee], axis=1)
+    found = []
+    for less in front.outputs:
+        beyond = [i for i, point in enumerate(points) if point.values[less] < here.values[less]]
+        there = min(beyond, key=lambda i: distances[i])
+        fallen = math.log(here.values[less] / points[there].values[less])
+        risen = {
+            more: math.log(points[there].values[more] / here.values[more]) / fallen
+            for more in front.outputs if more != less
+        }  # fmt: skip
+        dearer = " and ".join(f"{rate:.2g} % {more}" for more, rate in risen.items() if rate > 0.0)
+        found.append(f"1 % less {less} costs {dearer} (point {there + 1})")
+    return found
+
+
+def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:
+    """Every point's outputs in units, with the knee and the weighted optimum."""
+
+    def shown(point: Point) -> list[float]:
+        return [from_si(point.values[name], table.unit(name)) for name in front.outputs]
+
+    return {
+        "labels": [f"{name} ({pretty(table.unit(name))})" for name in front.outputs],
+        "points": [shown(point) for point in front.points],
+        "optimum": shown(optimum),
+        "knee": front.knee,
+    }
+
+
+def print_front(front: Front, table: Table, console: Console, kept: Sequence[float] = ()) -> None:
+    """A short table, and the front in words."""
+    title = f"Front of {' against '.join(front.outputs)}"
+    if not front.points:
+        console.print(f"[bold]{title}[/bold]: no points")
+        for sentence in in_words(front, table):
+            console.print(sentence, soft_wrap=True)
+        return
+    grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    grid.add_column("point", justify="right", header_style="dim")
+    for name in front.outputs:
+        grid.add_column(f"{name} ({pretty(table.unit(name))})", justify="right", header_style="dim")
+    if kept:
+        grid.add_column("yield", justify="right", header_style="dim")
+    grid.add_column("", header_style="dim")
+    shown = _rows_shown(len(front.points), front.knee)
+    for place in shown:
+        values = (f"{from_si(front.points[place].values[name], table.unit(name)):.4g}" for name in front.outputs)
+        what = status(front, place)
+        grid.add_row(
+            str(place + 1),
+            *values,
+            *(f"{one:.1%}" for one in kept[place : place + 1]),
+            "" if what == "between" else what,
+        )
+    console.print(grid)
+    for sentence in in_words(front, table):
+        console.print(sentence, soft_wrap=True)
+    here = "" if len(shown) == len(front.points) else f", {len(shown)} of them here"
+    beaten = f"; {front.dominated} more are no better in anything" if front.dominated else ""
+    console.print(
+        f"[dim]{len(front.points)} points{here}, from {front.sought} designs sought{beaten}; the largest gap is "
+        f"{front.spread:.2g} times the mean one. Each is a whole design in front/.[/dim]"
+    )
+
+
+def _rows_shown(count: int, knee: int | None) -> list[int]:
+    few = min(count, ROWS_SHOWN)
+    even = {round(i * (count - 1) / max(few - 1, 1)) for i in range(few)}
+    return sorted(even | ({knee} if knee is not None else set()))

@@ -1,0 +1,245 @@
+"""One run, from a study file to a finished folder: the order of things, and what the terminal says meanwhile."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rich.markup import escape
+
+from tvimdesign.base.errors import GeometryError, InfeasibleError, InputError, TvimError
+from tvimdesign.base.whole_files import write_whole
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Choice, Table, table_for
+from tvimdesign.report.output.progress import Progress, talk, wide_console
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.run.record_checks import doubts
+from tvimdesign.study import Study, read_study
+from tvimdesign.study.design import Design, read_design, write_design
+
+if TYPE_CHECKING:
+    from tvimdesign.report.figures.plot_process import Drawing
+    from tvimdesign.report.run.front_report import FrontOfRun
+    from tvimdesign.solve.result import Answer
+
+CAD_TIME_LIMIT = 300.0  # s
+
+
+def check_study(path: Path, *, proof: bool = True) -> Study:
+    """Read a study and everything it names. Raises InputError with all that is wrong with it.
+
+    Limits that bounds prove impossible are looked for as well, which takes half a second, unless `proof` is not asked.
+    """
+    from tvimdesign.solve.infeasibility.infeasibility_proof import refuse_contradiction
+    from tvimdesign.solve.nlp.constraints import refuse_impossible
+
+    study = read_study(path)
+    catalog, table = catalog_of(study), table_for(study.mode)
+    refuse_impossible(study, catalog, table)
+    if proof:
+        refuse_contradiction(study, catalog, table)
+    return study
+
+
+def describe(study: Study) -> str:
+    """One line on what a valid study asks, then one for each of its records that contradicts itself."""
+    what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
+    asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
+    return "\n".join([asked, *doubts(study, catalog_of(study), table_for(study.mode))])
+
+
+def run_study(
+    path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
+    resume: bool = False, prove: bool = False,
+) -> None:  # fmt: skip
+    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
+    from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+    from tvimdesign.report.run.front_report import FrontOfRun
+    from tvimdesign.report.run.infeasible_report import complaint
+    from tvimdesign.report.run.run_plot_data import plot_data
+    from tvimdesign.report.run.summary import print_summary
+    from tvimdesign.solve.result import answer
+
+    study = _proving(read_study(path)) if prove else read_study(path)
+    table, catalog = table_for(study.mode), catalog_of(study)
+    troubles: list[TvimError] = []
+    with ExitStack() as stack:
+        folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
+        progress = stack.enter_context(talk())
+        drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
+        front = FrontOfRun(study, table, folder)
+        found = answer(study, catalog, table, progress, keep=front.keep, traded=front.outputs)
+        shown = plot_data(found, table) if drawing and found.found else {}
+        plotted = [Drawing(name, name, data) for name, data in shown.items()]
+        told = _told(found, table) | {"doubts": doubts(study, catalog, table)}
+        if found.found and (sensitivities or study.write.sensitivities):
+            progress("differentiating the outputs")
+            with _noting(troubles):
+                plotted += _sensitivities(folder, found, catalog, table, told)
+        plotted += front.seek(found, progress, told, troubles)
+        if drawing and found.found:
+            drawing.begin(folder.path / "plots", plotted)
+        design = _write(folder, path, study, found, told, table)
+        progress("")
+        if not as_json:
+            print_summary(found, table, wide_console())
+            _print_rest(told, front)
+        if drawing and found.found:
+            progress("drawing the plots")
+            folder.look_up_versions()
+            with _noting(troubles):
+                drawing.finish()
+        if cad and study.write.cad and found.found:
+            with _noting(troubles):
+                told["cad"] = _parts(design, folder.path / "cad", progress, as_json)
+        inputs = {"study": path, **_records(found.design, catalog, table)}
+        folder.finish(found.design.status, inputs, found.design.study, found.seconds)
+    if as_json:
+        told |= {"folder": str(folder.path), "not_done": [str(trouble) for trouble in troubles]}
+        print(json.dumps(told, indent=2, allow_nan=False))
+    else:
+        wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
+    if not found.found:
+        raise InfeasibleError(complaint(found, table))
+    if troubles:
+        raise _partly(troubles)
+
+
+def _proving(study: Study) -> Study:
+    """The study with every combination of listed choices solved."""
+    return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
+
+
+def _told(found: Answer, table: Table) -> dict[str, Any]:
+    """Everything a script wants to know of an answer."""
+    from tvimdesign.report.output.tables import results
+    from tvimdesign.report.run.infeasible_report import quarrel_told, starts_told
+    from tvimdesign.report.run.why import why
+
+    told = results(found, table) | {"why": why(found, table)}
+    if found.solution:
+        told |= {"starts": starts_told(found), "quarrel": quarrel_told(found.solution.quarrel)}
+    return told
+
+
+def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:
+    """Write everything but pictures and parts; returns the design's file."""
+    from tvimdesign.report.output.tables import curves_csv, results_csv
+    from tvimdesign.report.run.why import why_csv
+
+    folder.write("study.yaml", path.read_bytes())
+    folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
+    folder.write_json("results.json", told)
+    folder.write("results.csv", results_csv(told["values"]))
+    if found.solution and found.found:
+        folder.write("why.csv", why_csv(found, table))
+    units = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
+    for stage, history in found.histories.items():
+        folder.write(f"{stage}.csv", curves_csv(history, units, "degC"))
+    units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in found.sweep}
+    folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
+    return write_design(found.design, folder.path / "design.json")
+
+
+def _sensitivities(
+    folder: ResultsFolder, found: Answer, catalog: Catalog, table: Table, told: dict[str, Any]
+) -> list[Drawing]:
+    """Write the table of sensitivities, tell what is not in it; returns the heat map. Raises SimulationError."""
+    from tvimdesign.report.figures.plot_process import Drawing
+    from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
+
+    derivatives, rig = sensitivities(found, catalog, table)
+    folder.write("sensitivities.csv", sensitivities_csv(derivatives, rig))
+    told["sensitivities_left_out"] = list(derivatives.left_out)
+    data = heat_map(derivatives, rig)
+    return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
+
+
+def _print_rest(told: dict[str, Any], front: FrontOfRun) -> None:
+    for doubt in told["doubts"]:
+        wide_console().print(f"[yellow]In doubt:[/yellow] {escape(doubt)}", soft_wrap=True)
+    names = told.get("sensitivities_left_out")
+    if names:
+        said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(names)}."
+        wide_console().print(f"[dim]{said}[/dim]")
+    front.show(wide_console())
+
+
+def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
+    """Make the parts of a design.json, or of a study, which is answered first."""
+    if source.suffix != ".json":
+        run_study(source, out, overwrite=overwrite, cad=True, plots=False, as_json=as_json)
+        return
+    design = read_design(source)
+    troubles: list[TvimError] = []
+    with ResultsFolder(out, overwrite) as folder:
+        kept = write_design(design, folder.path / "design.json")
+        with talk() as progress, _noting(troubles):
+            report = _parts(kept, folder.path, progress, as_json)
+            if as_json:
+                print(json.dumps(report, indent=2))
+            else:
+                wide_console().print(f"Parts are in [bold]{out}[/bold]", soft_wrap=True)
+        folder.finish("parts failed" if troubles else design.status, {"design": source}, design.study)
+    if troubles:
+        raise _partly(troubles)
+
+
+def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> dict[str, Any]:
+    """Make the parts beside their checks.json, and tell what was found. Raises GeometryError where a check fails."""
+    from tvimdesign.cad import make_cad
+    from tvimdesign.report.run.solid_checks import print_solid_checks
+
+    progress("parts: starting the CAD kernel")
+    report = make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
+    told = {"checks": [check.plain() for check in report.checks], "files": report.files, "notes": report.notes}
+    write_whole(out / "checks.json", (json.dumps(told, indent=2) + "\n").encode())
+    progress("")
+    if not as_json:
+        print_solid_checks(report.checks, wide_console())
+    if report.failed:
+        worst = sorted(report.failed, key=lambda check: -abs(check.value))[:3]
+        lines = [
+            f"  {check.text}: {check.value:.4g}{check.unit and ' '}{check.unit}, limit {check.limit:.4g}"
+            for check in worst
+        ]
+        raise GeometryError(
+            f"the parts are written, but {len(report.failed)} of {len(report.checks)} checks fail, the worst:\n"
+            + "\n".join(lines)
+            + f"\nSee {out / 'checks.json'}, and which rules the design breaks."
+        )
+    return told
+
+
+def catalog_of(study: Study) -> Catalog:
+    """The catalogue a study uses: the shipped records and those of the folder it names."""
+    return Catalog(Path(study.catalog_folder) if study.catalog_folder else None)
+
+
+def _records(design: Design, catalog: Catalog, table: Table) -> dict[str, Path]:
+    """Files of the catalogue records a design uses."""
+    return {
+        f"{row.shelf}/{design.choices[row.name]}": catalog.path(row.shelf, design.choices[row.name])
+        for row in table.rows
+        if isinstance(row, Choice) and row.shelf and design.choices[row.name] not in row.options
+    }
+
+
+@contextmanager
+def _noting(troubles: list[TvimError]) -> Iterator[None]:
+    """Keep a failure for the end, so that what else can be done is done; wrong input stays an error of its own."""
+    try:
+        yield
+    except InputError:
+        raise
+    except TvimError as error:
+        troubles.append(error)
+
+
+def _partly(troubles: list[TvimError]) -> TvimError:
+    error = TvimError("done in part: " + "; ".join(str(trouble) for trouble in troubles))
+    error.exit_code = 4
+    return error

@@ -1,0 +1,50 @@
+"""What the checks on the solids found, for the terminal: failures, then warnings, then how many passed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from tvimdesign.base.units import pretty
+from tvimdesign.cad.cad_report import Check
+
+_COLOURS = {"failure": "red", "warning": "yellow"}
+_SHOWN = 15
+
+
+def print_solid_checks(checks: Sequence[Check], console: Console) -> None:
+    """Print what did not pass, worst first, and count the rest."""
+    found = worst_first(checks)
+    if found:
+        grid = Table(box=box.SIMPLE_HEAD, title="Checks on the solids", title_justify="left", show_edge=False)
+        for column in ("", "what was found", "value", "limit", "at x, y, z in mm"):
+            grid.add_column(column, justify="right" if column in {"value", "limit"} else "left")
+        for check in found[:_SHOWN]:
+            unit = pretty(check.unit)
+            place = ", ".join(f"{x:.1f}" for x in check.place) if check.place else ""
+            level = f"[{_COLOURS[check.level]}]{check.level}[/]"
+            grid.add_row(level, check.text, f"{check.value:.4g} {unit}", f"{check.limit:.4g} {unit}", place)
+        console.print(grid)
+    console.print(_count(checks, max(0, len(found) - _SHOWN)), soft_wrap=True)
+
+
+def worst_first(checks: Sequence[Check]) -> list[Check]:
+    """Failures, then warnings, those that miss their limit by the most first."""
+    rank = {"failure": 0, "warning": 1}
+    told = [check for check in checks if check.level in rank]
+    return sorted(told, key=lambda check: (rank[check.level], -_missed(check), check.name))
+
+
+def _missed(check: Check) -> float:
+    """By what share of it a value misses its limit."""
+    return abs(check.value - check.limit) / max(abs(check.limit), 1e-9)
+
+
+def _count(checks: Sequence[Check], hidden: int) -> str:
+    passed = sum(check.level == "pass" for check in checks)
+    sampled = sum(check.resolution > 0.0 for check in checks)
+    more = f"; {hidden} more that did not are in checks.json" if hidden else ""
+    return f"{passed} of {len(checks)} checks on the solids passed, {sampled} of them all by samples{more}."

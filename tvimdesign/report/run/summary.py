@@ -1,0 +1,295 @@
+"""The summary a run prints: verdict, what was found, what must hold, what holds it, what to mind."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as Grid
+
+from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.device import Input, Table
+from tvimdesign.report.output.choices_tables import best_rows, price_in_words, tally_in_words
+from tvimdesign.report.output.tables import (
+    NOTHING,
+    drive_rows,
+    headline_rows,
+    margin_text,
+    number,
+    point_rows,
+    value_text,
+    variable_rows,
+)
+from tvimdesign.report.run.infeasible_report import endings
+from tvimdesign.report.run.why import binding, sentences, slack_in_words
+from tvimdesign.solve.result import Answer, Check
+
+_LOOSE = 0.05
+"""Share of the first swing without contact from which on small motions say little of the joint."""
+_SENTENCES_SHOWN = 3
+_ROUND = 1e-5  # of any unit a limit is written in
+
+
+def print_summary(answer: Answer, table: Table, console: Console) -> None:
+    """Print an answer for people."""
+    design = answer.design
+    console.print(f"[bold]{escape(design.name)}[/bold]  ({design.mode} mode)")
+    console.print(_verdict(answer))
+    console.print(_in_short(answer, table))
+    for sentence in _robustness(answer):
+        console.print(sentence)
+    if not answer.found:
+        _print_variables(answer, table, console, "Where the solver ended; this is not a design")
+        return
+    _print_warnings(answer, table, console)
+    _print_variables(answer, table, console, "What was varied")
+    _print_choosing(answer, table, console)
+    _print_drives(answer, table, console)
+    _print_points(answer, table, console)
+    grid = _grid("What the module is", ("", "value", "unit", "meaning"), right=(1,))
+    group = ""
+    for section, name, value, unit, description in headline_rows(answer, table):
+        if section != group:
+            grid.add_row(f"[dim]{section}[/dim]")
+            group = section
+        grid.add_row(name, value, unit, description)
+    console.print(grid)
+    _print_checks(answer, table, console)
+    _print_prices(answer, table, console)
+
+
+def _robustness(answer: Answer) -> list[str]:
+    """How far within its limits a robust design is, and what modules drawn at random keep of them."""
+    robust, reached = answer.design.study.get("robust"), answer.solution.yield_reached if answer.solution else None
+    if not robust or not answer.found:
+        return []
+    if reached is None or not reached.shares:
+        return [
+            f"Limits are kept by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
+            "room they show below; `tvimdesign tolerate` checks that on many modules."
+        ]
+    least = min(reached.shares, key=lambda name: reached.shares[name])
+    return [
+        f"Asked was that each limit be kept by {robust['share']:.4g} of the modules. Of {reached.modules} drawn at "
+        f"random {reached.shares[least]:.2%} keep the worst of them ({least}), {reached.together:.2%} keep all."
+    ]
+
+
+def _print_variables(answer: Answer, table: Table, console: Console, title: str) -> None:
+    rows = variable_rows(answer, table)
+    if not rows:
+        return
+    grid = _grid(title, ("variable", "start", "end" if not answer.found else "design", "unit", "allowed"), right=(1, 2))
+    for row in rows:
+        grid.add_row(*row)
+    console.print(grid)
+
+
+def _print_choosing(answer: Answer, table: Table, console: Console) -> None:
+    """The best combinations of what is listed, the price of going standard, and how the search went."""
+    choosing = answer.solution.choosing if answer.solution else None
+    if choosing is None or not choosing.best:
+        return
+    columns, rows = best_rows(choosing, table)
+    grid = _grid("The best of what is listed, against the first", columns, right=tuple(range(len(columns))))
+    for row in rows:
+        grid.add_row(*row)
+    console.print(grid)
+    price = price_in_words(choosing, table)
+    if price:
+        console.print(escape(price))
+    console.print(f"[dim]{escape(tally_in_words(choosing))}[/dim]")
+
+
+def _print_drives(answer: Answer, table: Table, console: Console) -> None:
+    """Currents that follow a profile, and what the same module does at the constant current of the paper."""
+    rows = drive_rows(answer.design, table)
+    if not rows:
+        return
+    grid = _grid("What the current does, straight between these moments", ("", "s", "A", ""), right=(1, 2))
+    for row in rows:
+        grid.add_row(*row)
+    console.print(grid)
+    best = answer.solution.constant if answer.solution else None
+    columns = ("", "profile", *(["best constant"] if best else []), "default", "unit", "meaning")
+    grid = _grid("What letting it change buys", columns, right=(1, 2, 3 if best else 2))
+    for name, value in answer.constant_current.items():
+        unit = table.unit(name)
+        values = (answer.design.value(name), *([best.values[name]] if best else []), value)
+        grid.add_row(name, *(number(from_si(v, unit)) for v in values), pretty(unit), table.row(name).description)
+    console.print(grid)
+    driven = [table.stage(stage).drive for stage in answer.design.drives]
+
+    def said(values: Mapping[str, float]) -> str:
+        return ", ".join(f"{name} {format_quantity(values[name], table.unit(name))}" for name in driven)
+
+    if best and answer.solution:
+        worse = best.objective / answer.solution.objective - 1.0
+        console.print(f"Best constant: a design of its own, {said(best.values)}; its objective is {worse:.1%} higher.")
+    defaults = {name: _default(table, name) for name in driven}
+    console.print(f"[dim]Default: this module at {said(defaults)}; the paper heats with 1.5 A.[/dim]")
+
+
+def _default(table: Table, name: str) -> float:
+    row = table.row(name)
+    assert isinstance(row, Input)
+    assert row.default is not None
+    return row.default
+
+
+def _print_points(answer: Answer, table: Table, console: Console) -> None:
+    points, rows = point_rows(answer, table)
+    right = tuple(range(1, len(points) + 1))
+    grid = _grid("At the operating points", ("", *points, "unit", "meaning"), right=right)
+    for row in rows:
+        grid.add_row(*row)
+    console.print(grid)
+    for point in points:
+        if f"solid_fraction@{point}" in answer.intervals:
+            console.print(
+                f"[yellow]Mind[/yellow] the point {point} lies in the melting range: there the layer depends on its "
+                "history. The figures reach from cooled from the melt, still liquid, to heated and melting late."
+            )
+        lost = answer.design.values.get(f"contact_lost@{point}", 0.0)
+        if lost > _LOOSE:
+            share = f"{100.0 * lost:.2g} %"
+            console.print(
+                f"[yellow]Mind[/yellow] at {point} no PCL touches the link for {share} of its first swing: "
+                "stiffness, damping and damping ratio above are those of small motions, before a hold."
+            )
+
+
+def _grid(title: str, columns: tuple[str, ...], right: tuple[int, ...] = ()) -> Grid:
+    grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for i, column in enumerate(columns):
+        grid.add_column(column, justify="right" if i in right else "left", header_style="dim", overflow="fold")
+    return grid
+
+
+def _verdict(answer: Answer) -> str:
+    broken = sum(not check.kept for check in answer.checks)
+    warned = f", with {len(answer.warnings)} warnings" if answer.warnings else ""
+    solution = answer.solution
+    if solution is None:
+        if math.isinf(answer.design.value("response_time")):
+            last = answer.histories["softening"]
+            return (
+                f"[red]The switch never ends: after {last['time'][-1]:.0f} s the layer's far face is at "
+                f"{last['far_face'][-1]:.0f} °C. The current is too weak, or the cold side too warm.[/red]"
+            )
+        if broken:
+            return f"[yellow]Evaluated; {broken} of {len(answer.checks)} rules and requirements do not hold.[/yellow]"
+        if answer.undecided:
+            count = len(answer.undecided)
+            return f"[yellow]Evaluated; history decides whether {count} of the limits hold{warned}.[/yellow]"
+        return f"[green]Evaluated; every rule and requirement holds{warned}.[/green]"
+    if not answer.found:
+        return "[red]No design found that keeps every limit.[/red]"
+    starts = solution.free_starts
+    converged = sum(start.converged for start in starts)
+    optima = len(solution.distinct_optima())
+    agree = ", all at one optimum" if optima == 1 else f", at {optima} different optima"
+    if converged < 2:
+        agree = ", others may be better"
+    of_start = sum(answer.design.study["minimize"].values())
+    return (
+        f"[green]Optimal{warned}[/green]: {converged} of {len(starts)} starts converged{agree}; objective "
+        f"{solution.objective:.5g}, against {of_start:.5g} at the study's own start."
+    )
+
+
+def _in_short(answer: Answer, table: Table) -> str:
+    """The answer in one line."""
+
+    def shown(name: str) -> str:
+        text, unit = value_text(answer, name, table), pretty(table.unit(name))
+        return text if text == "never" else f"{text} {unit}"
+
+    return (
+        f"Soft: {shown('softening_time')}. Stiff again: {shown('stiffening_time')}, its layer half frozen: "
+        f"{shown('frozen_time')}. {shown('envelope_diameter')} across, {shown('module_mass')}."
+    )
+
+
+def _print_checks(answer: Answer, table: Table, console: Console) -> None:
+    """Requirements always; the machine's own rules only where they bind or break."""
+    grid = _grid("What must hold", ("", "limit", "value", "unit", "margin", "because"), right=(2, 4))
+    hidden = 0
+    for check in answer.checks:
+        if check.origin != "require" and check.kept and check.worst > NOTHING:
+            hidden += 1
+            continue
+        mark = "[red]broken[/red]" if not check.kept else "[yellow]binds[/yellow]" if _binds(check) else "ok"
+        mark = "[yellow]open[/yellow]" if check in answer.undecided else mark
+        unit = table.unit(check.output)
+        because = "the study" if check.origin == "require" else check.origin
+        value = from_si(check.value, unit)
+        shown = number(0.0 if abs(value) < _ROUND else value)
+        if check.output in answer.intervals:
+            shown = value_text(answer, check.output, table)
+        grid.add_row(mark, check.text, shown, pretty(unit), _worst(check, table), because)
+    if grid.row_count:
+        console.print(grid)
+    if hidden:
+        console.print(f"[dim]{hidden} rules of the machine hold with room to spare.[/dim]")
+
+
+def _worst(check: Check, table: Table) -> str:
+    """The margin for people, with the history that leaves the least."""
+    return margin_text(replace(check, margin=check.worst), table)
+
+
+def _binds(check: Check) -> bool:
+    return abs(check.margin) <= NOTHING
+
+
+def _print_prices(answer: Answer, table: Table, console: Console) -> None:
+    """What binds, with its cost in the objective and in each output; the costliest in sentences; what is slack."""
+    held = binding(answer)
+    if held:
+        outputs = list(answer.design.study["minimize"])
+        columns = ("limit", "relaxed by", "lowers the objective by", *outputs)
+        grid = _grid("What holds the design back", columns, right=tuple(range(1, len(columns))))
+        for row in held:
+            each = (_saved(row.savings[name]) if name in row.savings else "" for name in outputs)
+            grid.add_row(row.text, row.step, _saved(row.price), *each)
+        console.print(grid)
+        for sentence in sentences(answer)[:_SENTENCES_SHOWN]:
+            console.print(escape(sentence))
+    room = slack_in_words(answer, table)
+    if room:
+        console.print(f"[dim]{escape(room)}[/dim]")
+
+
+def _saved(percent: float) -> str:
+    """A saving for people: what is less than a millionth is none."""
+    return f"{percent:.2g} %" if abs(percent) >= 1e-4 else "0 %"
+
+
+def _print_warnings(answer: Answer, table: Table, console: Console) -> None:
+    for check in answer.warnings:
+        value = format_quantity(check.value, table.unit(check.output))
+        console.print(f"[yellow]Mind[/yellow] {check.output} is {value}: {check.origin}.")
+    if math.isfinite(answer.design.value("response_time")) and math.isinf(answer.design.value("stiffening_time")):
+        console.print(
+            "[yellow]Mind[/yellow] the joint never gets stiff again within `horizon`: the cooling current heats more "
+            "than it cools, or the cold side is too warm; try less `cooling_current`, or a sink."
+        )
+    for check in answer.undecided:
+        console.print(
+            f"[yellow]Mind[/yellow] {check.text} holds as nominally heated, and not with every history: a point lies "
+            f"in the melting range, and the margin is {_worst(check, table)} at worst."
+        )
+    solution = answer.solution
+    for start in solution.distinct_optima()[1:] if solution else []:
+        where = ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in start.end.items())
+        count, all_ = solution.reached(start) if solution else 0, len(solution.free_starts) if solution else 0
+        console.print(
+            f"[yellow]Mind[/yellow] another optimum, objective {start.objective:.5g}, reached by {count} of {all_} "
+            f"starts: {where}."
+        )
+    for line in endings(solution.free_starts) if solution else []:
+        console.print(f"[dim]{escape(line)}[/dim]")

@@ -1,0 +1,109 @@
+"""Why this design: what binds and costs how much of each output, what is slack and by how much; rows and sentences."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from tvimdesign.base.units import pretty
+from tvimdesign.device import Table
+from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
+from tvimdesign.solve.nlp.solution import Held
+from tvimdesign.solve.result import Answer
+
+PRICE_SHOWN = 1e-3
+"""Percent of the objective below which a step of a limit is not worth a line."""
+_SAVING_SHOWN = 5e-3
+_RULES_SHOWN = 5
+
+
+def binding(answer: Answer) -> list[Held]:
+    """The limits that hold the design, the costliest first."""
+    held = answer.solution.held if answer.solution and answer.found else ()
+    return sorted((one for one in held if one.price > PRICE_SHOWN), key=lambda one: -one.price)
+
+
+def slack(answer: Answer) -> list[Held]:
+    """The limits that could be somewhat tighter and change nothing, those with the least room first."""
+    held = answer.solution.held if answer.solution and answer.found else ()
+    found = [one for one in held if one.price <= PRICE_SHOWN and one.margin > NOTHING]
+    return sorted(found, key=lambda one: one.margin)
+
+
+def sentences(answer: Answer) -> list[str]:
+    """What each binding limit costs, in words."""
+    return [_sentence(held) for held in binding(answer)]
+
+
+def _sentence(held: Held) -> str:
+    """`1 % more spring_stiffness (now >= 5.2 N·m/rad) costs 0.11 % module_mass and saves 0.01 % response_time.`"""
+    more = "more" if ">=" in held.name else "less"
+    subject = f"{held.step} {more} {held.output} (now{held.text.removeprefix(held.output)})"
+    if not held.savings:
+        return f"{subject} costs {held.price:.2g} % of the objective; what of which output is not settled: {_WHY_NOT}."
+    costs = [f"{saving:.2g} % {name}" for name, saving in held.savings.items() if saving >= _SAVING_SHOWN]
+    saves = [f"{-saving:.2g} % {name}" for name, saving in held.savings.items() if saving <= -_SAVING_SHOWN]
+    said = [f"{verb} {_listed(parts)}" for verb, parts in (("costs", costs), ("saves", saves)) if parts]
+    return f"{subject} {' and '.join(said)}." if said else f"{subject} costs next to nothing."
+
+
+_WHY_NOT = "it belongs to the supply, or stands in the same way as another limit"
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
+
+
+def slack_in_words(answer: Answer, table: Table) -> str:
+    """The study's slack requirements with their room, and the machine's rules that have the least."""
+    found = slack(answer)
+    own = [one for one in found if one.origin == "require"]
+    rules = [one for one in found if one.origin not in ("require", "vary")]
+    shown = [f"{one.text} (room {_room(one, table)})" for one in (*own, *rules[:_RULES_SHOWN])]
+    left = len(found) - len(shown)
+    more = f"; {left} other rules and ends of ranges have more, or are in why.csv" if left else ""
+    return f"Slack: {'; '.join(shown)}{more}." if shown else ""
+
+
+def _room(held: Held, table: Table) -> str:
+    return margin_text(held, table).lstrip("+")
+
+
+def why_rows(answer: Answer, table: Table) -> list[dict[str, Any]]:
+    """Every limit and end of a range at the optimum: how it stands, its room, and what a step of it costs."""
+    rows = []
+    tight, loose = binding(answer), slack(answer)
+    held = answer.solution.held if answer.solution and answer.found else ()
+    others = [one for one in held if one not in tight and one not in loose]
+    for stands, group in (("binds", tight), ("touches", others), ("slack", loose)):
+        for one in group:
+            room, unit = margin_of(one, table)
+            rows.append({
+                "limit": one.text, "stands": stands, "origin": one.origin,
+                "room": room if math.isfinite(room) else None, "room_unit": pretty(unit),
+                "step": one.step, "objective": one.price, "outputs": dict(one.savings),
+            })  # fmt: skip
+    return rows
+
+
+def why(answer: Answer, table: Table) -> dict[str, Any]:
+    """Everything this page says, as plain data; costs are percent of each output for a step of the limit."""
+    return {"limits": why_rows(answer, table), "sentences": sentences(answer)}
+
+
+def why_csv(answer: Answer, table: Table) -> str:
+    """The rows as CSV, one column for each minimised output."""
+    outputs = list(answer.design.study["minimize"])
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    costs = [f"{name} [%]" for name in ("objective", *outputs)]
+    writer.writerow(["limit", "stands", "origin", "room", "room_unit", "step", *costs])
+    for row in why_rows(answer, table):
+        each = [f"{row['outputs'][name]:.6g}" if name in row["outputs"] else "" for name in outputs]
+        room = "" if row["room"] is None else f"{row['room']:.6g}"
+        places = [row["limit"], row["stands"], row["origin"], room, row["room_unit"], row["step"]]
+        writer.writerow([*places, f"{row['objective']:.6g}", *each])
+    return stream.getvalue()

@@ -1,0 +1,171 @@
+"""One virtual test, from a study file to a finished folder: sheets as CSV, the figure, and what was read off."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as Grid
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.device import table_for
+from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.progress import talk, wide_console
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.tables import curves_csv, number
+from tvimdesign.report.run.run_study import catalog_of
+from tvimdesign.simulation.resolved_module import Rig, rig_for, rig_of_design
+from tvimdesign.study import Study, read_study
+from tvimdesign.study.design import read_design
+from tvimdesign.virtual_tests.registry import find_test
+from tvimdesign.virtual_tests.test_result import Column, Finding, Line, Panel, Sheet, Trial
+
+
+def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json: bool) -> None:
+    """Put a study's module to a test and write its folder. Raises InputError, and TvimError where drawing fails."""
+    do = find_test(test)
+    source = path / "design.json" if path.is_dir() else path
+    rig, module = _rig(source)
+    study = rig.study
+    with ExitStack() as stack:
+        folder = stack.enter_context(ResultsFolder(out, overwrite))
+        progress = stack.enter_context(talk())
+        drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
+        progress(f"{test}: testing {study.name}")
+        trial = do(rig)
+        trial = replace(trial, notes=(module, *trial.notes))
+        if drawing:
+            drawing.begin(folder.path, [Drawing(trial.test, "test_figures.trial", figure_data(trial))])
+        told = findings(trial)
+        folder.write(f"tested{source.suffix}", source.read_bytes())
+        folder.write_json("findings.json", told)
+        for sheet in trial.sheets:
+            folder.write(f"{sheet.name}.csv", sheet_csv(sheet))
+        if drawing:
+            progress("drawing the figure")
+            drawing.finish()
+        progress("")
+        folder.finish("tested", {"tested": source, **_records(rig)}, study.model_dump(mode="json"))
+        if as_json:
+            print(json.dumps({**told, "folder": str(out)}, indent=2, allow_nan=False))
+        else:
+            _print_trial(trial, wide_console())
+            wide_console().print(
+                f"\nCurves, figure and findings are in [bold]{escape(str(out))}[/bold]", soft_wrap=True
+            )
+
+
+def _rig(source: Path) -> tuple[Rig, str]:
+    """The module of a study or of a design, and which one that is, in a sentence."""
+    if source.suffix == ".json":
+        design = read_design(source)
+        study = Study.model_validate(design.study)
+        return rig_of_design(design, catalog_of(study), table_for(study.mode)), f"Module: the design {source}."
+    study = read_study(source)
+    rig = rig_for(study, catalog_of(study), table_for(study.mode))
+    if not study.vary:
+        return rig, f"Module: {source}."
+    return rig, (f"Module: the start of {source}, not its optimum; run it and give the run's design.json to test that.")
+
+
+def _records(rig: Rig) -> dict[str, Path]:
+    """Files of the catalogue records the module is made of."""
+    return {
+        f"{row.shelf}/{rig.values[row.name].name}": rig.catalog.path(row.shelf, rig.values[row.name].name)
+        for row in rig.table.choices
+        if row.shelf and rig.values[row.name] not in row.options
+    }
+
+
+def sheet_csv(sheet: Sheet) -> str:
+    """A sheet as CSV, each column headed by its name and unit."""
+    curves = {column.name: _shown(column) for column in sheet.columns}
+    return curves_csv(curves, {column.name: column.unit for column in sheet.columns}, "1")
+
+
+def _shown(column: Column) -> list[float]:
+    """A column's values in its unit."""
+    return [from_si(float(value), column.unit) for value in column.values]
+
+
+def findings(trial: Trial) -> dict[str, Any]:
+    """What was read off a test as plain data, every number in its unit."""
+    return {
+        "test": trial.test,
+        "title": trial.title,
+        "findings": [
+            {
+                "name": found.name,
+                **{part: _plain(value, found.unit) for part, value in _parts(found)},
+                "unit": pretty(found.unit),
+                "meaning": found.meaning,
+            }
+            for found in trial.findings
+        ],
+        "notes": list(trial.notes),
+    }
+
+
+def _parts(found: Finding) -> Iterator[tuple[str, float | None]]:
+    """The numbers of a finding; where history decides there is no one value, only the nominal one of an interval."""
+    if found.low is None and found.high is None:
+        yield "value", found.value
+        return
+    yield from (("nominal", found.value), ("low", found.low), ("high", found.high))
+
+
+def _plain(value: float | None, unit: str) -> float | None:
+    """A number in its unit; JSON has no infinity, what never happens is null."""
+    return from_si(value, unit) if value is not None and math.isfinite(value) else None
+
+
+def figure_data(trial: Trial) -> dict[str, Any]:
+    """What the figure of a test is drawn from: every panel with its lines in the units of the axes."""
+    sheets = {sheet.name: sheet for sheet in trial.sheets}
+    return {"title": trial.title, "panels": [_panel(panel, sheets) for panel in trial.panels]}
+
+
+def _panel(panel: Panel, sheets: dict[str, Sheet]) -> dict[str, Any]:
+    return {
+        "title": panel.title,
+        "x_label": panel.x_label,
+        "y_label": panel.y_label,
+        "log_x": panel.log_x,
+        "log_y": panel.log_y,
+        "lines": [_line(line, sheets[line.sheet]) for line in panel.lines],
+    }
+
+
+def _line(line: Line, sheet: Sheet) -> dict[str, Any]:
+    return {
+        "x": _shown(sheet.column(line.x)),
+        "y": _shown(sheet.column(line.y)),
+        "band": [_shown(sheet.column(name)) for name in line.band] if line.band else None,
+        "label": line.label,
+        "dashed": line.dashed,
+    }
+
+
+def _print_trial(trial: Trial, console: Console) -> None:
+    """Print what was read off for people: an interval, and no one number, where history decides."""
+    console.print(f"[bold]{escape(trial.title)}[/bold]")
+    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
+    for name in ("finding", "value", "unit", "meaning"):
+        grid.add_column(name, justify="right" if name == "value" else "left", overflow="fold")
+    for found in trial.findings:
+        grid.add_row(found.name, _value(found), pretty(found.unit), found.meaning)
+    console.print(grid)
+    for note in trial.notes:
+        console.print(f"[dim]{escape(note)}[/dim]")
+
+
+def _value(found: Finding) -> str:
+    shown = [found.value] if found.low is None or found.high is None else [found.low, found.high]
+    return " to ".join(number(from_si(value, found.unit)) for value in shown)

@@ -1,0 +1,49 @@
+"""What a virtual test is given: a study, resolved, and the table its rows are evaluated with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table
+from tvimdesign.simulation.current_profile import Drive
+from tvimdesign.study import Study, given
+from tvimdesign.study.design import Design
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A module on the bench. `values` holds every input in SI by full name, and every choice as record or word."""
+
+    study: Study
+    catalog: Catalog
+    table: Table
+    values: Mapping[str, Any]
+    drives: Mapping[str, Drive] = field(default_factory=dict)
+    """Currents that follow a profile, by stage."""
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """Names of the operating points."""
+        return tuple(self.study.operating_points)
+
+    def row(self, name: str) -> Any:
+        """Value of one row by full name; hidden rows too."""
+        return self.table.evaluate(self.values, [name])[name]
+
+
+def rig_for(study: Study, catalog: Catalog, table: Table) -> Rig:
+    """Resolve a study for testing; what it varies stands at its start. Raises InputError for what has no value."""
+    return Rig(study, catalog, table, given(study, catalog, table))
+
+
+def rig_of_design(design: Design, catalog: Catalog, table: Table) -> Rig:
+    """The module of a design, with the currents found for it. Raises InputError for what has no value."""
+    study = Study.model_validate({**design.study, "vary": {}, "profile": {}})
+    study = study.model_copy(update={"module": {**study.module, **design.choices}})
+    values = given(study, catalog, table)
+    numbers = {name: design.values[name] for name, value in values.items() if isinstance(value, float | int)}
+    drives = {stage: Drive.from_plain(plain) for stage, plain in design.drives.items()}
+    return Rig(study, catalog, table, {**values, **numbers}, drives)

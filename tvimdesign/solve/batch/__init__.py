@@ -1,0 +1,1 @@
+"""Many designs at once: CasADi functions compiled to run down columns."""

@@ -1,0 +1,290 @@
+"""One stage of the working cycle for a block of designs: compiled steps, events found by halving, paths added up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.phase_model import StageModel
+from tvimdesign.solve.batch.elimination import newton_step
+from tvimdesign.solve.batch.kernel import Kernel, stacked
+
+Array = NDArray[np.float64]
+
+GAMMA = 1.0 - np.sqrt(0.5)
+"""Diagonal of SDIRK2 that makes it L-stable (Alexander, SIAM J. Numer. Anal. 14 (1977) 1006)."""
+_LATE = 2.0
+"""Times the pace after which steps grow, for the designs that have not ended."""
+_GROWTH = 1.3
+_NEWTON_OF_BALANCE = 12
+_AT_REST = 1e-7
+
+
+@dataclass(frozen=True)
+class Steps:
+    """How finely time is divided."""
+
+    of_pace: int
+    """Steps in the time the study's own design takes."""
+    in_window: int
+    """Steps after which events are looked for."""
+    close: int
+    """Steps into which the one with an event is divided again."""
+    first: float = 1.0
+    """Length of the first window's steps over the others'; each window after it doubles them."""
+    newton: int = 1
+    """Newton steps for each stage of the method."""
+
+
+@dataclass
+class Passage:
+    """A block of designs at the end of a stage."""
+
+    values: dict[str, Array]
+    """Events, paths and steady rows by name."""
+    end: Array
+    """State at the event that ends the stage, a column each; NaN where that never happens."""
+
+
+class StageKernel:
+    """One stage of one model as a function of its moving inputs, compiled."""
+
+    def __init__(
+        self,
+        model: Model,
+        stage: StageModel,
+        moving: Sequence[str],
+        events: Sequence[str],
+        paths: Sequence[str],
+        steadies: Sequence[str],
+        steps: Steps,
+    ) -> None:
+        """Write and compile the Newton step, what is watched, and what stays the same all through the stage."""
+        self.steps, self.after, self.size = steps, stage.stage.after, stage.state_size
+        self.events, self.paths, self.steadies = list(events), list(paths), list(steadies)
+        self.integrals = np.array([row.reduce == "integral" for row in stage.paths if row.name in paths], dtype=bool)
+        self.ends = self.events.index(stage.stage.ends) if stage.stage.ends in self.events else None
+        self.horizon = float(model.start[model.index["horizon"]])
+        free = ca.SX.sym("moving", len(moving))
+        inputs = ca.SX(ca.DM(model.start))
+        for i, name in enumerate(moving):
+            inputs[model.index[name]] = free[i]
+        self._write(stage, free, inputs, stage.stage.sign * inputs[model.index[stage.stage.drive]])
+
+    def _write(self, stage: StageModel, free: Any, inputs: Any, drive: Any) -> None:
+        state, base, step = ca.SX.sym("state", self.size), ca.SX.sym("base", self.size), ca.SX.sym("step")
+        watched = [_inlined(stage.watch(names), state, drive, inputs) for names in (self.events, self.paths)]
+        rates = _inlined(stage.rates, state, drive, inputs)
+        every, symbols, expressions = ca.extract_parametric(ca.vertcat(rates, *watched), free)
+        bare = [symbol for symbol in ca.symvar(every) if ca.which_depends(symbol, free, 1, True)[0]]
+        constants = ca.vertcat(*symbols, *bare)
+        last = self.size + len(self.events)
+        rates, gaps, samples = every[: self.size], every[self.size : last], every[last:]
+        after = newton_step(state, state - base - step * rates)
+        before = ca.SX.sym("before", stage.begin.numel_in(0)) if self.after else ca.SX(0, 1)
+        begin = (
+            stage.begin.call([before, inputs], True, False)[0]
+            if self.after
+            else stage.initial.call([inputs], True, False)[0]
+        )
+        self._constants = _kernel([free], ca.vertcat(*expressions, *bare))
+        self._begin = _kernel([free, before], begin)
+        self._newton = _kernel([state, base, step, constants], after)
+        self._gaps = _kernel([state, constants], gaps)
+        self._samples = _kernel([state, constants], samples) if self.paths else None
+        if self.steadies:
+            self._balance(stage, free, inputs)
+
+    def _balance(self, stage: StageModel, free: Any, inputs: Any) -> None:
+        """One Newton step to the steady state in which the ending event stays at zero, and the rows there."""
+        unknowns = ca.SX.sym("unknowns", self.size + 1)
+        state, drive = unknowns[: self.size], unknowns[self.size]
+        equations = ca.vertcat(
+            _inlined(stage.rates, state, drive, inputs), _inlined(stage.watch([stage.stage.ends]), state, drive, inputs)
+        )
+        self._rest = _kernel([unknowns, free], newton_step(unknowns, equations))
+        self._steady = _kernel([unknowns, free], _inlined(stage.watch(self.steadies), state, drive, inputs))
+
+    def run(self, columns: Array, before: Array | None, pace: float, balance: Array | None) -> Passage:
+        """Go through the stage; `before` are the states it starts from, where that is not everything at ambient."""
+        count = columns.shape[1]
+        constants = self._constants(columns)
+        state = self._begin(columns if before is None else stacked(columns, before))
+        march = _March(self, state, constants)
+        times = np.full((len(self.events), count), np.inf)
+        passage = Passage({}, np.full((self.size, count), np.nan))
+        sums = np.full((len(self.paths), count), np.inf)
+        lost = np.isnan(state[0])
+        begun = self._gaps(march.watched(state)) >= 0.0
+        times[begun] = 0.0
+        if self.ends is not None:
+            passage.end[:, begun[self.ends]] = state[:, begun[self.ends]]
+        usual = pace / self.steps.of_pace
+        step = self.steps.first * usual
+        while march.time < self.horizon and not np.all(np.isfinite(times) | lost):
+            window = march.window(min(step, (self.horizon - march.time) / self.steps.in_window))
+            for event in range(len(self.events)):
+                here = np.flatnonzero(np.isinf(times[event]) & ~lost & (window.gaps[event] >= 0.0))
+                if not here.size:
+                    continue
+                found = march.close(window, event, here, paths=event == self.ends)
+                times[event, here] = found.times
+                if event == self.ends:
+                    passage.end[:, here], sums[:, here] = found.states, found.sums
+            lost |= np.isnan(march.state[0])
+            step = step * _GROWTH if march.time > _LATE * pace else min(2.0 * step, usual)
+        # A maximum is one even of a stage that never ends, as in the simulator.
+        highest = np.maximum(march.sums, -np.inf)
+        sums = np.where(np.isinf(sums) & ~self.integrals[:, None], highest, sums) if self.paths else sums
+        passage.values |= dict(zip(self.events, times, strict=True)) | dict(zip(self.paths, sums, strict=True))
+        if self.steadies:
+            passage.values |= self._at_rest(columns, balance, passage.end)
+        return passage
+
+    def _at_rest(self, columns: Array, balance: Array | None, end: Array) -> dict[str, Array]:
+        """Steady rows, from the balance of the study's own design; infinite where Newton finds none."""
+        count = columns.shape[1]
+        if balance is None:
+            return dict.fromkeys(self.steadies, np.full(count, np.inf))
+        now = np.repeat(balance[:, None], count, axis=1)
+        for _ in range(_NEWTON_OF_BALANCE):
+            last, now = now, self._rest(stacked(now, columns))
+        with np.errstate(invalid="ignore"):
+            exists = (np.max(np.abs(now - last), axis=0) < _AT_REST) & ~np.isnan(end[0])
+        found = self._steady(stacked(now, columns))
+        return {name: np.where(exists, found[i], np.inf) for i, name in enumerate(self.steadies)}
+
+
+@dataclass
+class _Window:
+    """Some steps of all designs: states and sums before each, and what the events have come to after the last."""
+
+    begin: float
+    step: float
+    states: list[Array]
+    sums: list[Array]
+    gaps: Array
+
+
+@dataclass
+class _Close:
+    """What was found where an event is passed, for the designs that passed it."""
+
+    times: Array
+    states: Array
+    sums: Array
+
+
+class _March:
+    """A block of designs on its way through time, all at the same moment."""
+
+    def __init__(self, stage: StageKernel, state: Array, constants: Array) -> None:
+        self.stage, self.state, self.constants, self.time = stage, state, constants, 0.0
+        self.samples = self._sampled(state, constants)
+        integrals = stage.integrals[:, None]
+        self.sums = np.where(integrals, 0.0, self.samples)
+
+    def watched(self, state: Array, constants: Array | None = None) -> Array:
+        """What the kernels of gaps and samples take."""
+        return stacked(state, self.constants if constants is None else constants)
+
+    def _sampled(self, state: Array, constants: Array) -> Array:
+        kernel = self.stage._samples
+        return kernel(self.watched(state, constants)) if kernel else np.empty((0, state.shape[1]))
+
+    def window(self, step: float) -> _Window:
+        """Go on by some steps."""
+        begin, states, sums = self.time, [], []
+        for _ in range(self.stage.steps.in_window):
+            states.append(self.state)
+            sums.append(self.sums)
+            self.state = self._step(self.state, self.constants, np.full(self.state.shape[1], step))
+            before, self.samples = self.samples, self._sampled(self.state, self.constants)
+            self.sums = self._added(self.sums, before, self.samples, step)
+        self.time = begin + step * self.stage.steps.in_window
+        states.append(self.state)
+        sums.append(self.sums)
+        return _Window(begin, step, states, sums, self.stage._gaps(self.watched(self.state)))
+
+    def _added(self, sums: Array, before: Array, now: Array, step: Array | float) -> Array:
+        """Integrals by the trapezoid, maxima of the samples."""
+        return np.where(self.stage.integrals[:, None], sums + 0.5 * step * (before + now), np.maximum(sums, now))
+
+    def _step(self, state: Array, constants: Array, step: Array) -> Array:
+        """One step of SDIRK2: two implicit stages, the second is the result."""
+        size, newton = self.stage.size, self.stage._newton
+        given = stacked(state, state, GAMMA * step[None, :], constants)
+        after = np.empty(state.shape)
+        for _ in range(self.stage.steps.newton):
+            newton.run(given, after)
+            given[:size] = after
+        rise = (after - state) / GAMMA
+        np.add(state, (1.0 - GAMMA) * rise, out=given[size : 2 * size])
+        np.add(state, rise, out=given[:size])
+        for _ in range(self.stage.steps.newton):
+            newton.run(given, after)
+            given[:size] = after
+        return after
+
+    def close(self, window: _Window, event: int, here: NDArray[np.intp], paths: bool) -> _Close:
+        """Find the moment in a window at which some designs pass an event: halve, then go in smaller steps."""
+        constants = self.constants[:, here]
+        states = np.array([state[:, here] for state in window.states])
+        low = self._halved(states, constants, event)
+        column = np.arange(len(here))
+        count = self.stage.steps.close
+        step = np.full(len(here), window.step / count)
+        fine = [states[low, :, column].T]
+        for _ in range(count):
+            fine.append(self._step(fine[-1], constants, step))
+        steps = np.array(fine)
+        at = self._halved(steps, constants, event)
+        a, b = (self._gap(steps[at + k, :, column].T, constants, event) for k in (0, 1))
+        part = np.clip(np.divide(a, a - b, out=np.zeros_like(a), where=a < b), 0.0, 1.0)
+        before, after = (steps[at + k, :, column].T for k in (0, 1))
+        state = before + part * (after - before)
+        times = window.begin + window.step * low + step * (at + part)
+        sums = np.array([s[:, here] for s in window.sums])[low, :, column].T
+        return _Close(times, state, self._sum_up(sums, steps, at, part, step, state, constants) if paths else sums)
+
+    def _sum_up(
+        self, sums: Array, steps: Array, at: Array, part: Array, step: Array, state: Array, constants: Array
+    ) -> Array:
+        """Sums from the begin of a step that was divided to the event within it."""
+        if not len(sums):
+            return sums
+        samples = [self._sampled(one, constants) for one in steps]
+        for k in range(len(samples) - 1):
+            sums = np.where(k < at, self._added(sums, samples[k], samples[k + 1], step), sums)
+        first = np.array(samples)[at, :, np.arange(len(at))].T
+        return self._added(sums, first, self._sampled(state, constants), part * step)
+
+    def _halved(self, states: Array, constants: Array, event: int) -> Array:
+        """Index of the last of the states, one after the other, before an event that rises passes zero."""
+        count = states.shape[2]
+        low, high = np.zeros(count, dtype=int), np.full(count, len(states) - 1)
+        while np.any(high - low > 1):
+            middle = (low + high) // 2
+            passed = self._gap(states[middle, :, np.arange(count)].T, constants, event) >= 0.0
+            open_still = high - low > 1
+            high = np.where(open_still & passed, middle, high)
+            low = np.where(open_still & ~passed, middle, low)
+        return low
+
+    def _gap(self, states: Array, constants: Array, event: int) -> Array:
+        found: Array = self.stage._gaps(self.watched(states, constants))[event]
+        return found
+
+
+def _inlined(function: Any, *arguments: Any) -> Any:
+    return ca.densify(function.call(list(arguments), True, False)[0])
+
+
+def _kernel(arguments: Sequence[Any], result: Any) -> Kernel:
+    return Kernel(ca.Function("kernel", list(arguments), [result], {"cse": True}))

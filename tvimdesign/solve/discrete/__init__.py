@@ -1,0 +1,1 @@
+"""Choices from lists: branch and bound over sizes and records."""

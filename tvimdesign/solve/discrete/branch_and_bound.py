@@ -1,0 +1,175 @@
+"""Branch and bound over listed sizes and records: boxes of sizes, each bounded by its relaxed optimum.
+
+Within a box every listed number is free between the smallest and the largest of its sizes: no combination in it can be
+better than the best design there. A box whose bound is no better than the best combinations found is left; any other is
+halved between two sizes, and its halves are solved warm from it. The bound is local, it holds as far as the starts go:
+so every different optimum they came to is a box of its own to begin with.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.solve.discrete.discrete_choices import SAME_SIZE, Box, is_one
+from tvimdesign.solve.discrete.relaxation import Tree, order
+from tvimdesign.solve.nlp.solver_run import Run
+
+GAP = 1e-6
+"""Share by which a box must promise better than what is known to be looked into."""
+_TOLD = 20
+"""Boxes between two words of progress."""
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A box that may hold better combinations: its bound, and its best design where one was found."""
+
+    tree: Tree
+    box: Box
+    bound: float
+    run: Run | None
+    depth: int
+    number: int
+
+
+@dataclass
+class BranchAndBound:
+    """One search over the trees of all records; `found` are the runs of single combinations, by tree and box."""
+
+    trees: Sequence[Tree]
+    keep: int
+    """Combinations that are to be found for certain: bounds are held against the last of them."""
+    found: dict[tuple[int, Box], Run] = field(default_factory=dict)
+    inside: float = 0.0
+    """Largest share by which a design within a box was better than the box's bound."""
+    _open: list[Node] = field(default_factory=list)
+    _made: int = 0
+    _told: int = 0
+    _bounded: list[NDArray[np.bool_]] = field(default_factory=list)
+
+    def run(self) -> None:
+        """Search until no box promises better."""
+        self._bounded = [np.zeros(tree.sizes.shape, dtype=bool) for tree in self.trees]
+        for tree in self.trees:
+            whole = tree.sizes.whole
+            for optimum in tree.optima:
+                self._add(tree, whole, optimum.start.objective, optimum, 0)
+                self._try(tree, tree.sizes.nearest(tree.values(optimum), whole), optimum)
+            if not tree.optima:
+                self._add(tree, whole, -math.inf, None, 0)
+        while self._open:
+            node = self._open.pop(min(range(len(self._open)), key=lambda i: self._urgency(self._open[i])))
+            if node.bound >= self.cutoff:
+                self._bounded[node.tree.place][_slices(node.box)] = True
+            else:
+                self._split(node)
+                self._tell(node.tree)
+        self._begin_afresh()
+
+    def _begin_afresh(self) -> None:
+        """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
+        best = sorted(self.found, key=lambda key: (order(self.found[key]), key))
+        for place, box in best[: self.keep]:
+            before = self.found[place, box]
+            again = self.trees[place].thoroughly(box, None)
+            if again is not None and order(again) < order(before):
+                self.found[place, box] = again
+                objective = before.start.objective
+                self.inside = max(self.inside, (objective - again.start.objective) / abs(objective))
+
+    @property
+    def cutoff(self) -> float:
+        """The bound from which on a box is left."""
+        objectives = sorted(run.start.objective for run in self.found.values())
+        return objectives[self.keep - 1] * (1.0 - GAP) if len(objectives) >= self.keep else math.inf
+
+    @property
+    def pruned(self) -> int:
+        """Combinations that were left by their bound."""
+        solved = sum(bool(self._bounded[place][tuple(first for first, _ in box)]) for place, box in self.found)
+        return sum(int(bounded.sum()) for bounded in self._bounded) - solved
+
+    def _urgency(self, node: Node) -> tuple[float, float, int]:
+        """The best bound first; until enough combinations are known, the deepest box first."""
+        deep = 0.0 if math.isfinite(self.cutoff) else -float(node.depth)
+        return deep, node.bound, node.number
+
+    def _split(self, node: Node) -> None:
+        if is_one(node.box):
+            self._try(node.tree, node.box, node.run)
+            return
+        if node.run is not None and node.tree.sizes.are_sizes(node.tree.values(node.run), node.box):
+            self._try(node.tree, node.tree.sizes.nearest(node.tree.values(node.run), node.box), node.run)
+        for box in self._halves(node):
+            self._bound(node, box)
+
+    def _bound(self, node: Node, box: Box) -> None:
+        """Solve one half of a box, and keep it where it may hold better combinations."""
+        tree, near = node.tree, node.run
+        if near is not None and _inside(tree, near, box):
+            self._add(tree, box, node.bound, near, node.depth + 1)
+            return
+        run, certain = tree.best_within(box, near)
+        if run is None:
+            if not certain:
+                self._add(tree, box, node.bound, near, node.depth + 1)
+            return
+        objective = run.start.objective
+        if math.isfinite(node.bound):
+            self.inside = max(self.inside, (node.bound - objective) / abs(node.bound))
+        self._add(tree, box, objective, run, node.depth + 1)
+
+    def _add(self, tree: Tree, box: Box, bound: float, run: Run | None, depth: int) -> None:
+        self._open.append(Node(tree, box, bound, run, depth, self._made))
+        self._made += 1
+
+    def _try(self, tree: Tree, box: Box, near: Run | None) -> None:
+        """Solve one combination; the better of two where another tree came to it too."""
+        key = (tree.place, box)
+        run, _ = tree.exactly(box, near)
+        if run is not None and (key not in self.found or order(run) < order(self.found[key])):
+            self.found[key] = run
+
+    def _halves(self, node: Node) -> tuple[Box, Box]:
+        """Split where a number lies farthest from its sizes, in shares of it; else the longest list in the middle."""
+        sizes = node.tree.sizes
+        values = node.tree.values(node.run) if node.run is not None else {}
+        chosen, cut, far = -1, 0, 0.0
+        for i, (name, listed, (first, last)) in enumerate(zip(sizes.names, sizes.sizes, node.box, strict=True)):
+            if first == last or name not in values:
+                continue
+            below = int(np.searchsorted(listed[first : last + 1], values[name] * (1.0 + SAME_SIZE), side="right"))
+            below = min(max(first + below - 1, first), last - 1)
+            distance = min(abs(math.log(values[name] / listed[place])) for place in (below, below + 1))
+            if distance > far:
+                chosen, cut, far = i, below, distance
+        if chosen < 0 or far <= SAME_SIZE:
+            chosen = max(range(len(node.box)), key=lambda i: node.box[i][1] - node.box[i][0])
+            cut = sum(node.box[chosen]) // 2
+        first, last = node.box[chosen]
+        before, after = node.box[:chosen], node.box[chosen + 1 :]
+        return (*before, (first, cut), *after), (*before, (cut + 1, last), *after)
+
+    def _tell(self, tree: Tree) -> None:
+        self._told += 1
+        if self._told % _TOLD == 1:
+            left = len(self._open)
+            tree.optimizer.progress(f"{len(self.found)} combinations solved, {left} boxes of them still open")
+
+
+def _inside(tree: Tree, run: Run, box: Box) -> bool:
+    """Whether a run's own numbers lie in a box."""
+    values = tree.values(run)
+    return all(
+        low * (1.0 - SAME_SIZE) <= values[name] <= high * (1.0 + SAME_SIZE)
+        for name, (low, high) in tree.sizes.ends(box).items()
+    )
+
+
+def _slices(box: Box) -> tuple[slice, ...]:
+    return tuple(slice(first, last + 1) for first, last in box)

@@ -1,0 +1,53 @@
+"""Whether any design within some ends keeps the limits that depend on no switch: a small problem, asked first.
+
+The switch makes nearly all of the unknowns of a study's problem, and IPOPT takes longest where there is no design. The
+limits of arithmetic alone are a few dozen functions of the free numbers; what cannot keep those keeps no more of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.nlp.ipopt import NLP
+from tvimdesign.solve.nlp.solver_run import Ends
+from tvimdesign.solve.optimizer.arithmetic import Arithmetic
+from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
+
+_IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
+
+Array = NDArray[np.float64]
+
+
+class Screen:
+    """The arithmetic limits of one problem, and the least by which the worst of them is broken within some ends."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Write the problem; nothing is solved yet."""
+        self._optimizer = optimizer
+        unknowns, worst = ca.MX.sym("free", len(optimizer.free)), ca.MX.sym("worst")
+        _, residuals = Arithmetic(optimizer).values(unknowns)
+        function = ca.Function(
+            "screen", [ca.vertcat(unknowns, worst), ca.MX.sym("none", 0)], [worst, residuals - worst], *NLP
+        )
+        options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
+        self._solver: Any = ca.nlpsol("screen", "ipopt", function.expand(), options)
+
+    def impossible(self, within: Mapping[str, Ends], begin: Array) -> bool:
+        """Whether the limits are broken at the best point that a search from some inputs comes to.
+
+        A search that does not converge says nothing.
+        """
+        optimizer = self._optimizer
+        count = len(optimizer.free)
+        lower, upper = (ends[:count] for ends in optimizer.vector.bounds(within))
+        start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
+        found = self._solver(
+            x0=np.append(np.clip(start, lower, upper), 0.1), lbg=-np.inf, ubg=0.0,
+            lbx=np.append(lower, 0.0), ubx=np.append(upper, np.inf),
+        )  # fmt: skip
+        return bool(self._solver.stats()["success"]) and float(found["f"]) > ALGEBRAIC_TOLERANCE

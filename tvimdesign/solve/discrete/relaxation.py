@@ -1,0 +1,161 @@
+"""One study with its records chosen, searched over its listed sizes: its free optima, and the runs within a box."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
+from tvimdesign.solve.discrete.feasibility_screen import Screen
+from tvimdesign.solve.infeasibility.conflict_set import SecondTry
+from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, Work
+from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.starting_points import FEW
+from tvimdesign.solve.optimizer.stepping_stone import SteppingStone
+
+NO_DESIGN = "Infeasible_Problem_Detected"
+"""IPOPT's word for a point from which no step brings the limits nearer."""
+
+
+@dataclass(eq=False)
+class Tree:
+    """The problem of one choice of records, its free optima, and the work that was done on it."""
+
+    place: int
+    """Among the trees of a search."""
+    optimizer: Optimizer
+    records: dict[str, str]
+    sizes: Sizes
+    work: Work
+    stepping_stone: SteppingStone = field(init=False)
+    optima: list[Run] = field(init=False, default_factory=list)
+    """A run for each different optimum that the starts came to with every size free, the best first."""
+    _ends: list[Run] = field(init=False, default_factory=list)
+    """Where the starts came to instead, if none of them came to an optimum."""
+
+    def __post_init__(self) -> None:
+        """Nothing is solved yet."""
+        self.stepping_stone = SteppingStone(self.optimizer)
+
+    @cached_property
+    def _screen(self) -> Screen:
+        return Screen(self.optimizer)
+
+    def starts(self) -> list[Run]:
+        """A run from every start with every size free, and what different optima they are."""
+        runs: list[Run] = []
+        count = self.optimizer.study.solver.starts
+        second_try = SecondTry(self.optimizer)
+        for number, begin in enumerate(self.optimizer.beginnings.points()):
+            self.optimizer.progress(f"start {number + 1} of {count}")
+            run = self.optimizer.solve(begin=self.stepping_stone.beyond(begin))
+            if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
+                run = second_try.from_peace(run)
+            run.start = replace(
+                run.start, begin=self.optimizer.vector.free_values(begin), choices=dict(self.records),
+                relaxed=bool(self.sizes.names),
+            )  # fmt: skip
+            runs.append(run)
+        for run in sorted((run for run in runs if run.start.converged), key=order):
+            objective = run.start.objective
+            if all(abs(objective - o.start.objective) > SAME_OPTIMUM * abs(objective) for o in self.optima):
+                self.optima.append(run)
+        self._ends = [] if self.optima else runs
+        return runs
+
+    def choices(self, box: Box) -> dict[str, str | float]:
+        """Records and sizes of a box of one."""
+        return {**self.records, **{name: low for name, (low, _) in self.sizes.ends(box).items()}}
+
+    def values(self, run: Run) -> dict[str, float]:
+        """The listed numbers where a run ended."""
+        return {name: float(run.inputs[self.optimizer.model.index[name]]) for name in self.sizes.names}
+
+    @property
+    def start_values(self) -> dict[str, float]:
+        """The listed numbers of the study's start."""
+        model = self.optimizer.model
+        return {name: float(model.start[model.index[name]]) for name in self.sizes.names}
+
+    def best_within(self, box: Box, near: Run | None) -> tuple[Run | None, bool]:
+        """The best design within a box, warm from a run nearby; and where there is none, whether that is certain.
+
+        Certain means that limits which depend on no switch cannot be kept, or that searches from the run nearby and
+        from every free optimum all came to points where nothing brings the limits nearer.
+        """
+        ends = self.sizes.ends(box)
+        begins = self._begins(ends, near)
+        if self._screened(ends, begins):
+            return None, True
+        statuses = []
+        if near is not None:
+            run = self._solved(ends, warm=near)
+            if run.start.converged:
+                return run, True
+            statuses.append(run.start.status)
+        for begin in begins:
+            run = self._solved(ends, begin=begin)
+            if run.start.converged:
+                return run, True
+            statuses.append(run.start.status)
+        return None, all(status == NO_DESIGN for status in statuses)
+
+    def closest(self, box: Box) -> Run:
+        """A run for one combination whether there is a design or not."""
+        best = self.optima[0] if self.optima else None
+        return self._named(self._solved(self.sizes.ends(box), warm=best), box)
+
+    def exactly(self, box: Box, near: Run | None) -> tuple[Run | None, bool]:
+        """The best design of one combination, with its choices said."""
+        run, certain = self.best_within(box, near)
+        return (run and self._named(run, box)), certain
+
+    def thoroughly(self, box: Box, near: Run | None) -> Run | None:
+        """The best design of one combination: warm from a run nearby, cold from every optimum and the study's start.
+
+        A walk from neighbour to neighbour may end in a worse optimum and stay there; what begins afresh does not.
+        """
+        ends = self.sizes.ends(box)
+        begins = self._begins(ends, None)
+        if self._screened(ends, begins):
+            return None
+        runs = [self._solved(ends, warm=near)] if near else []
+        runs += [self._solved(ends, begin=begin) for begin in begins]
+        best = min(runs, key=order)
+        return self._named(best, box) if best.start.converged else None
+
+    def _screened(self, ends: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
+        """Whether the limits that depend on no switch cannot be kept, from the first of some inputs and the last."""
+        if not all(self._screen.impossible(ends, begin) for begin in (begins[0], begins[-1])):
+            return False
+        self.work.screened += 1
+        return True
+
+    def _named(self, run: Run, box: Box) -> Run:
+        run.start = replace(run.start, choices=self.choices(box))
+        return run
+
+    def _begins(self, ends: Mapping[str, Ends], near: Run | None) -> list[Array]:
+        """Inputs to start from, moved into the ends: those of the run nearby, of the optima, of the study's start."""
+        others = [run for run in (*self.optima, *self._ends) if run is not near]
+        found = [*(run.inputs for run in ([near] if near else []) + others), self.optimizer.model.start]
+        moved = []
+        for inputs in found:
+            point = inputs.copy()
+            for name, (low, high) in ends.items():
+                place = self.optimizer.model.index[name]
+                point[place] = min(max(point[place], low), high)
+            moved.append(point)
+        return moved
+
+    def _solved(self, ends: Mapping[str, Ends], warm: Run | None = None, begin: Array | None = None) -> Run:
+        run = self.optimizer.solve(ends, warm=warm, begin=begin)
+        self.work.count(run.start, warm=warm is not None)
+        return run
+
+
+def order(run: Run) -> tuple[bool, float]:
+    """Converged runs first, the best of them first."""
+    return (not run.start.converged, run.start.objective)

@@ -1,0 +1,195 @@
+"""Why a study has no design: the design that breaks its limits least, and a smallest set of limits that quarrel.
+
+The set is found by deletion: of the limits that press on the least violation, each is left out in turn, and stays out
+where the rest still cannot be kept. Any one of those left, moved far enough, makes peace in the set; how far it must
+move while all other limits hold is asked of the elastic problem once more.
+Source: Chinneck, Feasibility and Infeasibility in Optimization (2008), ch. 6 and 7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from tvimdesign.base.units import format_quantity
+from tvimdesign.solve.infeasibility.elastic_mode import AT_PEACE, Elastic, Settled
+from tvimdesign.solve.infeasibility.infeasibility_proof import proved, ranges_of
+from tvimdesign.solve.nlp.constraints import Limit, in_words, make_limit, on_switch
+from tvimdesign.solve.nlp.solution import Quarrel, Side
+from tvimdesign.solve.nlp.solver_run import Array, Progress, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+
+_HEAVY = 100.0
+"""What breaking a rule of the machine costs against a requirement of the study, or a limit that is to hold."""
+_FAINT = 1e-3
+"""Multiplier below which a limit or the end of a range has no part in it: the trace of the objective leaves less."""
+_MOST_STARTS = 5
+_PROOF_BOXES = 2000
+
+
+@dataclass(frozen=True)
+class Peace:
+    """What came of asking: the run that breaks least with its quarrel, or a run that keeps all limits."""
+
+    run: Run
+    quarrel: Quarrel | None
+
+
+def make_peace(optimizer: Optimizer, failed: Sequence[Run], progress: Progress) -> Peace | None:
+    """Ask of a problem no start of which converged what can be had; None where not even the switch can be found."""
+    progress("no start keeps all limits: looking for the design that breaks least")
+    elastic = Elastic(optimizer)
+    least = _least_violation(elastic, failed)
+    if least is None:
+        return None
+    if least.peace:
+        run = optimizer.solve(begin=least.run.inputs, unknowns=least.run.unknowns)
+        if not run.start.converged:
+            run = least.run
+            run.start = replace(run.start, status="Feasible_Point_Found", converged=False)
+        return Peace(run, None)
+    progress("looking for the smallest set of limits that quarrel")
+    members, ends = _quarrelling(elastic, least)
+    least.run.start = replace(least.run.start, status="Infeasible_Problem_Detected", converged=False)
+    return Peace(least.run, _told(elastic, least, members, ends, progress))
+
+
+class SecondTry:
+    """Starts that ended nowhere, begun again from a design that keeps all limits; the elastic problem is built once."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Nothing is built before it is needed."""
+        self._optimizer = optimizer
+
+    @cached_property
+    def _elastic(self) -> Elastic:
+        return Elastic(self._optimizer)
+
+    def from_peace(self, run: Run) -> Run:
+        """A run that converged after all, else the one that did not; its start says how many iterations all took."""
+        settled = self._elastic.settle(_weights(self._optimizer), _begin(self._optimizer, run))
+        if not settled.peace:
+            return run
+        again = self._optimizer.solve(begin=settled.run.inputs, unknowns=settled.run.unknowns)
+        if not again.start.converged:
+            return run
+        parts = (run.start, settled.run.start, again.start)
+        again.start = replace(
+            again.start, begin=run.start.begin, second_try=True,
+            iterations=sum(part.iterations for part in parts), seconds=sum(part.seconds for part in parts),
+        )  # fmt: skip
+        return again
+
+
+def _weights(optimizer: Optimizer) -> Array:
+    return np.array([1.0 if limit.origin == "require" else _HEAVY for limit in optimizer.problem.limits])
+
+
+def _least_violation(elastic: Elastic, failed: Sequence[Run]) -> Settled | None:
+    """The least sum of slacks from where the starts ended, else from where they began."""
+    weights = _weights(elastic.optimizer)
+    found: list[Settled] = []
+    for run in failed[:_MOST_STARTS]:
+        settled = elastic.settle(weights, run.inputs, run.unknowns)
+        if not settled.converged:
+            settled = elastic.settle(weights, _begin(elastic.optimizer, run))
+        if settled.converged:
+            found.append(settled)
+        if settled.peace:
+            break
+    return min(found, key=lambda one: float(weights @ one.slacks), default=None)
+
+
+def _begin(optimizer: Optimizer, run: Run) -> Array:
+    inputs = optimizer.model.start.copy()
+    for name, value in run.start.begin.items():
+        inputs[optimizer.model.index[name]] = value
+    return inputs
+
+
+def _quarrelling(elastic: Elastic, least: Settled) -> tuple[list[int], Array]:
+    """An irreducible set of limits that cannot be kept together, and what the ends of ranges have to do with it."""
+    limits, weights = elastic.optimizer.problem.limits, np.ones(elastic.count)
+
+    def kept_apart(within: Collection[int]) -> Settled | None:
+        """The settlement where the limits cannot all be kept; None where they can, or it is not known."""
+        settled = elastic.settle(weights, least.run.inputs, least.run.unknowns, within)
+        return None if settled.peace or not settled.converged else settled
+
+    candidates = [int(k) for k in np.flatnonzero((least.pressing > _FAINT) | (least.slacks > AT_PEACE))]
+    settled = kept_apart(candidates)
+    if settled is None:
+        candidates, settled = list(range(elastic.count)), least
+    else:
+        candidates = [k for k in candidates if settled.pressing[k] > _FAINT]
+    # The machine's rules leave first, and the study's requirements last: those are what a user can move.
+    for k in sorted(candidates, key=lambda one: (limits[one].origin == "require", least.slacks[one] > AT_PEACE)):
+        fewer = [one for one in candidates if one != k]
+        without = kept_apart(fewer) if fewer else None
+        if without is not None:
+            candidates, settled = fewer, without
+    return candidates, settled.ends
+
+
+def _told(elastic: Elastic, least: Settled, members: Sequence[int], ends: Array, progress: Progress) -> Quarrel:
+    optimizer = elastic.optimizer
+    limits = optimizer.problem.limits
+    broken = [int(k) for k in np.flatnonzero(least.slacks > AT_PEACE)]
+    sides = []
+    for k in members:
+        progress(f"how far {limits[k].name} must move")
+        move, beside = _alone(elastic, least, k)
+        side = _moved(optimizer, limits[k], float(least.slacks[k]), move)
+        sides.append(replace(side, beside=tuple(in_words(limits[other], optimizer.table) for other in beside)))
+    return Quarrel(
+        broken=tuple(
+            _moved(optimizer, limits[k], float(least.slacks[k]), float(least.slacks[k]) if len(broken) == 1 else None)
+            for k in sorted(broken, key=lambda one: -least.slacks[one])
+        ),
+        sides=tuple(sides),
+        ends=tuple(_ends_in_words(optimizer, ends)),
+        proved=_proved(optimizer, [limits[k] for k in members]),
+    )
+
+
+def _alone(elastic: Elastic, least: Settled, member: int) -> tuple[float | None, list[int]]:
+    """How far one limit must move, in its scale, for all others to hold; else which others do not, none if unknown."""
+    weights = np.full(elastic.count, _HEAVY)
+    weights[member] = 1.0
+    settled = elastic.settle(weights, least.run.inputs, least.run.unknowns)
+    if not settled.converged:
+        return None, []
+    others = [int(k) for k in np.flatnonzero(settled.slacks > AT_PEACE) if k != member]
+    return (None, others) if others else (float(settled.slacks[member]), [])
+
+
+def _moved(optimizer: Optimizer, limit: Limit, by: float, move: float | None) -> Side:
+    table = optimizer.table
+    sign = 1.0 if limit.sense == "<=" else -1.0
+    place = None if move is None else limit.limit + sign * move * limit.scale
+    words = "" if place is None else f"{limit.sense} {format_quantity(place, table.unit(limit.output))}"
+    return Side(in_words(limit, table), limit.origin, by, place, words)
+
+
+def _ends_in_words(optimizer: Optimizer, multipliers: Array) -> list[str]:
+    """The ends of ranges that press, those that press most first."""
+    order = np.argsort(-np.abs(multipliers), kind="stable")
+    found = []
+    for i in (int(one) for one in order if abs(multipliers[one]) > _FAINT):
+        free, upper = optimizer.free[i], multipliers[i] > 0.0
+        sense: Literal["<=", ">="] = "<=" if upper else ">="
+        limit = make_limit(optimizer.table, free.name, sense, free.upper if upper else free.lower, "vary")
+        found.append(in_words(limit, optimizer.table))
+    return found
+
+
+def _proved(optimizer: Optimizer, limits: Sequence[Limit]) -> bool:
+    """Whether bounds alone prove that the set cannot hold; only algebraic limits can be."""
+    table = optimizer.table
+    if any(on_switch(table, limit.output) for limit in limits):
+        return False
+    return proved(ranges_of(optimizer.study, optimizer.catalog, table), limits, _PROOF_BOXES)

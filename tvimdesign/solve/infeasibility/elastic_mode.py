@@ -1,0 +1,114 @@
+"""The problem with limits that give: what is found where they cannot all be kept, and how far each must move.
+
+Every limit gets a slack, its residual beyond zero; what is made small is the weighted sum of the slacks (so that few
+limits move, not all a little), with a trace of the study's own objective to settle what is left open. Equations and
+ranges stay as they are. Weights, and which limits count at all, are numbers: one problem, built once, answers all.
+Source: Nocedal and Wright, Numerical Optimization, 2nd ed. (2006), section 18.5 (the elastic mode).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.nlp.ipopt import NLP, solver_of
+from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.solver_run import Array, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+
+TRACE = 1e-4
+"""Weight of the study's own objective beside the slacks."""
+AT_PEACE = 1e-5
+"""Slack, as a share of a limit's scale, below which it counts as none."""
+_ROOM = 1e-2
+"""What slacks begin with beyond what the first point needs."""
+
+
+@dataclass(frozen=True)
+class Settled:
+    """What one run of the elastic problem came to."""
+
+    run: Run
+    """Without multipliers: those of the elastic problem say nothing of the study's objective."""
+    slacks: Array
+    """How far each limit was broken, in its scale; limits that did not count have none."""
+    pressing: Array
+    """Multiplier of each limit: its weight where it gives, above 0 where it is part of the quarrel."""
+    ends: Array
+    """Multipliers of the ranges of the free numbers: above 0 at an upper end that is in the way, below at a lower."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether the numbers mean anything."""
+        return self.run.start.converged
+
+    @property
+    def peace(self) -> bool:
+        """Whether all limits that counted can be kept."""
+        return self.converged and bool(np.max(self.slacks, initial=0.0) <= AT_PEACE)
+
+
+class Elastic:
+    """An optimizer's problem with a slack on every limit."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Add the slacks and build the solver."""
+        self.optimizer, problem = optimizer, optimizer.problem
+        self.count, self.equations = len(problem.limits), problem.equation_count
+        whole = problem.function
+        slacks, weights = ca.MX.sym("slacks", self.count), ca.MX.sym("weights", self.count)
+        first, last = self.equations, self.equations + self.count
+        rows = whole["g"]
+        written = ca.Function(
+            "elastic",
+            [ca.vertcat(whole["x"], slacks), ca.vertcat(whole["p"], weights)],
+            [ca.dot(weights, slacks) + TRACE * whole["f"],
+             ca.vertcat(rows[:first], rows[first:last] - slacks, rows[last:])],
+            *NLP,
+        )  # fmt: skip
+        self._solver = solver_of(written, optimizer.study.solver)
+        self._rows = ca.Function("rows", [whole["x"], whole["p"]], [rows])
+
+    def settle(
+        self, weights: Array, begin: Array, unknowns: Array | None = None, within: Collection[int] = ()
+    ) -> Settled:
+        """Run it from inputs, or from another run's unknowns; `within` are the limits that count, all unless given."""
+        optimizer, problem = self.optimizer, self.optimizer.problem
+        clock = time.perf_counter()
+        x = optimizer.guess(begin) if unknowns is None else unknowns
+        p = optimizer.parameters(Goal(optimizer.study.minimize))
+        counts = np.isin(np.arange(self.count), list(within)) if within else np.ones(self.count, dtype=bool)
+        residuals = np.asarray(self._rows(x, p)).ravel()[self.equations : self.equations + self.count]
+        slacks = np.where(counts, np.maximum(np.nan_to_num(residuals), 0.0) + _ROOM, 0.0)
+        lower, upper = optimizer.vector.bounds({})
+        traded, rest = len(problem.traded), problem.slope_count + problem.peak_count
+        no_equations = np.zeros(self.equations)
+        answer = self._solver(
+            x0=np.concatenate([x, slacks]), p=np.concatenate([p, weights]),
+            lbx=np.concatenate([lower, np.zeros(self.count)]),
+            ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
+            lbg=np.concatenate([no_equations, np.full(self.count + traded + rest, -np.inf)]),
+            ubg=np.concatenate([
+                no_equations, np.where(counts, 0.0, np.inf), np.full(traded, np.inf), np.zeros(rest),
+            ]),
+        )  # fmt: skip
+        return self._settled(answer, begin, time.perf_counter() - clock)
+
+    def _settled(self, answer: dict[str, Any], begin: Array, seconds: float) -> Settled:
+        size = self.optimizer.problem.unknown_count
+        found = np.asarray(answer["x"]).ravel()
+        first, last = self.equations, self.equations + self.count
+        pressing = np.asarray(answer["lam_g"]).ravel()[first:last]
+        ends = np.asarray(answer["lam_x"]).ravel()[: len(self.optimizer.free)]
+        rows = self.optimizer.problem.function["g"].numel()
+        bare = {
+            "x": found[:size], "f": answer["f"], "lam_g": np.zeros(rows), "lam_x": np.zeros(size),
+            "lam_p": np.zeros(self.optimizer.problem.function["p"].numel()),
+        }  # fmt: skip
+        run = self.optimizer.record(bare, self._solver.stats(), begin, seconds)
+        return Settled(run, np.maximum(found[size:], 0.0), pressing, ends)

@@ -1,0 +1,233 @@
+"""A built problem looked at before it is solved: scaling and conditioning, derivatives, what depends on what."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.infeasibility.infeasibility_proof import Ranges
+from tvimdesign.solve.nlp.constraints import Limit, in_words, is_constant, limits_of
+from tvimdesign.solve.nlp.labels import row_names, unknown_names
+from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.solver_run import Array
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+
+STEP = 1e-4
+"""Step of the differences, in unknowns, which are logarithms or of order one; fourth order, so its error is 1e-16."""
+DERIVATIVE_TOLERANCE = 1e-6
+"""Largest difference, over the size of a row's derivatives, that rounding explains."""
+DEPENDENT = 1e-9
+"""Singular value, as a share of the greatest, below which a direction changes nothing."""
+_FLAT = 1e-3
+"""Size of a row's derivatives below which it is flat, and differences are rounding."""
+_PART = 0.1
+_WORST = 3
+_RANDOM = 4
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How far apart the sizes of rows, or columns, of a Jacobian are: (name, greatest entry)."""
+
+    largest: tuple[str, float]
+    smallest: tuple[str, float]
+
+    @property
+    def ratio(self) -> float:
+        """Largest over smallest."""
+        return self.largest[1] / self.smallest[1]
+
+
+@dataclass(frozen=True)
+class Conditioning:
+    """What limits and goal see of the free numbers, over the whole of their ranges, the equations kept."""
+
+    equations: float
+    """Condition number of the equations that states and times follow from, rows scaled to one; 1-norm."""
+    decisions: float
+    """Greatest over least singular value of limits and goal by the free numbers, rows scaled to one."""
+    traded: tuple[tuple[str, ...], ...]
+    """Free numbers that can be traded for each other without any limit or the goal noticing."""
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """Exact derivatives against central differences at the first point."""
+
+    worst: tuple[tuple[str, str, float], ...]
+    """(row, by what, difference as a share of the size of the row's derivatives), the greatest first."""
+
+    @property
+    def right(self) -> bool:
+        """Whether rounding explains all of it."""
+        return all(error <= DERIVATIVE_TOLERANCE for _, _, error in self.worst)
+
+
+@dataclass(frozen=True)
+class Structure:
+    """What depends on nothing, and what nothing changes."""
+
+    idle: tuple[str, ...]
+    """Free numbers that neither a limit nor the goal depends on."""
+    unchangeable: tuple[str, ...]
+    """Limits of the study that nothing free can change, though they hold."""
+    slack: tuple[str, ...]
+    """Limits of the study that bounds prove to hold anywhere within the ranges."""
+    slack_rules: int
+    """How many of the machine's rules that is so of."""
+
+
+class Inspection:
+    """A problem at the first point it would be solved from."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Evaluate rows, objective and their exact derivatives there."""
+        problem = optimizer.problem
+        self.optimizer, self.problem = optimizer, problem
+        self.begin = next(optimizer.beginnings.points())
+        self._x = optimizer.guess(self.begin)
+        self._p = optimizer.parameters(Goal(optimizer.study.minimize))
+        whole = problem.function
+        rows = ca.vertcat(whole["g"], whole["f"])
+        self._values = ca.Function("rows", [whole["x"], whole["p"]], [rows])
+        exact = ca.Function("exact", [whole["x"], whole["p"]], [ca.jacobian(rows, whole["x"])])
+        self._jacobian = exact(self._x, self._p)
+        self._columns = unknown_names(problem)
+        self._rows = [*row_names(problem), "goal"]
+
+    def scaling(self) -> tuple[Spread, Spread]:
+        """Rows, then columns; those without any entry are left to `structure`."""
+        triplets = self._jacobian.sparsity().get_triplet()
+        entries = np.abs(np.array(self._jacobian.nonzeros()))
+        return self._spread(triplets[0], entries, self._rows), self._spread(triplets[1], entries, self._columns)
+
+    @staticmethod
+    def _spread(places: Sequence[int], entries: Array, names: Sequence[str]) -> Spread:
+        greatest = np.zeros(len(names))
+        np.maximum.at(greatest, np.array(places, dtype=int), entries)
+        used = np.flatnonzero(greatest)
+        ends = used[np.argmax(greatest[used])], used[np.argmin(greatest[used])]
+        return Spread(*((names[i], float(greatest[i])) for i in ends))
+
+    def conditioning(self) -> Conditioning:
+        """The equations' condition number, and what limits and goal see of the free numbers."""
+        decided, along, equations = self._along()
+        first = self.problem.equation_count
+        seen = [*range(first, first + len(self.problem.limits)), len(self._rows) - 1]
+        matrix = (self._jacobian[seen, :] @ ca.DM(along)).full() * self._widths(decided)
+        sizes = np.linalg.norm(matrix, axis=1)
+        matrix = matrix[sizes > 0.0] / sizes[sizes > 0.0, None]
+        directions = np.linalg.svd(matrix)
+        values = np.zeros(len(decided))
+        values[: len(directions.S)] = directions.S
+        lost = [directions.Vh[i] for i in np.flatnonzero(values <= DEPENDENT * values[0])]
+        names = np.array([self._columns[i] for i in decided])
+        traded = tuple(dict.fromkeys(tuple(names[np.abs(direction) > _PART]) for direction in lost))
+        least = values[-1] if not lost else 0.0
+        return Conditioning(equations, float(values[0] / least) if least > 0.0 else np.inf, traded)
+
+    def _widths(self, decided: Sequence[int]) -> Array:
+        """How far each decision can go, in unknowns."""
+        lower, upper = self.optimizer.vector.bounds({})
+        return np.array([upper[i] - lower[i] for i in decided])
+
+    def _along(self) -> tuple[list[int], Array, float]:
+        """The free numbers' places, derivatives of all unknowns by them, the condition number of the equations."""
+        from scipy.sparse.linalg import LinearOperator, onenormest, splu
+
+        problem = self.problem
+        decided = [*range(len(problem.free))]
+        stay = {i for _, place in self.optimizer.vector.places_of_currents() for i in range(place.start, place.stop)}
+        follow = [i for i in range(len(decided), problem.unknown_count) if i not in stay]
+        along = np.zeros((problem.unknown_count, len(decided)))
+        along[decided, range(len(decided))] = 1.0
+        if not follow:
+            return decided, along, 1.0
+        rows = [*range(problem.equation_count), *self._tied_peaks()]
+        square = self._jacobian[rows, follow].sparse()  # scipy's
+        scale = 1.0 / abs(square).max(axis=1).toarray().ravel()
+        square = square.multiply(scale[:, None]).tocsc()
+        factors: Any = splu(square)
+        along[follow] = -factors.solve(scale[:, None] * self._jacobian[rows, decided].full())
+
+        def back(right: Array) -> Array:
+            return np.asarray(factors.solve(right))
+
+        def back_transposed(right: Array) -> Array:
+            return np.asarray(factors.solve(right, trans="T"))
+
+        inverse: Any = LinearOperator(
+            square.shape, matvec=back, rmatvec=back_transposed, matmat=back, rmatmat=back_transposed, dtype=float
+        )
+        return decided, along, float(abs(square).sum(axis=0).max() * onenormest(inverse))
+
+    def _tied_peaks(self) -> list[int]:
+        """For each peak the row of the greatest sample, which it follows."""
+        problem = self.problem
+        values = np.asarray(self._values(self._x, self._p)).ravel()
+        first = len(self._rows) - 1 - problem.peak_count
+        columns = self._jacobian[first:-1, problem.unknown_count - len(problem.peaks) :].full()
+        found = []
+        for column in columns.T:
+            samples = first + np.flatnonzero(column)
+            found.append(int(samples[np.argmax(values[samples])]))
+        return found
+
+    def derivatives(self) -> Derivatives:
+        """Along every free number, and along random directions of the other unknowns."""
+        count, free = self.problem.unknown_count, len(self.problem.free)
+        random = np.random.default_rng(self.optimizer.study.solver.seed)
+        directions = [(self._columns[i], np.eye(1, count, i).ravel()) for i in range(free)]
+        if count > free:
+            others = random.choice([-1.0, 1.0], (_RANDOM, count))
+            others[:, :free] = 0.0
+            directions += [("states and times together", direction) for direction in others]
+        sizes = np.sqrt((self._jacobian**2 @ np.ones(count)).full().ravel())
+        found = []
+        for name, direction in directions:
+            exact = (self._jacobian @ direction).full().ravel()
+            error = np.abs(self._difference(direction) - exact) / np.maximum(sizes, _FLAT)
+            worst = int(np.argmax(error))
+            found.append((self._rows[worst], name, float(error[worst])))
+        return Derivatives(tuple(sorted(found, key=lambda one: -one[2])[:_WORST]))
+
+    def _difference(self, direction: Array) -> Array:
+        """(f(-2h) - 8 f(-h) + 8 f(h) - f(2h))/12h."""
+        weights = ((-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0))
+        total: Any = sum(w * self._values(self._x + k * STEP * direction, self._p) for k, w in weights)
+        return np.asarray(total).ravel() / (12.0 * STEP)
+
+    def structure(self, ranges: Ranges) -> Structure:
+        """What neither limits nor goal depend on, what nothing changes, and what bounds prove to hold anywhere."""
+        optimizer = self.optimizer
+        table, free = optimizer.table, [one.name for one in optimizer.free]
+        used = {int(column) for column in self._jacobian.sparsity().get_triplet()[1]}
+        drives = [current.row for current in optimizer.currents]
+        own = [limit for limit in limits_of(optimizer.study, table) if limit.origin == "require"]
+        fixed = [limit for limit in own if is_constant(limit, table, [*free, *drives])]
+        slack = [limit for limit in always_kept(ranges) if limit not in fixed]
+        return Structure(
+            idle=tuple(name for i, name in enumerate(free) if i not in used),
+            unchangeable=tuple(in_words(limit, table) for limit in fixed),
+            slack=tuple(in_words(limit, table) for limit in slack if limit.origin == "require"),
+            slack_rules=sum(limit.origin != "require" for limit in slack),
+        )
+
+
+def always_kept(ranges: Ranges) -> list[Limit]:
+    """The algebraic limits that bounds prove to hold anywhere within the ranges."""
+    names = list(dict.fromkeys(limit.output for limit in ranges.limits))
+    if not names or not ranges.free:
+        return []
+    bounds = ranges.enclosure(names).bounds(ranges.low, ranges.high)
+    found = []
+    for limit in ranges.limits:
+        place = names.index(limit.output)
+        worst = bounds.high[place] if limit.sense == "<=" else bounds.low[place]
+        if bounds.whole[place] and limit.residual(worst) <= 0.0:
+            found.append(limit)
+    return found

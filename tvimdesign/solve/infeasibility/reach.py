@@ -1,0 +1,60 @@
+"""Whether stated target impedances lie within what a study's variables can reach, asked before the search begins."""
+
+from __future__ import annotations
+
+from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.units import format_quantity
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study import ProfileOptions, Study
+
+_ENDS = {
+    "soft": ("joint_impedance@hot", 1.0, "softening_band"),
+    "stiff": ("joint_impedance@cold", -1.0, "stiffening_band"),
+}
+"""Of each target: the impedance it is held against, whether the least or the largest of that counts, and its band."""
+
+
+def refuse_unreachable(study: Study, catalog: Catalog, table: Table) -> None:
+    """Raise InputError, with what would be reachable, for a stated target that no design within the ranges has."""
+    if study.module.get("impedance_targets") != "stated":
+        return
+    for word, (row, sign, band) in _ENDS.items():
+        reached = _extreme(study, catalog, table, row, sign)
+        target, factor = (_given(study, table, name) for name in (f"{word}_impedance", band))
+        limit = target * factor if sign > 0.0 else target / factor
+        if reached is not None and sign * (reached - limit) > 0.0:
+            end, most = ("softest", "least") if sign > 0.0 else ("stiffest", "largest")
+            unit = table.unit(row)
+            asked, has, possible = (format_quantity(value, unit) for value in (target, reached, reached / factor**sign))
+            raise InputError(
+                f"{word}_impedance {asked} cannot be reached: the {end} joint within the ranges under `vary` and the "
+                f"machine's rules has {has}; the {most} target is {possible}"
+            )
+
+
+def _extreme(study: Study, catalog: Catalog, table: Table, row: str, sign: float) -> float | None:
+    """Least or largest value of a row within the ranges and the machine's rules; None where the solver finds none."""
+    asked = study.model_copy(
+        update={
+            "module": {**study.module, "impedance_targets": "operating_points"},
+            "require": (),
+            "minimize": {row: sign},
+            "profile": ProfileOptions(),
+        }
+    )
+    try:
+        optimizer = Optimizer(asked, catalog, table)
+    except InfeasibleError:
+        return None
+    run = optimizer.solve()
+    if not run.start.converged:
+        return None
+    return optimizer.model.values(run.inputs, optimizer.beginnings.switch.values)[row]
+
+
+def _given(study: Study, table: Table, name: str) -> float:
+    value = study.module.get(name, getattr(table.row(name), "default", None))
+    assert isinstance(value, float | int)
+    return float(value)

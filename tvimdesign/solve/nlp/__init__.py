@@ -1,0 +1,1 @@
+"""The optimisation problem written down: unknowns, constraints, objective, collocation, derivatives."""

@@ -1,0 +1,174 @@
+"""The limits a design must keep: the study's requirements and the machine's own rules, in one list."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device.table.quantity import Extra
+from tvimdesign.study import Study, given
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One named limit on one output, SI."""
+
+    output: str
+    sense: Literal["<=", ">="]
+    limit: float
+    scale: float
+    """What a residual of one means: the limit itself, or a hundred steps where it has no size."""
+    origin: str
+    """`require` for the study's own, otherwise the reason the machine has it."""
+    step: str = "1 %"
+    """What a hundredth of the scale is, in words."""
+    absolute: bool = False
+    """Whether the limit has no size of its own, so that distances from it are said in its unit."""
+
+    @property
+    def name(self) -> str:
+        """Output and sense, unique in a study."""
+        return f"{self.output} {self.sense}"
+
+    def residual(self, value: Any) -> Any:
+        """How far a value is beyond the limit, as a share of the scale; kept where <= 0. Floats and symbols."""
+        beyond = value - self.limit if self.sense == "<=" else self.limit - value
+        return beyond / self.scale
+
+
+def limits_of(study: Study, table: Table, chosen: Mapping[str, Any] | None = None) -> list[Limit]:
+    """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense.
+
+    `chosen` are records and options by name, so that rules of what the module lacks are left out; without them only
+    those are that the study itself says it lacks.
+    """
+    own = [
+        make_limit(table, output, r.sense, r.limit, "require")
+        for r in study.require
+        for output in _behind(table, r.output, r.sense)
+    ]
+    taken = {(limit.output, limit.sense) for limit in own}
+    said = study.module if chosen is None else chosen
+    options = {row.name: said.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    for row in table.outputs:
+        for rule in row.rules if row.exists(options) else ():
+            if (row.name, rule.sense) not in taken:
+                own.append(make_limit(table, row.name, rule.sense, rule.value, rule.reason))
+    return own
+
+
+def _behind(table: Table, name: str, sense: str) -> tuple[str, ...]:
+    """The rows a limit is put on: the named one, or each of those it is the least of."""
+    row = table.output(name)
+    return row.least_of if row.least_of and sense == ">=" else (name,)
+
+
+def on_switch(table: Table, output: str) -> bool:
+    """Whether an output depends on how a switch runs."""
+    return output.partition("@")[0] in table.behind_supplied
+
+
+def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
+    """Whether nothing free can change the output a limit stands on."""
+    return not on_switch(table, limit.output) and not set(free) & table.ancestors(limit.output)
+
+
+def unchangeable(limit: Limit, table: Table) -> str:
+    """Say of a limit that is broken and stands on nothing free what could be freed."""
+    above = table.ancestors(limit.output)
+    behind = [row.name for row in table.inputs if row.variable and row.name in above] or ["(nothing can)"]
+    return (
+        f"{in_words(limit, table)} does not hold, and nothing under `vary` can change it; "
+        f"vary one of: {', '.join(behind)}"
+    )
+
+
+def refuse_impossible(study: Study, catalog: Catalog, table: Table) -> None:
+    """Raise InputError, naming what is wrong, where a study's start is no geometry and nothing can be said of it."""
+    rows = [row.name for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]
+    start = given(study, catalog, table)
+    found = impossible(table.evaluate(start, rows), table)
+    if found:
+        raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
+    _refuse_idle(study, table, start)
+    if not study.vary:
+        _refuse_unreachable(start, table)
+
+
+def _refuse_idle(study: Study, table: Table, start: Mapping[str, Any]) -> None:
+    """Raise InputError for what the study sets to no effect, as the module lacks what it is of."""
+    said: list[Choice | Input] = [*table.choices, *table.inputs]
+    said = [row for row in said if row.name in study.module or row.name in study.vary]
+    for choice in table.choices:
+        lacking = Extra(choice.name, start[choice.name])
+        idle = [row.name for row in said if lacking in row.extras]
+        if not idle or choice.name in study.vary:
+            continue
+        others = [word for word in choice.options if word != lacking.without]
+        way = "name one of its records" if choice.shelf else f"add `{choice.name}: {others[0]}`"
+        raise InputError(f"{', '.join(idle)}: no effect, as {choice.name} is {lacking.without}; {way} under `module`")
+
+
+def _refuse_unreachable(start: Mapping[str, Any], table: Table) -> None:
+    """Raise InputError where a stated target impedance lies outside what the joint can have."""
+    if start.get("impedance_targets") != "stated":
+        return
+    ends = table.evaluate(start, ["joint_impedance@hot", "joint_impedance@cold", "soft_reach", "stiff_reach"])
+    soft, stiff = (format_quantity(ends[f"joint_impedance@{point}"], "N*m/rad") for point in ("hot", "cold"))
+    bad = [name for name in ("soft", "stiff") if ends[f"{name}_reach"] < 0.0]
+    if bad:
+        said = ", ".join(f"{name}_impedance {format_quantity(start[f'{name}_impedance'], 'N*m/rad')}" for name in bad)
+        raise InputError(
+            f"{said} cannot be reached: this joint goes from {soft} hot to {stiff} cold; a target may be the band "
+            f"(softening_band, stiffening_band) beyond that, no more"
+        )
+
+
+def impossible(values: Mapping[str, float], table: Table) -> list[str]:
+    """Say where the numbers of a design are no geometry at all: `arc_width is -7 mm, it must be above 0`."""
+    found = []
+    for row in table.outputs:
+        for rule in row.rules:
+            if rule.exists_above is not None and not values[row.name] > rule.exists_above:
+                value, least = (format_quantity(number, row.unit) for number in (values[row.name], rule.exists_above))
+                above = sorted(table.ancestors(row.name))
+                inputs = [name for name in above if isinstance(table.row(name), Input)][:_INPUTS_NAMED]
+                found.append(
+                    f"{row.name} is {value}, it must be above {least}: {row.description}; it follows from "
+                    + ", ".join(inputs)
+                )
+    return found
+
+
+def advice_of(table: Table) -> list[Limit]:
+    """Return the limits that are reported where they are broken."""
+    return [
+        make_limit(table, row.name, rule.sense, rule.value, rule.reason) for row in table.outputs for rule in row.advice
+    ]
+
+
+_INPUTS_NAMED = 6
+_STEPS = {"mm": 0.1, "K": 1.0, "degC": 1.0, "s": 1.0}
+"""What people relax a limit by that has no size of its own, in its unit; a hundredth of the unit elsewhere."""
+
+
+def make_limit(table: Table, name: str, sense: Literal["<=", ">="], limit: float, origin: str) -> Limit:
+    """Return a limit with its scale: its own size, or a hundred steps where it is zero or a temperature."""
+    unit = table.unit(name)
+    if limit != 0.0 and unit != "degC":
+        return Limit(name, sense, limit, abs(limit), origin)
+    step = _STEPS.get(unit, 0.01)
+    of_difference = "K" if unit == "degC" else unit
+    scale = 100.0 * to_si(step, of_difference)
+    return Limit(name, sense, limit, scale, origin, f"{step:g} {pretty(of_difference)}".rstrip(), absolute=True)
+
+
+def in_words(limit: Limit, table: Table) -> str:
+    """Write the limit as a reader would: `joint_stiffness@hot >= 5 N·m/rad`."""
+    unit = table.unit(limit.output)
+    return f"{limit.output} {limit.sense} {from_si(limit.limit, unit):.6g} {pretty(unit)}".rstrip()

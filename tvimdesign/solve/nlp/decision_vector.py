@@ -1,0 +1,119 @@
+"""The unknowns of a problem as one vector: put together from a switch, and read again as inputs, times and currents."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from tvimdesign.device import Path
+from tvimdesign.simulation.current_profile import Drive, ramp_time
+from tvimdesign.simulation.cycle import Switch, Trajectory
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.phase_model import StageModel
+from tvimdesign.solve.nlp.problem import FreeCurrent, Problem
+from tvimdesign.solve.nlp.solver_run import Array, Ends
+from tvimdesign.solve.nlp.transcription import guess
+
+SHORTEST = 0.1  # s; with a slow supply all of a stage may be its ramp, and the pieces after it next to nothing
+
+
+class Unknowns:
+    """Free numbers; a block of states and the logarithm of a time for each stage; currents; steady states; peaks."""
+
+    def __init__(self, problem: Problem, model: Model) -> None:
+        """What is not free is as in `model`, which differs from the problem's own where records do."""
+        self.problem, self.model = problem, model
+
+    def at(self, inputs: Array, switch: Switch) -> Array:
+        """The unknowns at a point: the free numbers of the inputs, and a switch (as far as it goes where it stalls)."""
+        currents = self.problem.free_currents
+        parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.problem.free])]
+        sizes = {c.stage: float(np.clip(inputs[self.model.index[c.row]], c.lower, c.upper)) for c in currents}
+        slew = float(inputs[self.model.index["current_slew"]])
+        ramps = {c.stage: (c.ramp_elements, ramp_time(sizes[c.stage], slew)) for c in currents}
+        for block in self.problem.blocks:
+            trajectory = switch.trajectories.get(block.stage.stage.name)
+            if trajectory is None:  # a stage that does not begin: as it would stand after the first
+                trajectory = self._standing(block.stage, switch)
+            end = switch.values[block.event]
+            end = end if np.isfinite(end) else trajectory.times[-1]
+            name = block.stage.stage.name
+            points = guess(trajectory, self.problem.elements(name), ramps.get(name, (0, 0.0))).ravel(order="F")
+            parts += [points, np.array([np.log(max(end, 1e-3))])]
+        parts += [np.full(current.nodes, sizes[current.stage] / current.upper) for current in currents]
+        for balance in self.problem.balances:
+            begin = switch.balances.get(balance.stage)
+            last = switch.trajectories[balance.stage]
+            parts.append(np.append(last.states[:, -1], last.currents[-1]) if begin is None else begin)
+        for name in self.problem.peaks:
+            row = self.model.table.row(name)
+            assert isinstance(row, Path)
+            value = switch.values[name]
+            parts.append(np.array([(value if np.isfinite(value) else 1.0) / self.problem.peak_scale(row)]))
+        return np.concatenate(parts)
+
+    def _standing(self, stage: StageModel, switch: Switch) -> Trajectory:
+        last = switch.trajectory
+        state = np.asarray(stage.begin(last.states[:, -1], self.model.start)).ravel()
+        return Trajectory(np.array([0.0, 60.0]), np.column_stack([state, state]), np.zeros(2))
+
+    def bounds(self, within: Mapping[str, Ends]) -> tuple[Array, Array]:
+        """Least and largest unknowns, with some free numbers kept within ends of their own."""
+        lower = np.full(self.problem.unknown_count, -np.inf)
+        upper = np.full(self.problem.unknown_count, np.inf)
+        for i, free in enumerate(self.problem.free):
+            low, high = within.get(free.name, (free.lower, free.upper))
+            lower[i], upper[i] = free.to_unknown(low), free.to_unknown(high)
+        for current, place in self.places_of_currents():
+            lower[place], upper[place] = current.lower / current.upper, 1.0
+        driven = {current.stage for current in self.problem.free_currents}
+        last = len(self.problem.free)
+        for block in self.problem.blocks:
+            last += block.unknowns.numel()
+            if block.stage.stage.name in driven:
+                lower[last - 1] = np.log(SHORTEST)
+        return lower, upper
+
+    def places_of_currents(self) -> Iterator[tuple[FreeCurrent, slice]]:
+        """Where the free currents stand among the unknowns."""
+        first = len(self.problem.free) + sum(block.unknowns.numel() for block in self.problem.blocks)
+        for current in self.problem.free_currents:
+            yield current, slice(first, first + current.nodes)
+            first += current.nodes
+
+    def times(self, unknowns: Array) -> dict[str, float]:
+        """Time [s] to each event, after its stage's ramp."""
+        first, times = len(self.problem.free), {}
+        for block in self.problem.blocks:
+            first += block.unknowns.numel()
+            times[block.event] = float(np.exp(unknowns[first - 1]))
+        return times
+
+    def drives(self, unknowns: Array) -> dict[str, Drive]:
+        """The free currents over the time their stage takes."""
+        times = self.times(unknowns)
+        sizes = {
+            current.stage: np.clip(unknowns[place] * current.upper, current.lower, current.upper)
+            for current, place in self.places_of_currents()
+        }
+        slew = float(self.model.start[self.model.index["current_slew"]])
+        drives: dict[str, Drive] = {}
+        for name, nodes in sizes.items():
+            stage = self.model.table.stage(name)
+            signed = [float(stage.sign * size) for size in nodes]
+            drives[name] = Drive.in_pieces(ramp_time(float(nodes[0]), slew), times[stage.ends], signed)
+        return drives
+
+    def inputs(self, unknowns: Array) -> Array:
+        """The inputs with the free numbers within their ranges, and the mean of each current."""
+        inputs = self.model.start.copy()
+        for i, free in enumerate(self.problem.free):
+            inputs[self.model.index[free.name]] = min(max(free.to_value(unknowns[i]), free.lower), free.upper)
+        for stage, drive in self.drives(unknowns).items():
+            inputs[self.model.index[self.model.table.stage(stage).drive]] = abs(drive.mean)
+        return inputs
+
+    def free_values(self, inputs: Array) -> dict[str, float]:
+        """The free numbers among the inputs, by name."""
+        return {free.name: float(inputs[self.model.index[free.name]]) for free in self.problem.free}

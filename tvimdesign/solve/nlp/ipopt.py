@@ -1,0 +1,56 @@
+"""IPOPT as every problem here wants it: its settings, and what warm starts take other ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.nlp.derivatives import derivatives_of
+from tvimdesign.study import SolverOptions
+
+_USUAL = {
+    "print_level": 0,
+    "sb": "yes",
+    "linear_solver": "mumps",
+    # With MUMPS's usual 1e-6 the pivots of a freezing layer are too small: it miscounts negative eigenvalues, and IPOPT
+    # answers with tiny steps.
+    "mumps_pivtol": 1e-2,
+    # QAMD: minimum degree that sees rows that are nearly full, as those of the free numbers are: up to a fifth of the
+    # time less than by MUMPS's own choice where the layer has few cells, as much where it has many.
+    "mumps_pivot_order": 6,
+    "mu_init": 1e-3,
+    # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.
+    "honor_original_bounds": "yes",
+}
+_WARM = {
+    "warm_start_init_point": "yes",
+    # Below what the tolerance asks of the barrier, so that no iteration goes to lowering it.
+    "mu_init": 1e-9,
+    "warm_start_bound_push": 1e-6,
+    "warm_start_mult_bound_push": 1e-6,
+    "warm_start_slack_bound_push": 1e-6,
+}
+_WARM_ITERATIONS = 30
+"""A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back."""
+NLP = (["x", "p"], ["f", "g"])
+"""The names nlpsol knows the parts of a problem by."""
+_DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_hess_l"}
+"""Derivatives a solver has built, by the option under which another one takes them."""
+
+
+def solver_of(function: Any, asked: SolverOptions, known: Iterable[Any] = (), *, warm: bool = False) -> Any:
+    """IPOPT for a problem, a function of `NLP`'s names; solvers of the same problem that are `known` lend their
+    derivatives, which are most of the work of building one.
+    """
+    most = asked.max_iterations
+    ipopt: dict[str, Any] = {
+        **_USUAL,
+        **(_WARM if warm else {}),
+        "max_iter": min(most, _WARM_ITERATIONS) if warm else most,
+        "tol": asked.tolerance,
+    }
+    lent = {option: other.get_function(name) for other in known for option, name in _DERIVATIVES.items()}
+    own = {} if lent else derivatives_of(function)
+    settings: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False, **lent, **own}
+    return ca.nlpsol("design", "ipopt", function, settings)

@@ -1,0 +1,230 @@
+"""What the solver found, as plain records: starts, limits that hold the design, the solution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import astuple, dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.simulation.current_profile import Drive
+from tvimdesign.simulation.cycle import Switch
+from tvimdesign.simulation.device_functions import Model
+
+SAME_OPTIMUM = 1e-4
+"""Two solutions are the same optimum if their objectives differ by no more than this share."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """One run of the solver: where it began, how it ended."""
+
+    number: int
+    status: str
+    converged: bool
+    iterations: int
+    objective: float
+    seconds: float
+    begin: dict[str, float]
+    end: dict[str, float]
+    choices: dict[str, str | float] = field(default_factory=dict)
+    """The listed records and sizes this run was held to."""
+    relaxed: bool = False
+    """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
+    second_try: bool = False
+    """Whether it converged only from a design that keeps all limits, which was sought from where it began."""
+
+
+def same_optimum(start: Start, other: Start) -> bool:
+    """Whether two converged runs ended at the same optimum."""
+    return abs(start.objective - other.objective) <= SAME_OPTIMUM * abs(other.objective)
+
+
+@dataclass(frozen=True)
+class Held:
+    """One limit or bound at the solution: its residual (share of its scale, kept where <= 0) and what it costs.
+
+    `price` is how much of the objective, in percent, relaxing it by `step` would save; `step` is in words.
+    `savings` says the same of each minimised output, negative where it rises; empty where that is not determined.
+    """
+
+    name: str
+    output: str
+    text: str
+    residual: float
+    scale: float
+    """SI."""
+    absolute: bool
+    """Whether the room is to be read in the row's unit, not as a share."""
+    price: float
+    step: str
+    origin: str
+    savings: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def margin(self) -> float:
+        """What is left of it, as a share of its scale."""
+        return -self.residual
+
+
+@dataclass
+class Work:
+    """How many runs of the solver a search over listed choices took."""
+
+    warm: int = 0
+    warm_iterations: int = 0
+    cold: int = 0
+    """From a simulated point, where a warm run came to nothing."""
+    cold_iterations: int = 0
+    screened: int = 0
+    """Boxes of sizes in which the limits that depend on no switch cannot be kept."""
+
+    @classmethod
+    def total(cls, works: Iterable[Work]) -> Work:
+        """The work of several searches together."""
+        together = [astuple(work) for work in works]
+        return cls(*(sum(column) for column in zip(*together, strict=True)))
+
+    def count(self, start: Start, *, warm: bool) -> None:
+        """Add one run."""
+        if warm:
+            self.warm, self.warm_iterations = self.warm + 1, self.warm_iterations + start.iterations
+        else:
+            self.cold, self.cold_iterations = self.cold + 1, self.cold_iterations + start.iterations
+
+
+@dataclass(frozen=True)
+class Standard:
+    """One design whose every choice is listed: its choices, its objective, and its minimised outputs (SI)."""
+
+    choices: dict[str, str | float]
+    objective: float
+    values: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Choosing:
+    """The account of a search over listed choices."""
+
+    combinations: int
+    solved: int
+    """Combinations whose design was found."""
+    pruned: int
+    """Combinations that no bound leaves room for."""
+    without_design: int
+    """Combinations for which every search came to nothing."""
+    best: tuple[Standard, ...]
+    """The best combinations, the first of them the answer."""
+    between: Standard | None
+    """The best design with every listed number free between its smallest and its largest size; None where none is."""
+    proven: bool
+    """Whether every combination was solved or has a bound of its own, and not only those branch and bound leaves."""
+    improved: float
+    """Share by which that found better than branch and bound did; zero where they agree."""
+    work: Work
+    """Of branch and bound."""
+    proof: Work
+    """Of the enumeration."""
+    inside: float
+    """Largest share by which a design within a box was better than the bound of the box: zero if bounds were bounds."""
+
+
+@dataclass(frozen=True)
+class Side:
+    """One limit that is broken, or quarrels."""
+
+    text: str
+    origin: str
+    by: float
+    """How far the design that breaks least breaks it, as a share of its scale."""
+    move_to: float | None = None
+    """Where it would have to stand (SI) for all others to hold; None where no place of it alone was found."""
+    move_words: str = ""
+    beside: tuple[str, ...] = ()
+    """The other limits that cannot hold either, however far this one moves."""
+
+
+@dataclass(frozen=True)
+class Quarrel:
+    """What is known of a study that has no design."""
+
+    broken: tuple[Side, ...]
+    """What the design that breaks least breaks."""
+    sides: tuple[Side, ...]
+    """Limits that cannot hold together, while without any one of them the others can."""
+    ends: tuple[str, ...]
+    """Ends of ranges that keep them from it."""
+    proved: bool
+    """Whether bounds prove it; otherwise it is as far as the solver sees from where it began."""
+
+
+@dataclass(frozen=True)
+class Constant:
+    """The best design with constant currents, where the study lets them follow a profile."""
+
+    objective: float
+    values: dict[str, float]
+    """Inputs and outputs in SI by full name."""
+
+
+@dataclass(frozen=True)
+class YieldReached:
+    """What modules drawn at random keep of a design of which a yield was asked for."""
+
+    modules: int
+    shares: dict[str, float]
+    """Share of them that keeps each limit, by its name."""
+    together: float
+    """Share of them that keeps all."""
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The best design found, with the account of how. `inputs` is in the order of `model.names`."""
+
+    status: str
+    feasible: bool
+    model: Model
+    inputs: NDArray[np.float64]
+    drives: dict[str, Drive]
+    """The currents that were free, by stage."""
+    switch: Switch
+    values: dict[str, float]
+    objective: float
+    starts: tuple[Start, ...]
+    held: tuple[Held, ...]
+    reference: dict[str, float]
+    """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
+    seconds: dict[str, float]
+    constant: Constant | None = None
+    choosing: Choosing | None = None
+    """How the listed choices were searched; None where none is listed."""
+    passed_over: dict[str, int] = field(default_factory=dict)
+    """Points drawn at which no search began, by the reason."""
+    yield_reached: YieldReached | None = None
+    """What of a yield that was asked for is reached; None where none is."""
+    quarrel: Quarrel | None = None
+    """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
+
+    @property
+    def free_starts(self) -> tuple[Start, ...]:
+        """The runs from the recorded starts with the best records, none held to a listed size."""
+        sizes_listed = any(start.relaxed for start in self.starts)
+        best = min((s for s in self.starts if not s.relaxed), key=lambda s: (not s.converged, s.objective))
+        records = {name: value for name, value in best.choices.items() if isinstance(value, str)}
+        return tuple(
+            start for start in self.starts if start.relaxed == sizes_listed and records.items() <= start.choices.items()
+        )
+
+    def reached(self, optimum: Start) -> int:
+        """How many of the free starts ended at an optimum."""
+        return sum(same_optimum(start, optimum) for start in self.free_starts if start.converged)
+
+    def distinct_optima(self) -> list[Start]:
+        """Return one converged free start for each different optimum, the best first."""
+        found: list[Start] = []
+        for start in sorted((s for s in self.free_starts if s.converged), key=lambda s: s.objective):
+            if not any(same_optimum(start, o) for o in found):
+                found.append(start)
+        return found

@@ -1,0 +1,65 @@
+"""What a solver leaves behind at one start, and what of it another one can begin from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.simulation.current_profile import Drive
+from tvimdesign.solve.nlp.solution import Start
+
+Array = NDArray[np.float64]
+Progress = Callable[[str], None]
+Ends = tuple[float, float]
+"""Least and largest value of a number, SI; twice the same fixes it."""
+
+
+class Trace(NamedTuple):
+    """What a run left behind for another one to begin from, warm."""
+
+    unknowns: Array
+    multipliers: Array
+    bound_multipliers: Array
+
+
+@dataclass
+class Run:
+    """What IPOPT left behind at one start."""
+
+    start: Start
+    inputs: Array
+    drives: dict[str, Drive]
+    """The free currents by stage."""
+    ends: dict[str, float]
+    """Time [s] each stage takes that the problem has."""
+    unknowns: Array
+    multipliers: Array
+    bound_multipliers: Array
+    parameter_multipliers: Array
+    """What the objective falls with every parameter of the problem, per unit."""
+    within: Mapping[str, Ends] = field(default_factory=dict)
+    """Ends of their own that some numbers were kept within."""
+
+    @property
+    def trace(self) -> Trace:
+        """Where another run may begin."""
+        return Trace(self.unknowns, self.multipliers, self.bound_multipliers)
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """The problem where a run ended: its constraints' values, and exact first and second derivatives."""
+
+    rows: Array
+    jacobian: Any
+    """DM, of the constraints by the unknowns."""
+    hessian: Any
+    """DM, of the Lagrangian, both triangles."""
+    values: dict[str, float]
+    """The minimised outputs, as collocation has them."""
+    gradients: dict[str, Array]
+    """Of the minimised outputs by the unknowns."""

@@ -1,0 +1,212 @@
+"""What spreads, and the three answers to it: worst case, root-sum-square and Monte Carlo, for any function of columns.
+
+A function takes one row for each contributor and one column a module, and returns one row for each output. Nothing here
+knows what a module is; `solve/uncertainty/tolerance.py` does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Columns = Callable[[Array], Array]
+
+CHUNK = 1 << 16
+"""Modules drawn at a time."""
+MOST_CORNERS = 16
+"""Contributors up to which every corner of the worst case is looked at: 65 536."""
+_CONFIDENCE = 1.959964
+"""Standard deviations of the interval in which a yield lies with 95 %."""
+_EDGE = 1e-15
+"""How near to 0 and 1 a share is drawn: a normal part eight standard deviations off."""
+_ALIKE = 0.01
+"""Difference, as a share of the worst case's span, below which two corners are the same."""
+RARE = 0.00135
+"""Share of a normal distribution beyond three standard deviations on one side."""
+
+
+def deviation_of(plus_minus: Any, distribution: str, sigma: float) -> Any:
+    """Standard deviation of what lies within `plus_minus`: that many sigma of a normal one, 1/sqrt(3) of a uniform."""
+    return plus_minus / (sigma if distribution == "normal" else math.sqrt(3.0))
+
+
+@dataclass(frozen=True)
+class Contributor:
+    """One input that spreads, SI: its value as drawn, and how far it may lie from that to either side."""
+
+    name: str
+    nominal: float
+    plus_minus: float
+    distribution: Literal["normal", "uniform"] = "normal"
+    sigma: float = 3.0
+    lower: float = -math.inf
+    upper: float = math.inf
+    """Limits within which there is such an input at all; draws beyond are put on them."""
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation."""
+        return float(deviation_of(self.plus_minus, self.distribution, self.sigma))
+
+    def ppf(self, share: Any) -> Array:
+        """Value below which a share of all parts lies."""
+        from scipy.special import ndtri
+
+        if self.distribution == "normal":
+            drawn = self.nominal + self.deviation * ndtri(share)
+        else:
+            drawn = self.nominal + self.plus_minus * (2.0 * np.asarray(share) - 1.0)
+        inside: Array = np.clip(drawn, self.lower, self.upper)
+        return inside
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Least and largest value within the tolerance."""
+        low, high = self.nominal - self.plus_minus, self.nominal + self.plus_minus
+        return max(low, self.lower), min(high, self.upper)
+
+
+@dataclass(frozen=True)
+class WorstCase:
+    """Least and largest value of each output with every input anywhere within its tolerance."""
+
+    low: Array
+    high: Array
+    by_sign: Array
+    """Of each output, whether the corners that its derivatives point to are the worst of all corners."""
+    corners: int
+    """How many corners were looked at."""
+
+
+@dataclass(frozen=True)
+class MonteCarlo:
+    """What many modules come to, by output."""
+
+    values: Array
+    """One row an output, one column a module."""
+    mean: Array
+    deviation: Array
+    low: Array
+    high: Array
+    """Values that 0.135 % of the modules lie below, and above."""
+    never: Array
+    """Share of the modules in which it never happens; they are left out of mean and deviation."""
+
+
+@dataclass(frozen=True)
+class Yield:
+    """Share of the modules that keep a limit, with the interval in which it lies with 95 % (Wilson)."""
+
+    share: float
+    low: float
+    high: float
+
+
+def worst_case(function: Columns, contributors: Sequence[Contributor], derivatives: Array) -> WorstCase:
+    """Corners by the signs of the derivatives, and all others where there are not too many of them."""
+    ends = np.array([contributor.ends for contributor in contributors])
+    signs = derivatives >= 0.0
+    values = function(_corners(ends, np.concatenate([~signs, signs]).T))
+    rows, count = np.arange(len(signs)), len(signs)
+    low, high = values[rows, rows], values[rows, count + rows]
+    least, most = np.fmin.reduce(values, axis=1), np.fmax.reduce(values, axis=1)
+    looked_at = 2 * count
+    if len(contributors) <= MOST_CORNERS:
+        looked_at = 2 ** len(contributors)
+        for first in range(0, looked_at, CHUNK):
+            numbers = np.arange(first, min(first + CHUNK, looked_at))
+            every = function(_corners(ends, (numbers >> np.arange(len(contributors))[:, None]) & 1))
+            least = np.fmin(least, np.fmin.reduce(every, axis=1))
+            most = np.fmax(most, np.fmax.reduce(every, axis=1))
+    with np.errstate(invalid="ignore"):
+        room = np.nan_to_num(_ALIKE * (most - least), posinf=0.0)
+    by_sign = (low <= least + room) & ((high >= most - room) | (high == most))
+    return WorstCase(least, most, by_sign, looked_at)
+
+
+def _corners(ends: Array, which: Any) -> Array:
+    """Columns of values: the lower end where `which` is false, the upper where it is true."""
+    return np.where(which, ends[:, 1:], ends[:, :1])
+
+
+def shares(contributors: Sequence[Contributor], derivatives: Array) -> tuple[Array, Array]:
+    """Standard deviation of each output by root-sum-square, and each contributor's share of its variance."""
+    parts = (derivatives * np.array([contributor.deviation for contributor in contributors])) ** 2
+    variance = np.sum(parts, axis=1, keepdims=True)
+    return np.sqrt(variance[:, 0]), np.divide(parts, variance, out=np.zeros_like(parts), where=variance > 0.0)
+
+
+def monte_carlo(function: Columns, contributors: Sequence[Contributor], samples: int, seed: int) -> MonteCarlo:
+    """Scrambled Sobol points, a power of two of them; the same for the same seed, however they are computed."""
+    from scipy.stats import qmc
+
+    points = qmc.Sobol(len(contributors), rng=np.random.default_rng(seed))
+    found = []
+    for first in range(0, samples, CHUNK):
+        drawn = points.random(min(CHUNK, samples - first)).T
+        found.append(function(_inputs(contributors, drawn)))
+    values = np.concatenate(found, axis=1)
+    happens = np.isfinite(values)
+    kept = np.where(happens, values, np.nan)
+    count = np.sum(happens, axis=1)
+    mean = np.full(len(values), np.nan)
+    deviation, low, high = mean.copy(), mean.copy(), mean.copy()
+    for i in np.flatnonzero(count > 1):
+        mean[i], deviation[i] = np.nanmean(kept[i]), np.nanstd(kept[i], ddof=1)
+        low[i], high[i] = np.nanquantile(kept[i], [RARE, 1.0 - RARE])
+    return MonteCarlo(values, mean, deviation, low, high, 1.0 - count / values.shape[1])
+
+
+def power_of_two(samples: int) -> int:
+    """The least power of two that is no less: Sobol points are even only in such numbers."""
+    return 1 << max(samples - 1, 1).bit_length()
+
+
+def _inputs(contributors: Sequence[Contributor], drawn: Array) -> Array:
+    inside = np.clip(drawn, _EDGE, 1.0 - _EDGE)
+    return np.array([contributor.ppf(row) for contributor, row in zip(contributors, inside, strict=True)])
+
+
+def sobol_indices(
+    function: Columns, contributors: Sequence[Contributor], samples: int, seed: int, instead: float
+) -> tuple[Array, Array]:
+    """First-order and total indices of every output by every contributor (Saltelli 2010, scipy).
+
+    `instead` stands for what never happens. Outputs that do not spread have indices of zero.
+    """
+    from scipy import stats
+
+    def finite(columns: Array) -> Array:
+        values = function(np.ascontiguousarray(columns))
+        return np.where(np.isfinite(values), values, instead)
+
+    if len(contributors) == 1:  # all there is; scipy asks for two
+        values = finite(np.array([contributors[0].ends]))
+        alone = (values[:, :1] != values[:, 1:]).astype(float)
+        return alone, alone
+    dists: list[Any] = list(contributors)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        found = stats.sobol_indices(
+            func=finite, n=samples, dists=dists, rng=np.random.default_rng(seed)
+        )  # fmt: skip
+    return np.nan_to_num(np.atleast_2d(found.first_order)), np.nan_to_num(np.atleast_2d(found.total_order))
+
+
+def share_kept(kept: NDArray[np.bool_]) -> Yield:
+    """Yield of modules of which it is known whether they keep a limit."""
+    count, share, z = len(kept), float(np.mean(kept)), _CONFIDENCE
+    middle = (share + z**2 / (2.0 * count)) / (1.0 + z**2 / count)
+    half = z / (1.0 + z**2 / count) * math.sqrt(share * (1.0 - share) / count + (z / (2.0 * count)) ** 2)
+    return Yield(share, max(middle - half, 0.0), min(middle + half, 1.0))
+
+
+def capability(mean: float, deviation: float, limit: float, sense: str) -> float:
+    """Distance of the mean from a limit over three standard deviations, C_pk of one side; infinite without spread."""
+    room = limit - mean if sense == "<=" else mean - limit
+    return room / (3.0 * deviation) if deviation > 0.0 else math.copysign(math.inf, room)

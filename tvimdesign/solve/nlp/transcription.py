@@ -1,0 +1,152 @@
+"""One stage as equations: direct collocation of the heat equation over an unknown final time.
+
+Five Radau points on each of a few equal elements over an unknown time; the last point of an element is the start of the
+next, so the states need no continuity equations. States have no bounds. The current is straight between evenly spaced
+nodes; a ramp to the first of them, as long as the supply's slew makes it, has elements of its own before the others.
+Source: Biegler, Nonlinear Programming (2010), ch. 10.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.cycle import Trajectory
+from tvimdesign.simulation.phase_model import StageModel
+
+ORDER = 5
+"""Points of an element. Three of five are as exact as eight of three, with three eighths fewer unknowns."""
+Array = NDArray[np.float64]
+
+
+@cache
+def radau() -> tuple[Array, Array, Array]:
+    """Collocation points on (0, 1], derivative matrix [start and points, points], quadrature weights."""
+    points = ca.collocation_points(ORDER, "radau")
+    derivative, _, weights = ca.collocation_coeff(points)
+    return np.array(points), np.asarray(derivative), np.asarray(weights).ravel()
+
+
+@dataclass(frozen=True)
+class Block:
+    """The unknowns and equations of one stage that ends at one event."""
+
+    event: str
+    stage: StageModel
+    states: Any
+    """MX, one column a collocation point."""
+    log_time: Any
+    """MX, the logarithm of the time in seconds that the equal elements take."""
+    ramp: Any
+    """MX or 0, the length [s] of the ramp before them."""
+    equations: Any
+    """MX, zero on a solution: the heat equation at every point, and the event at the last."""
+    every: Any
+    """MX, the states at the start and at every point, one column each."""
+    currents: Any
+    """MX, the current at the start and at every point, one row."""
+    weights: Any
+    """MX, quadrature weights [s] of the points; the start has none."""
+
+    @property
+    def pieces_time(self) -> Any:
+        """Time [s] after the ramp."""
+        return ca.exp(self.log_time)
+
+    @property
+    def final_time(self) -> Any:
+        """[s]"""
+        return self.ramp + self.pieces_time
+
+    @cached_property
+    def unknowns(self) -> Any:
+        """MX, states column by column, then the log time."""
+        return ca.vertcat(ca.vec(self.states), self.log_time)
+
+
+def moments(elements: int, duration: float, ramp: tuple[int, float] = (0, 0.0)) -> Array:
+    """The collocation points [s] of equal elements over a duration, after those of a ramp: its elements and seconds."""
+    count, before = ramp
+    rising = _evenly(count) * before if count else np.zeros(0)
+    return np.concatenate([rising, before + _evenly(elements) * duration])
+
+
+def _evenly(elements: int) -> Array:
+    """The points of equal elements as fractions of their time."""
+    return np.concatenate([(element + radau()[0]) / elements for element in range(elements)])
+
+
+def between_nodes(elements: int, nodes: int, ramp_elements: int) -> Array:
+    """Matrix that takes currents at evenly spaced nodes to the start and every collocation point [nodes, points].
+
+    With a ramp, the start is at zero current and the ramp's elements lead to the first node.
+    """
+    places = np.linspace(0.0, 1.0, nodes)
+    found = np.array([np.interp(_evenly(elements), places, row) for row in np.eye(nodes)])
+    rising = np.append(0.0, _evenly(ramp_elements)) if ramp_elements else np.ones(1)
+    return np.hstack([np.eye(nodes)[:, :1] * rising, found])
+
+
+def stage_block(
+    stage: StageModel,
+    event: str,
+    elements: int,
+    inputs: Any,
+    start: Any,
+    nodes: Any,
+    ramp: tuple[int, Any] = (0, 0.0),
+) -> Block:
+    """Write the equations of a stage for symbolic inputs, starting state and currents at the nodes (MX).
+
+    A current that is not there from the start rises from zero to its first node over a `ramp`: elements and seconds.
+    """
+    weights = radau()[2]
+    log_time = ca.MX.sym(f"log_time_{event}")
+    ramp_elements, ramp_time = ramp
+    lengths = [ramp_time / ramp_elements] * ramp_elements if ramp_elements else []
+    lengths += [ca.exp(log_time) / elements] * elements
+    states = ca.MX.sym(f"states_{event}", stage.state_size, len(lengths) * ORDER)
+    currents = ca.mtimes(nodes.T, between_nodes(elements, nodes.numel(), ramp_elements))
+    every = ca.horzcat(start, states)
+    slopes = ca.mtimes(every, _differences(len(lengths)))
+    rates = at_each(stage, stage.rates, states, currents[:, 1:], inputs)
+    steps = ca.horzcat(*(ca.repmat(length, 1, ORDER) for length in lengths))
+    gap = stage.watch([event])(states[:, -1], currents[:, -1], inputs)
+    return Block(
+        event=event,
+        stage=stage,
+        states=states,
+        log_time=log_time,
+        ramp=ramp_time,
+        equations=ca.vertcat(ca.vec(slopes - ca.repmat(steps, stage.state_size, 1) * rates), gap),
+        every=every,
+        currents=currents,
+        weights=ca.vertcat(*(length * weights for length in lengths)),
+    )
+
+
+def _differences(elements: int) -> Any:
+    """Matrix that takes the start and every point to derivatives at every point over an element's length (DM)."""
+    _, derivative, _ = radau()
+    blocks = ca.DM(elements * ORDER + 1, elements * ORDER)
+    for first in range(0, elements * ORDER, ORDER):
+        blocks[first : first + ORDER + 1, first : first + ORDER] = derivative
+    return blocks
+
+
+def at_each(stage: StageModel, function: Any, states: Any, currents: Any, inputs: Any) -> Any:
+    """A function (state, current, inputs) of the stage applied to every column of `states`."""
+    constants, varying = stage.per_stage(function)
+    count = states.size2()
+    return varying.map(count)(states, currents, ca.repmat(constants(inputs), 1, count))
+
+
+def guess(trajectory: Trajectory, elements: int, ramp: tuple[int, float] = (0, 0.0)) -> Array:
+    """Values for a block's states from a simulated trajectory, one column a point, with the ramp drawn in."""
+    times = moments(elements, trajectory.times[-1], ramp)
+    return trajectory.at(times / times[-1])

@@ -1,0 +1,83 @@
+"""Where searches begin: the study's own start, and points between the bounds whose switch ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tvimdesign.base.errors import SimulationError
+from tvimdesign.simulation.cycle import Simulator, Switch
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.nlp.constraints import impossible, on_switch
+from tvimdesign.solve.nlp.problem import Problem
+from tvimdesign.solve.nlp.solver_run import Array, Progress
+from tvimdesign.solve.optimizer.starting_points import unit_points
+from tvimdesign.study import SolverOptions
+
+MAX_DRAWS = 100
+
+
+class Beginnings:
+    """Points to begin at, each tried by simulating its switch as far as the problem needs it."""
+
+    def __init__(
+        self, problem: Problem, model: Model, simulator: Simulator, options: SolverOptions, progress: Progress
+    ) -> None:
+        """Simulate the study's own start, which is in `model`, as far as the problem needs it."""
+        self.problem, self.model, self.simulator = problem, model, simulator
+        self.options, self.progress = options, progress
+        self.switch = problem.simulated(simulator, model.start)
+        """The switch of the study's own start."""
+        self.passed_over = {"switch never ends": 0, "no such module": 0}
+        """Points at which no search began, by the reason."""
+
+    def points(self) -> Iterator[Array]:
+        """Inputs to start from: the study's own, then others spread between the bounds, seeded.
+
+        From a point whose switch never ends the solver mostly gets stuck there, so such points are passed over; the
+        study's own is replaced by the first other one.
+        """
+        points = unit_points(self.options.starts, len(self.problem.free), self.options.seed)
+        if self.trial(self.model.start) is not None:
+            yield self.model.start
+        else:
+            self.progress("the switch of the study's own start never ends: starting elsewhere")
+            self.passed_over["switch never ends"] += 1
+            yield self._ending_point(points)
+        for _ in range(self.options.starts - 1):
+            yield self._ending_point(points)
+
+    def _ending_point(self, points: Iterator[Array]) -> Array:
+        for _ in range(MAX_DRAWS):
+            point = self._point_among(points)
+            if self.trial(point) is not None:
+                return point
+            self.passed_over["switch never ends"] += 1
+        return self.model.start
+
+    def _point_among(self, points: Iterator[Array]) -> Array:
+        """Inputs at the next of some points of the unit cube, of the logarithm of a free number that is positive.
+
+        Points at which there is no such module, as with a leg that cannot reach its pin, are passed over.
+        """
+        for _ in range(MAX_DRAWS):
+            point = self.model.start.copy()
+            for free, share in zip(self.problem.free, next(points), strict=True):
+                low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
+                point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
+            values = self.model.values(point, self.switch.values)
+            numbers = [value for name, value in values.items() if not on_switch(self.model.table, name)]
+            if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table):
+                return point
+            self.passed_over["no such module"] += 1
+        return self.model.start
+
+    def trial(self, inputs: Array) -> Switch | None:
+        """The switch at a point, None where it does not end."""
+        try:
+            known = inputs is self.model.start
+            switch = self.switch if known else self.problem.simulated(self.simulator, inputs)
+        except SimulationError:
+            return None
+        return switch if all(np.isfinite(switch.values[event]) for event in self.problem.events) else None

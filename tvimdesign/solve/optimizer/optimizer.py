@@ -1,0 +1,265 @@
+"""One study with its records chosen: the problem and its solvers, built once, run from any start."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping, Sequence
+from copy import copy
+from dataclasses import replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Input, Table
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.current_profile import ramp_time
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.device_functions import Model
+from tvimdesign.solve.nlp.constraints import Limit, limits_of, on_switch, unchangeable
+from tvimdesign.solve.nlp.decision_vector import Unknowns
+from tvimdesign.solve.nlp.ipopt import NLP, solver_of
+from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Problem
+from tvimdesign.solve.nlp.solution import Start
+from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, Run, Trace
+from tvimdesign.solve.optimizer.multistart import Beginnings
+from tvimdesign.study import ProfileOptions, Range, Study, given
+
+ALGEBRAIC_TOLERANCE = 1e-6
+"""Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
+RAMP_ELEMENT = 15.0  # s, the longest element of a ramp, in which the current changes fastest
+
+
+class Optimizer:
+    """One study with its records chosen: the problem and its solvers, built once."""
+
+    def __init__(
+        self,
+        study: Study,
+        catalog: Catalog,
+        table: Table,
+        reference: dict[str, float] | None = None,
+        progress: Progress = lambda _: None,
+        simulator: Simulator | None = None,
+        traded: Sequence[str] = (),
+    ) -> None:
+        """Compile the device, simulate the study's start, and build the problem.
+
+        `reference` are the values the minimised outputs are divided by: the study's start unless given. A `simulator`
+        of the same device saves compiling it again. Outputs that are `traded` can be weighed and bounded by a `Goal`
+        whether the study minimises them or not. Raises InfeasibleError where a limit is broken that nothing free
+        can mend, InputError from the table.
+        """
+        self.study, self.catalog, self.table, self.progress = study, catalog, table, progress
+        began = time.perf_counter()
+        points = tuple(study.operating_points)
+        self.simulator = simulator or Simulator(Model(table, given(study, catalog, table), points, study.solver.cells))
+        self.model = self.simulator.model
+        self.currents = tuple(self._current(stage, pieces) for stage, pieces in study.profile.pieces().items())
+        rows = {current.row for current in self.currents}
+        numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
+        self.free = tuple(self._free(name) for name in numbers)
+        self.margins: dict[str, float] = {}
+        """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
+        self.problem = self._problem(self.kept_limits(limits_of(study, table, self.model.words)), traded)
+        self._begin()
+        self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
+        self._solvers: dict[bool, Any] = {}
+        self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
+
+    def with_constant_currents(self) -> Optimizer | None:
+        """The same problem with currents that do not change over a stage; None where they do not anyway."""
+        if not self.currents:
+            return None
+        study = self.study.model_copy(update={"profile": ProfileOptions()})
+        return Optimizer(study, self.catalog, self.table, self.reference, self.progress, self.simulator)
+
+    def _free(self, name: str) -> Free:
+        vary = self.study.vary[name]
+        reference = self.model.start[self.model.index[name]]
+        if isinstance(vary, Range):
+            lower, upper = vary.lower, vary.upper
+        else:
+            numbers = [float(value) for value in vary.values]
+            lower, upper = min(numbers), max(numbers)
+        return Free(name, lower, upper, reference if reference != 0.0 else upper)
+
+    def _current(self, stage: str, pieces: int) -> FreeCurrent:
+        row = self.table.stage(stage).drive
+        vary = self.study.vary[row]
+        assert isinstance(vary, Range)  # the reader sees to that
+        slew = float(self.model.start[self.model.index["current_slew"]])
+        ramp_elements = math.ceil(ramp_time(vary.upper, slew) / RAMP_ELEMENT)
+        return FreeCurrent(stage, row, pieces, vary.lower, vary.upper, ramp_elements)
+
+    def with_records(self, study: Study) -> Optimizer | None:
+        """The same problem for a study that differs in its records alone, where their numbers are all that counts.
+
+        Nothing is built: such numbers are parameters. None where a row reads a table of a record that differs, or an
+        option. Raises InfeasibleError as a new one does.
+        """
+        numbers = given(study, self.catalog, self.table)
+        read = {need for row in self.table.outputs for need in row.needs}
+        model = copy(self.model)
+        model.words = {name: numbers[name] for name in self.model.words}
+        if any(model.words[name] != word for name, word in self.model.words.items() if name in read):
+            return None
+        model.start = np.array([float(numbers[name]) for name in model.names])
+        other = copy(self)
+        other.study, other.model = study, model
+        other.seconds = {"set_up": 0.0, "solve": 0.0}
+        other.kept_limits(limits_of(study, self.table, model.words))
+        other._begin()
+        return other
+
+    def _problem(self, kept: list[Limit], traded: Sequence[str]) -> Problem:
+        reserves = None
+        if self.study.robust:
+            from tvimdesign.solve.nlp.back_off import reserves_of
+
+            reserves = reserves_of(self.model, self.study, kept)
+        elements, minimize = self.study.solver.elements, tuple(self.study.minimize)
+        return Problem(self.model, self.free, kept, minimize, elements, self.currents, traded, reserves)
+
+    def kept_limits(self, limits: list[Limit]) -> list[Limit]:
+        """The limits without those that nothing free can change, which are checked here and now."""
+        constant = self._constant(limits)
+        without_switch = dict.fromkeys(self.model.switch_names, np.inf)
+        values = self.model.some_values([limit.output for limit in constant], self.model.start, without_switch)
+        for limit in constant:
+            value = values[limit.output]
+            if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
+                raise InfeasibleError(unchangeable(limit, self.table))
+        return [limit for limit in limits if limit not in constant]
+
+    def _constant(self, limits: list[Limit]) -> list[Limit]:
+        """The limits that nothing free can change: by the table, or with these records and options."""
+        free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
+        outputs = list(dict.fromkeys(limit.output for limit in limits if not on_switch(self.table, limit.output)))
+        rows, columns = self.model.outputs(outputs).jac_sparsity(0, 0).get_triplet()
+        places = {self.model.index[name] for name in free}
+        moved = {outputs[row] for row, column in zip(rows, columns, strict=True) if column in places}
+        return [limit for limit in limits if limit.output in outputs and limit.output not in moved]
+
+    def _begin(self) -> None:
+        """What knows the numbers of the records: where to begin, and how the vector of unknowns is read."""
+        self.beginnings = Beginnings(self.problem, self.model, self.simulator, self.study.solver, self.progress)
+        self.vector = Unknowns(self.problem, self.model)
+        switch = self.beginnings.switch.values
+        self.start_values = self.model.some_values(self.problem.minimize, self.model.start, switch)
+        """What is minimised, at the study's start."""
+
+    def guess(self, inputs: Array) -> Array:
+        """The unknowns at a point, with the switch simulated there; with the start's where that does not end."""
+        return self.vector.at(inputs, self.beginnings.trial(inputs) or self.beginnings.switch)
+
+    def _reference(self, name: str) -> float:
+        value = self.start_values[name]
+        if not np.isfinite(value):
+            horizon = self.model.start[self.model.index["horizon"]]
+            self.progress(f"{name} is not reached by the study's own start within {horizon:g} s")
+            return float(horizon)
+        return value if value != 0.0 else 1.0
+
+    @cached_property
+    def _compiled(self) -> Any:
+        """The problem as one function."""
+        written = self.problem.function
+        return ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
+
+    def _solver(self, warm: bool) -> Any:
+        if warm not in self._solvers:
+            known = self._solvers.values()
+            self._solvers[warm] = solver_of(self._compiled, self.study.solver, known, warm=warm)
+        return self._solvers[warm]
+
+    def solve(
+        self,
+        within: Mapping[str, Ends] | None = None,
+        warm: Run | Trace | None = None,
+        begin: Array | None = None,
+        goal: Goal | None = None,
+        unknowns: Array | None = None,
+    ) -> Run:
+        """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within`
+        ends of their own.
+
+        `unknowns` stand in place of the switch simulated at `begin`. A `goal` stands in place of the study's weights
+        and bounds what is traded; nothing is built anew.
+        """
+        inputs = self.model.start if begin is None else begin
+        clock = time.perf_counter()
+        solver = self._solver(warm is not None)
+        if warm is not None:
+            unknowns = warm.unknowns
+        arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
+        if warm is not None:
+            arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
+        goal = goal or Goal(self.study.minimize)
+        answer = solver(**arguments, p=self.parameters(goal), **self.ends(within or {}, goal))
+        seconds = time.perf_counter() - clock
+        self.seconds["solve"] += seconds
+        run = self.record(answer, solver.stats(), inputs, seconds)
+        return replace(run, within=within or {})
+
+    def ends(self, within: Mapping[str, Ends], goal: Goal) -> dict[str, Array]:
+        """Ends of the unknowns and of the rows for one run, as nlpsol names them."""
+        lower, upper = self.vector.bounds(within)
+        equations = np.zeros(self.problem.equation_count)
+        room, rest = goal.room(self.problem.traded), np.zeros(self.problem.slope_count + self.problem.peak_count)
+        most = np.concatenate([self._limits_less_margins(), room, rest])
+        return {
+            "lbx": lower, "ubx": upper,
+            "lbg": np.concatenate([equations, np.full(len(most), -np.inf)]), "ubg": np.concatenate([equations, most]),
+        }  # fmt: skip
+
+    def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
+        """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it."""
+        if stats["return_status"] == "User_Requested_Stop":
+            raise KeyboardInterrupt
+        unknowns = np.asarray(answer["x"]).ravel()
+        end = self.vector.inputs(unknowns)
+        start = Start(
+            number=0, status=stats["return_status"], converged=bool(stats["success"]),
+            iterations=int(stats["iter_count"]), objective=float(answer["f"]), seconds=seconds,
+            begin=self.vector.free_values(inputs), end=self.vector.free_values(end),
+        )  # fmt: skip
+        drives = self.vector.drives(unknowns)
+        multipliers, of_bounds, of_parameters = (
+            np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p")
+        )
+        times = self.vector.times(unknowns)
+        ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
+        return Run(start, end, drives, ends, unknowns, multipliers, of_bounds, of_parameters)
+
+    def _limits_less_margins(self) -> Array:
+        """What the limits' residuals may come to: zero, or so far within as their margins say."""
+        return -np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
+
+    def parameters(self, goal: Goal) -> Array:
+        """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
+        over = [goal.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
+        return np.concatenate([self.model.start, over, goal.factors(self.problem.traded).ravel(order="F")])
+
+    def derivatives(self, run: Run) -> Derivatives:
+        """The problem's values and derivatives where a run of the study's own goal ended.
+
+        IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
+        """
+        solver = self._solver(warm=False)
+        parameters = self.parameters(Goal(self.study.minimize))
+        rows, jacobian = solver.get_function("nlp_jac_g")(run.unknowns, parameters)
+        hessian = solver.get_function("nlp_hess_l")(run.unknowns, parameters, 1.0, run.multipliers)
+        values, gradients = {}, {}
+        for name in self.study.minimize:
+            alone = self.parameters(Goal({name: self.reference[name]}))
+            value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
+            values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
+        found = np.asarray(rows).ravel()
+        # A limit that is to be kept by a margin is held where that is used up.
+        found[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
+        return Derivatives(found, jacobian, ca.triu2symm(hessian), values, gradients)

@@ -1,0 +1,37 @@
+"""The optimum with constant currents: where a search for profiles begins, and what they are held against."""
+
+from __future__ import annotations
+
+from tvimdesign.solve.nlp.solution import Constant
+from tvimdesign.solve.nlp.solver_run import Array, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+
+
+class SteppingStone:
+    """The same problem with constant currents: solved first, it is where a search for profiles begins, and what
+    they are held against."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Nothing to do where no current follows a profile."""
+        self.optimizer = optimizer.with_constant_currents()
+        self.best: Run | None = None
+
+    def beyond(self, begin: Array) -> Array:
+        """Inputs of the optimum with constant currents from a start; the start itself where there is none."""
+        if self.optimizer is None:
+            return begin
+        run = self.optimizer.solve(begin=begin)
+        if not run.start.converged:
+            return begin
+        if self.best is None or run.start.objective < self.best.start.objective:
+            self.best = run
+        return run.inputs
+
+    def found(self) -> Constant | None:
+        """The best optimum with constant currents, simulated; None where there is none."""
+        if self.optimizer is None or self.best is None:
+            return None
+        switch = self.optimizer.simulator.run(self.best.inputs)
+        values = self.optimizer.model.values(self.best.inputs, switch.values)
+        inputs = {name: float(self.best.inputs[i]) for name, i in self.optimizer.model.index.items()}
+        return Constant(self.best.start.objective, {**inputs, **values})

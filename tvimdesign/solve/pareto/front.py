@@ -1,0 +1,298 @@
+"""Fronts of two or three outputs: designs none of which is better in all of them, from end to end.
+
+The ends come first: the least of each output. Between them points are sought on lines along which every output falls
+alike, spread evenly over the chord or the plane of the ends (`front_shape`); each line is one or two bounds on one
+built problem (`tradeoff`), and each point begins from what its neighbours left behind.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.solve.nlp.objective import Bound, Goal
+from tvimdesign.solve.nlp.solver_run import Trace
+from tvimdesign.solve.pareto import front_shape as shape
+from tvimdesign.solve.pareto.front_shape import Frame
+from tvimdesign.solve.pareto.tradeoff import ONE_POINT, Failure, Point, Tradeoff
+
+SIDE_WEIGHT = 1e-2
+"""Weight of the other outputs against the one that is made small, both as ratios to the optimum: a front ends where a
+hundredth of one buys less than a ten-thousandth of the other, and no point gives anything away."""
+BARELY = 0.02
+"""Share of an output's least that its value at the least of another may lie above it where the two barely conflict."""
+MOST_TRIES = 1.5
+"""Designs that may be sought for each point that is asked for: some lines lead to a point that is there already."""
+FAR = 3.0
+"""Largest weight of a neighbour in a guess: beyond it the guess is further from all of them than they are apart."""
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Front:
+    """Designs none of which is better in all outputs, by the first of them."""
+
+    outputs: tuple[str, ...]
+    points: tuple[Point, ...]
+    dominated: int = 0
+    """Count of points that were found and are no better in anything than another one."""
+    failures: tuple[Failure, ...] = ()
+    notes: tuple[str, ...] = ()
+    sought: int = 0
+    """Count of designs that were sought, ends included."""
+
+    @property
+    def shares(self) -> Array:
+        """Every point's outputs, from 0 (the least on the front) to 1 (the most)."""
+        if not self.points:
+            return np.zeros((0, len(self.outputs)))
+        numbers = np.array([[point.values[name] for name in self.outputs] for point in self.points])
+        ranges = np.ptp(numbers, axis=0)
+        return np.asarray((numbers - numbers.min(axis=0)) / np.where(ranges > 0.0, ranges, 1.0))
+
+    @property
+    def spread(self) -> float:
+        """The largest gap between neighbours over the mean one."""
+        return shape.spread(self.shares)
+
+    @property
+    def knee(self) -> int | None:
+        """Place of the point beyond which any output gets dear; None where there is none."""
+        return shape.knee(self.shares)
+
+
+def trace_front(trade: Tradeoff, outputs: Sequence[str], count: int) -> Front:
+    """A front of about `count` points, of two or three of the outputs a trade-off can trade."""
+    return _Tracer(trade, tuple(outputs), count).front()
+
+
+def completed(front: Front, trade: Tradeoff) -> Front:
+    """A front whose points have every output, those too that no goal and no limit hangs on."""
+    found = [trade.completed(point) for point in front.points]
+    failures = tuple(one for one in found if isinstance(one, Failure))
+    return replace(
+        front, points=tuple(one for one in found if isinstance(one, Point)), failures=(*front.failures, *failures)
+    )
+
+
+class _Tracer:
+    """One front on its way."""
+
+    def __init__(self, trade: Tradeoff, outputs: tuple[str, ...], count: int) -> None:
+        self.trade, self.outputs, self.count = trade, outputs, count
+        self.title = f"front of {' against '.join(outputs)}"
+        self.failures: list[Failure] = []
+        self.notes: list[str] = []
+        self.ends: list[Point] = []
+        self.between: list[Point] = []
+        self.lost = 0
+        self.first = trade.asked
+
+    def front(self) -> Front:
+        """The whole front, or what there is of it."""
+        self._seek_ends()
+        if self.failures:
+            return self._done("an end has no design")
+        self.ends = self._distinct(self.ends)
+        kept = self._undominated(self.ends)
+        if len(kept) == 1:
+            self.ends = kept
+            return self._done(f"one point: {_and(self.outputs)} do not conflict")
+        flat = [name for name in self.outputs if _alike([end.values[name] for end in kept])]
+        traded = tuple(name for name in self.outputs if name not in flat)
+        self.notes += [f"{name} is the same all along" for name in flat]
+        self.notes += self._barely_conflicting()
+        self.frame = Frame.of(traded, [end.values for end in kept])
+        self.lost += len(self.ends) - len(kept)
+        self.ends = kept
+        if len(traded) == 2 or shape.thin(np.array([self.frame.place(end.values) for end in self.ends])):
+            self._along_a_line()
+        else:
+            self._over_a_surface()
+        return self._done()
+
+    def _done(self, *notes: str) -> Front:
+        points = sorted([*self.ends, *self.between], key=lambda p: [p.values[name] for name in self.outputs])
+        listed = self.trade.listed
+        held = (f"{', '.join(listed)} as in the optimum: listed sizes and records are not traded",) if listed else ()
+        return Front(
+            self.outputs, tuple(points), self.lost, tuple(self.failures), (*notes, *self.notes, *held),
+            self.trade.asked - self.first,
+        )  # fmt: skip
+
+    # --- ends ---
+
+    def _seek_ends(self) -> None:
+        """The least of each output; of three also which of the other two is made small first."""
+        for name in self.outputs:
+            for others in itertools.permutations([other for other in self.outputs if other != name]):
+                weights = {other: SIDE_WEIGHT ** (i + 1) for i, other in enumerate(others)}
+                goal = Goal(self.trade.weights({name: 1.0, **weights}))
+                near = next((end for end in self.ends if end.where.startswith(f"least {name}")), None)
+                near = near or self.trade.ends.get(name)
+                guess = near.trace if near else None
+                found = self._sought(goal, f"least {name}, then {_and(others)}", near, guess)
+                if isinstance(found, Point):
+                    self.ends.append(replace(found, root=len(self.ends)))
+                    self.trade.ends.setdefault(name, found)
+
+    def _barely_conflicting(self) -> list[str]:
+        """Which pairs of outputs are nearly at their least together."""
+        return [
+            f"{one} and {other} barely conflict: at the least of one the other is within {100.0 * BARELY:g} % of it"
+            for one, other in itertools.combinations(self.outputs, 2)
+            if all(self._together(first, then) for first, then in ((one, other), (other, one)))
+        ]
+
+    def _together(self, first: str, then: str) -> bool:
+        least = {name: min(end.values[name] for end in self.ends) for name in (first, then)}
+        there = [end.values[then] for end in self.ends if end.values[first] <= least[first] * (1.0 + ONE_POINT)]
+        return min(there) <= least[then] + BARELY * abs(least[then])
+
+    # --- between ---
+
+    def _along_a_line(self) -> None:
+        """Even steps from end to end, then back where the ends lie in different optima, then into gaps."""
+        ends = sorted(self.ends, key=lambda end: end.values[self.frame.names[0]])
+        begin, finish = (self.frame.place(end.values) for end in (ends[0], ends[-1]))
+        steps = self.count - len(ends) + 1
+        for step in range(1, steps):
+            share = step / steps
+            self._seek((1.0 - share) * begin + share * finish)
+        self._settle()
+        while len(self._all) < self.count and self._may_try:
+            points = sorted(self._all, key=lambda point: point.values[self.frame.names[0]])
+            places = [self.frame.place(point.values) for point in points]
+            gaps = [(float(np.linalg.norm(b - a)), i) for i, (a, b) in enumerate(itertools.pairwise(places))]
+            widest = max(gaps)[1]
+            lost = self.lost
+            if not self._seek(0.5 * (places[widest] + places[widest + 1])):
+                told_apart = self.lost == lost
+                self.notes.append(
+                    "it has a jump: between two of its points there is no design"
+                    if told_apart
+                    else f"more points than {len(self._all)} would be closer than the simulation tells designs apart"
+                )
+                break
+        self._settle()
+
+    def _over_a_surface(self) -> None:
+        """Always where it is farthest from all that was sought and found."""
+        taken = [self.frame.place(end.values) for end in self.ends]
+        places = shape.candidates(np.array(taken))
+        for _ in range(2):
+            while len(self._all) < self.count and self._may_try:
+                place, _ = shape.farthest(places, np.array(taken))
+                taken.append(place)
+                if self._seek(place):
+                    taken.append(self.frame.place(self.between[-1].values))
+            self._settle()
+
+    @property
+    def _all(self) -> list[Point]:
+        return [*self.ends, *self.between]
+
+    @property
+    def _may_try(self) -> bool:
+        return self.trade.asked - self.first < MOST_TRIES * self.count
+
+    def _seek(self, place: Array) -> bool:
+        """Seek the design on the line through a place; whether it is a new one."""
+        points = self._nearest(place)
+        where = f"point {len(self._all) + 1} of {self.count}"
+        goal = self._goal(self.frame.bounds(place, self.trade.reference))
+        found = self._sought(goal, where, points[0], self._guess(points, place))
+        if not isinstance(found, Point):
+            return False
+        if any(self._same(found, other) for other in self._all):
+            self.lost += 1
+            return False
+        self.between.append(found)
+        return True
+
+    def _goal(self, bounds: Sequence[Bound]) -> Goal:
+        first, *others = self.outputs
+        return Goal(self.trade.weights({first: 1.0, **dict.fromkeys(others, SIDE_WEIGHT)}), tuple(bounds))
+
+    def _nearest(self, place: Array) -> list[Point]:
+        """All points, the nearest first; of equally near ones the one found first."""
+        return sorted(self._all, key=lambda point: float(np.linalg.norm(self.frame.place(point.values) - place)))
+
+    def _guess(self, points: Sequence[Point], place: Array) -> Trace | None:
+        """What the solver is to begin from: straight through the nearest points that descend from the same end."""
+        near = points[0]
+        if near.trace is None:
+            return None
+        kin = [point for point in points if point.root == near.root and point.trace is not None][
+            : len(self.frame.names)
+        ]
+        weights = shape.affine(np.array([self.frame.place(point.values) for point in kin]), place)
+        if len(kin) == 1 or max(abs(weights)) > FAR:
+            return near.trace
+        unknowns = sum(w * p.trace.unknowns for w, p in zip(weights, kin, strict=True) if p.trace is not None)
+        return near.trace._replace(unknowns=np.asarray(unknowns))
+
+    def _settle(self) -> None:
+        """Ends may lie in different optima: try neighbours from one another while that is better; drop the beaten."""
+        tried: set[tuple[int, int]] = set()
+        while (pair := self._next_pair(tried)) is not None:
+            place, other = pair
+            one = self.between[place]
+            tried.add((place, other.root))
+            self.between[place] = self.trade.again(one, other) or one
+        kept = self._undominated(self._distinct(self._all))
+        self.lost += len(self._all) - len(kept)
+        self.ends = [point for point in self.ends if any(point is one for one in kept)]
+        self.between = [point for point in self.between if any(point is one for one in kept)]
+
+    def _next_pair(self, tried: set[tuple[int, int]]) -> tuple[int, Point] | None:
+        """The place of a point, and a neighbour that descends from another end, not tried yet."""
+        points, first = self._all, len(self.ends)
+        for i, j, _ in shape.neighbours(np.array([self.frame.shares(point.values) for point in points])):
+            for one, other in ((i, j), (j, i)):
+                root = points[other].root
+                if one >= first and points[one].root != root and (one - first, root) not in tried:
+                    return one - first, points[other]
+        return None
+
+    # --- small things ---
+
+    def _sought(self, goal: Goal, where: str, near: Point | None, guess: Trace | None = None) -> Point | Failure:
+        found = self.trade.best(goal, f"{self.title}: {where}", near, guess)
+        found = replace(found, where=where)
+        if isinstance(found, Failure):
+            self.failures.append(found)
+        return found
+
+    def _distinct(self, points: Sequence[Point]) -> list[Point]:
+        found: list[Point] = []
+        for point in points:
+            if not any(self._same(point, other) for other in found):
+                found.append(point)
+        return found
+
+    def _undominated(self, points: Sequence[Point]) -> list[Point]:
+        return undominated(points, self.outputs)
+
+    def _same(self, one: Point, other: Point) -> bool:
+        return all(_alike([one.values[name], other.values[name]]) for name in self.outputs)
+
+
+def undominated(points: Sequence[Point], names: Sequence[str]) -> list[Point]:
+    """The points no other one is as good as in every named output (less is better); of equal ones the first."""
+    if not points:
+        return []
+    return [points[i] for i in shape.kept(np.array([[point.values[name] for name in names] for point in points]))]
+
+
+def _alike(values: Sequence[float]) -> bool:
+    return max(values) - min(values) <= ONE_POINT * max(abs(value) for value in values)
+
+
+def _and(names: Sequence[str]) -> str:
+    return " and ".join(names) if len(names) < 3 else f"{', '.join(names[:-1])} and {names[-1]}"

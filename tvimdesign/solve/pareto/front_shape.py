@@ -1,0 +1,163 @@
+"""The shape of a front, in numbers: which points are beaten, how even they are, where the knee is, where to go next.
+
+Outputs are counted from the least that any end has (0) to the most (1). All points of a front are seen along the
+direction in which every output falls alike, as by normal-boundary intersection (Das and Dennis, SIAM J. Optim. 8,
+1998): what is left is a line (two outputs) or a plane (three), and lines in that direction meet a front once.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.solve.nlp.objective import Bound
+
+Array = NDArray[np.float64]
+Values = Mapping[str, float]
+
+FLAT = 0.03
+"""Greatest distance from the chord, or the plane of the ends, of a front that has no knee."""
+_THIN = 0.1
+"""Width over length of the hull of the ends below which a front is a curve."""
+_STEPS = 24
+"""Steps along the edge of a triangle in which places between ends are looked for."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The scale of a front: its outputs, the least and the range of each over the ends (SI)."""
+
+    names: tuple[str, ...]
+    least: Array
+    ranges: Array
+
+    @classmethod
+    def of(cls, names: Sequence[str], ends: Sequence[Values]) -> Frame:
+        """The frame of the ends of a front."""
+        numbers = np.array([[end[name] for name in names] for end in ends])
+        return cls(tuple(names), numbers.min(axis=0), np.ptp(numbers, axis=0))
+
+    def shares(self, values: Values) -> Array:
+        """A design's outputs, from 0 to 1."""
+        return (np.array([values[name] for name in self.names]) - self.least) / self.ranges
+
+    def place(self, values: Values) -> Array:
+        """Where a design lies, seen along the direction in which every output falls alike."""
+        shares = self.shares(values)
+        return np.asarray(shares - shares.mean())
+
+    def bounds(self, place: Array, reference: Values) -> tuple[Bound, ...]:
+        """What holds a design to the line through a place: no output lies further above the first than there.
+
+        The sums are in shares of the output's reference, so that they are as large as the solver's other rows.
+        """
+        sizes = self.ranges / np.array([reference[name] for name in self.names])
+        found = []
+        for i, name in enumerate(self.names[1:], start=1):
+            scale = float(min(sizes[0], sizes[i]))
+            factors = {name: scale / float(self.ranges[i]), self.names[0]: -scale / float(self.ranges[0])}
+            limit = place[i] - place[0] + self.least[i] / self.ranges[i] - self.least[0] / self.ranges[0]
+            found.append(Bound(factors, scale * float(limit)))
+        return tuple(found)
+
+
+def kept(rows: Array) -> list[int]:
+    """Places of the rows that no other is as good as in every column (less is better); of equal ones the first."""
+    found = []
+    for i, row in enumerate(rows):
+        better = np.all(rows <= row, axis=1) & np.any(rows < row, axis=1)
+        if not better.any() and not np.all(rows[:i] == row, axis=1).any():
+            found.append(i)
+    return found
+
+
+def spread(shares: Array) -> float:
+    """The largest gap between neighbours over the mean one; 1 is even. Neighbours are joined by the shortest tree."""
+    gaps = neighbours(shares)
+    return max(gap for *_, gap in gaps) / (sum(gap for *_, gap in gaps) / len(gaps)) if gaps else 1.0
+
+
+def neighbours(shares: Array) -> list[tuple[int, int, float]]:
+    """Pairs of points that the shortest tree through all of them joins, and how far apart they are."""
+    from scipy.sparse.csgraph import minimum_spanning_tree
+
+    if len(shares) < 2:
+        return []
+    distances = np.linalg.norm(shares[:, None, :] - shares[None, :, :], axis=2)
+    tree = minimum_spanning_tree(distances).tocoo()
+    return sorted(
+        (int(min(i, j)), int(max(i, j)), float(d)) for i, j, d in zip(tree.row, tree.col, tree.data, strict=True)
+    )
+
+
+def knee(shares: Array) -> int | None:
+    """The point that lies furthest below the chord of the ends, or their plane; None where none lies far from it.
+
+    The end of an output is the point that has the least of it.
+    """
+    if len(shares) < 3:
+        return None
+    ends = shares[np.argmin(shares, axis=0)]
+    across = ends[1:] - ends[0]
+    normal = np.ones(shares.shape[1])
+    if np.linalg.matrix_rank(across, tol=1e-6) == len(across):
+        normal = np.linalg.svd(across)[2][-1]
+    normal = normal * np.sign(normal.sum() or 1.0) / np.linalg.norm(normal)
+    depths = (ends[0] - shares) @ normal
+    deepest = int(np.argmax(depths))
+    return deepest if depths[deepest] > FLAT else None
+
+
+def affine(places: Array, target: Array) -> Array:
+    """Weights, of sum one, with which places make up a target as nearly as they can, with the smallest numbers."""
+    to_target = (places[1:] - places[0]).T
+    rest = np.linalg.lstsq(to_target, target - places[0], rcond=1e-3)[0]
+    return np.concatenate([[1.0 - rest.sum()], rest])
+
+
+def thin(places: Array) -> bool:
+    """Whether places lie nearly on a line: a front of three outputs that is a curve, no surface."""
+    sizes = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
+    return bool(sizes[1] < _THIN * sizes[0])
+
+
+def candidates(ends: Array) -> Array:
+    """Places all over the hull of those of the ends, in the plane: in three outputs."""
+    axes = np.array([[1.0, -1.0, 0.0], [1.0, 1.0, -2.0]]) / np.sqrt([[2.0], [6.0]])
+    corners = _hull(ends @ axes.T)
+    triangles = [(corners[0], one, other) for one, other in itertools.pairwise(corners[1:])]
+    if len(corners) == 2:
+        triangles = [(corners[0], corners[1], corners[1])]
+    steps = [(i, j) for i in range(_STEPS + 1) for j in range(_STEPS + 1 - i)]
+    flat = [a + (i * (b - a) + j * (c - a)) / _STEPS for a, b, c in triangles for i, j in steps]
+    return np.array(flat) @ axes
+
+
+def farthest(places: Array, taken: Array) -> tuple[Array, float]:
+    """The place that is farthest from all that are taken, and how far."""
+    distances = np.linalg.norm(places[:, None, :] - taken[None, :, :], axis=2).min(axis=1)
+    best = int(np.argmax(distances))
+    return places[best], float(distances[best])
+
+
+def _hull(points: Array) -> list[Array]:
+    """Corners of the convex hull of points of a plane, in order (Andrew's monotone chain)."""
+    ordered = [points[i] for i in np.lexsort((points[:, 1], points[:, 0]))]
+
+    def half(chain: Sequence[Array]) -> list[Array]:
+        found: list[Array] = []
+        for point in chain:
+            while len(found) > 1 and _turn(found[-2], found[-1], point) <= 1e-9:
+                found.pop()
+            found.append(point)
+        return found
+
+    return half(ordered)[:-1] + half(ordered[::-1])[:-1]
+
+
+def _turn(a: Array, b: Array, c: Array) -> float:
+    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))

@@ -1,0 +1,241 @@
+"""One study's problem, built once, asked again and again: the design that is best in one thing within some bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.errors import SimulationError
+from tvimdesign.base.units import format_quantity
+from tvimdesign.simulation.current_profile import Drive
+from tvimdesign.solve.nlp.constraints import in_words, on_switch
+from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.nlp.solver_run import Progress, Run, Trace
+from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
+from tvimdesign.solve.optimizer.statuses import meaning
+from tvimdesign.solve.optimizer.verify_optimum import SWITCH_TOLERANCE
+from tvimdesign.study import Options, Study
+
+ONE_POINT = 2e-3
+"""Share by which two designs must differ to be two: the simulation's tolerance."""
+MOST_BEGINS = 3
+"""Count of the study's optima, the best ones, from which an end is sought: warm, as a cold start may leave them for
+a worse one."""
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Point:
+    """One design of a front."""
+
+    where: str
+    """Which point it is, in words."""
+    values: dict[str, float]
+    """Every input and, of the outputs, those that its goal and limits hang on, in SI by full name; once it is
+    completed, every output."""
+    drives: dict[str, Any]
+    trace: Trace | None = field(default=None, repr=False, compare=False)
+    """What the solver left behind, for a neighbour to begin from."""
+    goal: Goal | None = field(default=None, repr=False, compare=False)
+    """What it is the best for; None for the study's own optimum."""
+    cost: float = math.inf
+    """What the solver made of that goal."""
+    root: int = 0
+    """The end it descends from, neighbour by neighbour."""
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A point that was asked for and has no design: which one, and why."""
+
+    where: str
+    reason: str
+
+
+class Memory(Protocol):
+    """What keeps the answers of a trade-off, so that one that was killed goes on where it was."""
+
+    def recall(self, number: int, goal: Goal) -> Point | Failure | None:
+        """The answer to a question, counted from 0; None where it is not known."""
+
+    def keep(self, number: int, goal: Goal, found: Point | Failure) -> None:
+        """Note an answer."""
+
+
+class Tradeoff:
+    """One study's problem with outputs that can be weighed and bounded; listed sizes and records stay the optimum's."""
+
+    def __init__(
+        self, study: Study, solution: Solution, optimizer: Optimizer, runs: Sequence[Run],
+        progress: Progress = lambda _: None, memory: Memory | None = None,
+    ) -> None:  # fmt: skip
+        """Begin from what found a study's optimum: `optimize` hands it to `keep`."""
+        self.optimizer, self.progress, self._memory = optimizer, progress, memory
+        chosen = {
+            name: float(solution.inputs[solution.model.index[name]])
+            for name, vary in optimizer.study.vary.items()
+            if isinstance(vary, Options)
+        }
+        self._margins = dict(optimizer.margins)
+        """Those of the optimum: every point begins with them, so that it hangs on no point before."""
+        self._fixed = {name: (size, size) for name, size in chosen.items()}
+        self.listed = [name for name, vary in study.vary.items() if isinstance(vary, Options)]
+        self.reference = {name: abs(solution.values[name]) or 1.0 for name in optimizer.problem.traded}
+        numbers = [start.number for start in solution.distinct_optima()][:MOST_BEGINS]
+        self._optima = [run for number in numbers for run in runs if run.start.number == number]
+        inputs = {name: float(solution.inputs[i]) for name, i in solution.model.index.items()}
+        drives = {stage: drive.plain() for stage, drive in solution.drives.items()}
+        self.optimum = Point("the optimum", {**inputs, **solution.values}, drives)
+        if self._optima:
+            self.optimum = replace(self.optimum, trace=self._optima[0].trace)
+        self.found: list[Point] = [self.optimum]
+        self.ends: dict[str, Point] = {}
+        """Where the least of an output was found before, by output."""
+        self.asked = 0
+        """Count of the designs that were sought."""
+
+    def weights(self, weights: dict[str, float]) -> dict[str, float]:
+        """Weights of ratios to the optimum, as the problem takes them: over what it was built with."""
+        built = self.optimizer.reference
+        return {name: weight * built[name] / self.reference[name] for name, weight in weights.items()}
+
+    def best(self, goal: Goal, where: str, near: Point | None = None, guess: Trace | None = None) -> Point | Failure:
+        """The best design for a goal: from a guess, a point nearby, or the study's optima and start.
+
+        Where a design that was found before keeps the bounds and is better, this has ended in a worse optimum: then
+        also from there.
+        """
+        number, self.asked = self.asked, self.asked + 1
+        found = self._memory.recall(number, goal) if self._memory else None
+        if found is None:
+            self.progress(where)
+            found = self._search(goal, where, near, guess)
+            if self._memory:
+                self._memory.keep(number, goal, found)
+        if isinstance(found, Point):
+            self.found.append(found)
+        return found
+
+    def again(self, point: Point, other: Point) -> Point | None:
+        """A point sought once more from another one; None where nothing better is found."""
+        assert point.goal is not None  # the study's own optimum is never asked for again
+        number, self.asked = self.asked, self.asked + 1
+        found = self._memory.recall(number, point.goal) if self._memory else None
+        if found is None:
+            self.progress(f"{point.where}, from another side")
+            found = self._from(other, point.goal, point.where, point.cost)
+            if self._memory:
+                self._memory.keep(number, point.goal, found)
+        if isinstance(found, Failure):
+            return None
+        self.found.append(found)
+        return replace(found, where=point.where, root=other.root)
+
+    def completed(self, point: Point) -> Point | Failure:
+        """A point with the whole working cycle simulated: every output of it, whether the problem needs it or not."""
+        inputs = self._inputs(point)
+        drives = {stage: Drive.from_plain(plain) for stage, plain in point.drives.items()}
+        try:
+            switch = self.optimizer.simulator.run(inputs, drives)
+        except SimulationError as error:
+            return Failure(point.where, str(error))
+        return replace(point, values=point.values | self.optimizer.model.values(inputs, switch.values))
+
+    def _search(self, goal: Goal, where: str, near: Point | None, guess: Trace | None) -> Point | Failure:
+        found: Point | Failure = Failure(where, "nothing to begin from")
+        if guess is not None:
+            found = self._checked([self._warm(guess, goal)], goal, where)
+        if near is not None and isinstance(found, Failure):
+            found = self._checked([self._cold(self._inputs(near), goal)], goal, where)
+        if isinstance(found, Failure):
+            found = self._checked([self._warm(run.trace, goal) for run in self._optima], goal, where)
+        if isinstance(found, Failure):
+            begins = [self.optimizer.model.start, self._inputs(self.optimum)]
+            found = self._checked([self._cold(begin, goal) for begin in begins], goal, where)
+        if near is not None and isinstance(found, Point):
+            found = replace(found, root=near.root)
+        keeping = [one for one in self.found if all(bound.residual(one.values) <= 0.0 for bound in goal.bounds)]
+        best = min(keeping, key=lambda one: self._value(one, goal), default=None)
+        if best and (isinstance(found, Failure) or self._better(best, found, goal)):
+            again = self._from(best, goal, where, math.inf if isinstance(found, Failure) else found.cost)
+            found = replace(again, root=best.root) if isinstance(again, Point) else found
+        return found
+
+    def _better(self, one: Point, other: Point, goal: Goal) -> bool:
+        """Whether a design is better than another by more than the simulation's tolerance."""
+        return self._value(one, goal) < self._value(other, goal) * (1.0 - ONE_POINT)
+
+    def _value(self, point: Point, goal: Goal) -> float:
+        """What a goal makes small."""
+        built = self.optimizer.reference
+        return sum(weight * point.values[name] / built[name] for name, weight in goal.weights.items())
+
+    def _from(self, point: Point, goal: Goal, where: str, beaten: float) -> Point | Failure:
+        """The best design from a point, if it costs less than what is to be beaten."""
+        run = self._cold(self._inputs(point), goal) if point.trace is None else self._warm(point.trace, goal)
+        if run.start.converged and not run.start.objective < beaten * (1.0 - ONE_POINT):
+            return Failure(where, "no better")
+        return self._checked([run], goal, where)
+
+    def _inputs(self, point: Point) -> Array:
+        return np.array([point.values[name] for name in self.optimizer.model.names])
+
+    def _warm(self, trace: Trace, goal: Goal) -> Run:
+        return self.optimizer.solve(self._fixed, warm=trace, goal=goal)
+
+    def _cold(self, begin: Array, goal: Goal) -> Run:
+        return self.optimizer.solve(self._fixed, begin=begin, goal=goal)
+
+    def _checked(self, runs: Sequence[Run], goal: Goal, where: str) -> Point | Failure:
+        """The best of some runs that keeps every limit when it is simulated, or why there is none."""
+        reason = f"not converged: {meaning(runs[-1].start.status).words}" if runs else "nothing to begin from"
+        for run in self._robust(
+            sorted((run for run in runs if run.start.converged), key=lambda r: r.start.objective), goal
+        ):
+            checked = self._simulated(run, goal, where)
+            if isinstance(checked, Point):
+                return checked
+            reason = checked
+        return Failure(where, reason)
+
+    def _robust(self, runs: Sequence[Run], goal: Goal) -> Iterator[Run]:
+        """Runs as they are; of a robust study sought again, from the optimum's margins to their own."""
+        if not self.optimizer.study.robust:
+            yield from runs
+            return
+        from tvimdesign.solve.uncertainty.robust import settle
+
+        for run in runs:
+            settled = settle(self.optimizer, run, self._fixed, goal)
+            self.optimizer.margins = dict(self._margins)
+            if settled.start.converged:
+                yield settled
+
+    def _simulated(self, run: Run, goal: Goal, where: str) -> Point | str:
+        """The design simulated and held against every limit again; in words which one it breaks."""
+        optimizer, problem = self.optimizer, self.optimizer.problem
+        try:
+            switch = problem.simulated(optimizer.simulator, run.inputs, run.drives)
+        except SimulationError as error:
+            return str(error)
+        every = optimizer.model.values(run.inputs, switch.values)
+        values = {name: every[name] for name in problem.known}
+        table = optimizer.table
+        for limit in problem.limits:
+            tolerance = SWITCH_TOLERANCE if on_switch(table, limit.output) else ALGEBRAIC_TOLERANCE
+            if not limit.residual(values[limit.output]) <= tolerance:
+                value = format_quantity(values[limit.output], table.unit(limit.output))
+                return f"converged, but simulated it breaks {in_words(limit, table)}: {value}"
+        for bound in goal.bounds:
+            size = sum(abs(factor * values[name]) for name, factor in bound.factors.items())
+            if not bound.residual(values) <= SWITCH_TOLERANCE * size:
+                return "converged, but simulated it is not where it was sought"
+        inputs = {name: float(run.inputs[i]) for name, i in optimizer.model.index.items()}
+        drives = {stage: drive.plain() for stage, drive in run.drives.items()}
+        return Point(where, {**inputs, **values}, drives, run.trace, goal, run.start.objective)

@@ -1,0 +1,107 @@
+"""What the response times of two modules, and their ratio, owe to an input that both or one of them have.
+
+Times come from simulations exact enough to be differenced; tests hold the differences against the implicit function
+theorem on the collocated heat equation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.device_functions import Model
+
+TOLERANCE = 1e-8  # a hundredth of what a run is simulated with
+SHARE = 2e-3  # of an input, by which it is moved to either side for a difference
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Span:
+    """The plausible range of one input, SI."""
+
+    name: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Influence:
+    """What one input does while all others stay: times [s] of the first and the second module."""
+
+    span: Span
+    value: float
+    """Of the input, SI."""
+    at_low: Array
+    at_high: Array
+
+    @property
+    def ratios(self) -> tuple[float, float]:
+        """Second time over first, at the low and at the high end of the range."""
+        return ratio(self.at_low), ratio(self.at_high)
+
+    @property
+    def reach(self) -> float:
+        """How far apart the two ratios are, as a factor of one and more."""
+        low, high = sorted(self.ratios)
+        return high / low
+
+
+def ratio(times: Sequence[float] | Array) -> float:
+    """Second time over first."""
+    return float(times[1] / times[0])
+
+
+class Pair:
+    """Two modules whose inputs of one name move together."""
+
+    def __init__(self, first: Model, second: Model) -> None:
+        """Nothing is simulated yet."""
+        self.models = (first, second)
+        self._simulators = tuple(Simulator(model, TOLERANCE) for model in self.models)
+
+    def value(self, name: str) -> float:
+        """Value of an input [SI]. Raises InputError where the two differ in it or neither has it."""
+        found = {float(model.start[model.index[name]]) for model in self.models if name in model.index}
+        if len(found) != 1:
+            said = " and ".join(f"{value:g}" for value in sorted(found)) or "no value at all"
+            raise InputError(f"{name} has {said} in the two modules; it can move only where both start from the same")
+        return found.pop()
+
+    def switches(self, changes: Mapping[str, float] | None = None) -> tuple[dict[str, float], dict[str, float]]:
+        """Every value of the heating of both modules, with some inputs changed."""
+        first, second = (self._switch(i, changes or {}) for i in range(2))
+        return first, second
+
+    def times(self, event: str, changes: Mapping[str, float] | None = None) -> Array:
+        """Times of one event in both modules [s], infinite where it never happens."""
+        return np.array([switch[event] for switch in self.switches(changes)])
+
+    def influence(self, event: str, span: Span) -> Influence:
+        """Times at both ends of an input's range."""
+        at_low, at_high = (self.times(event, {span.name: end}) for end in (span.low, span.high))
+        return Influence(span, self.value(span.name), at_low, at_high)
+
+    def elasticities(self, event: str, name: str) -> Array:
+        """Relative change of both times with a relative change of an input, d ln t/d ln x; temperatures in kelvin.
+
+        The ratio's is the second less the first.
+        """
+        value = self.value(name)
+        below, above = (np.log(self.times(event, {name: value * (1.0 + sign * SHARE)})) for sign in (-1.0, 1.0))
+        step: Array = (above - below) / np.log((1.0 + SHARE) / (1.0 - SHARE))
+        return step
+
+    def _switch(self, which: int, changes: Mapping[str, float]) -> dict[str, float]:
+        model = self.models[which]
+        inputs = model.start.copy()
+        for name, value in changes.items():
+            if name in model.index:
+                inputs[model.index[name]] = value
+        return self._simulators[which].run(inputs, stages=[next(iter(model.stages))]).values

@@ -1,0 +1,1 @@
+"""Parts and materials that vary: tolerances, yields, and optima that hold in spite of them."""

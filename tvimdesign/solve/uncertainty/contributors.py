@@ -1,0 +1,35 @@
+"""A study's tolerances at one design: which inputs spread, and how far [SI]."""
+
+from __future__ import annotations
+
+from tvimdesign.device import Input
+from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.solve.nlp import spread
+from tvimdesign.study import Tolerance
+
+FREE_ANGLE = "preload_angle"
+"""The input that a spring's free angle adds to."""
+
+
+def contributors_of(rig: Rig, adjusted: bool | None = None) -> list[spread.Contributor]:
+    """The study's tolerances at this design; `adjusted` says of all that can be adjusted whether they are."""
+    found = []
+    for name, tolerance in rig.study.tolerances.items():
+        row = rig.table.row(name)
+        assert isinstance(row, Input)  # the reader sees to that
+        value = float(rig.values[name])
+        size = plus_minus(rig, value, tolerance)
+        can_be = tolerance.adjustable or tolerance.adjusted_to is not None
+        if tolerance.adjustable if adjusted is None else adjusted and can_be:
+            size = min(size, tolerance.adjusted_to or 0.0)
+        if size > 0.0:
+            kind, sigma = tolerance.distribution, tolerance.sigma
+            found.append(spread.Contributor(name, value, size, kind, sigma, row.lower, row.upper))
+    return found
+
+
+def plus_minus(rig: Rig, value: float, tolerance: Tolerance) -> float:
+    """A tolerance to either side [SI] of an input that has this value."""
+    if tolerance.row is not None:
+        return float(rig.row(tolerance.row))
+    return abs(value) * tolerance.share if tolerance.share is not None else float(tolerance.plus_minus or 0.0)

@@ -1,0 +1,204 @@
+"""A module whose parts and materials spread: what that does to its outputs, and how many modules keep the limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.solve.batch.batch_model import ManyModules
+from tvimdesign.solve.nlp import spread
+from tvimdesign.solve.nlp.constraints import Limit, limits_of
+from tvimdesign.solve.sensitivity.output_sensitivity import FINER, elasticities
+from tvimdesign.solve.uncertainty.contributors import FREE_ANGLE, contributors_of
+
+Array = NDArray[np.float64]
+Progress = Callable[[str], None]
+
+SOBOL_SAMPLES = 1 << 10
+"""Points of the Sobol indices; each costs as many modules as there are contributors, and two."""
+
+
+@dataclass(frozen=True)
+class Kept:
+    """One limit, and how many modules keep it."""
+
+    limit: Limit
+    share: spread.Yield
+    capability: float
+    """C_pk of this side."""
+
+
+@dataclass(frozen=True)
+class Spread:
+    """What the spread of the inputs comes to; arrays are one row an output, one column a contributor."""
+
+    contributors: tuple[spread.Contributor, ...]
+    outputs: tuple[str, ...]
+    asked: tuple[str, ...]
+    """Those the study minimises or requires, or that a summary shows."""
+    nominal: Array
+    derivatives: Array
+    """Exact, SI over SI."""
+    deviation: Array
+    """By root-sum-square."""
+    shares: Array
+    """Of each contributor in that variance."""
+    worst: spread.WorstCase
+    drawn: spread.MonteCarlo
+    first: Array
+    """First-order Sobol indices."""
+    total: Array
+    kept: tuple[Kept, ...]
+    together: spread.Yield
+    """Modules that keep every limit."""
+    left_out: tuple[str, ...]
+    """Outputs nothing can be said about: they never happen as drawn, or hang on a current that follows a profile."""
+
+
+@dataclass(frozen=True)
+class Preload:
+    """What the free angle's tolerance means to the joint, and what adjusting the preload does about it."""
+
+    as_bought: float
+    """Tolerance to either side [rad]."""
+    adjusted: float
+    """What is left where it can be adjusted [rad]."""
+    over_stroke: float
+    yield_as_bought: spread.Yield
+    """Modules that keep all limits that change with the free angle."""
+    yield_adjusted: spread.Yield
+    by_row: str
+    """The output that gives the tolerance; empty where the study states it."""
+
+
+class Tolerancing:
+    """One design with its study's tolerances: the compiled functions of what spreads, built once."""
+
+    def __init__(self, rig: Rig, progress: Progress, workers: int = 1) -> None:
+        """Differentiate and compile. Raises InputError where nothing spreads, SimulationError."""
+        self.rig, self.progress, self.workers = rig, progress, workers
+        self.contributors = contributors_of(rig)
+        # A free angle that is adjusted out altogether still has a column: it is compared with one that is not.
+        names = [name for name in rig.study.tolerances if self._ever(name)]
+        if not names:
+            raise InputError(
+                f"{rig.study.name}: nothing spreads; give `tolerances: standard`, or tolerances of your own"
+            )
+        self.limits = [
+            limit for limit in limits_of(rig.study, rig.table, rig.values) if self._moves(limit.output, names)
+        ]
+        wanted = dict.fromkeys([*self._asked(), *(limit.output for limit in self.limits)])
+        if not wanted:
+            raise InputError(
+                f"{rig.study.name}: nothing that is required, minimised or limited depends on {', '.join(names)}; "
+                "give tolerances of other inputs, or require what depends on these"
+            )
+        options = rig.study.solver
+        progress("differentiating the outputs by what spreads")
+        exact = elasticities(rig, FINER * options.elements, options.cells, list(wanted), names)
+        progress("compiling the module for many designs")
+        self.names, self.outputs = names, exact.outputs
+        self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
+        self.asked = tuple(name for name in dict.fromkeys(self._asked()) if name in self.outputs)
+        self.limits = [limit for limit in self.limits if limit.output in self.outputs]
+        self.many = ManyModules(rig, names, self.outputs)
+        self.horizon = float(rig.values["horizon"])
+
+    def _asked(self) -> list[str]:
+        """What the study minimises and requires; of one that asks for nothing, what a summary shows up to the switch.
+
+        What comes after the switch costs ten times as much, and is looked at where it is asked for.
+        """
+        study, table = self.rig.study, self.rig.table
+        asked = [*study.minimize, *(limit.output for limit in self.limits if limit.origin == "require")]
+        if study.minimize or study.require:
+            return asked
+        names = (name for name in table.names(self.rig.points) if table.output(name).headline)
+        later = {row.name for row in table.supplied if table.stage(row.stage).after}
+        return [
+            name for name in names
+            if self._moves(name, list(study.tolerances)) and not later & {name, *table.ancestors(name)}
+        ]  # fmt: skip
+
+    def _ever(self, name: str) -> bool:
+        return any(contributor.name == name for contributor in contributors_of(self.rig, adjusted=False))
+
+    def _moves(self, output: str, names: Sequence[str]) -> bool:
+        """Whether an output depends on anything that spreads."""
+        above = {output.partition("@")[0], *self.rig.table.ancestors(output)}
+        return any(name.partition("@")[0] in above for name in names)
+
+    def _on_preload(self, limit: Limit) -> bool:
+        """Whether a limit is on an output that changes with the free angle."""
+        return bool(self.exact[self.outputs.index(limit.output), self.names.index(FREE_ANGLE)] != 0.0)
+
+    def _function(self, contributors: Sequence[spread.Contributor], many: ManyModules | None = None) -> spread.Columns:
+        """Outputs as a function of these contributors, all others as drawn."""
+        compiled = many or self.many
+        place = [self.names.index(contributor.name) for contributor in contributors]
+        drawn = np.array([float(self.rig.values[name]) for name in self.names])
+
+        def outputs(columns: Array) -> Array:
+            every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
+            every[place] = columns
+            return compiled(every, self.workers)
+
+        return outputs
+
+    def analyse(self, samples: int, seed: int) -> Spread:
+        """Worst case, root-sum-square and Monte Carlo, side by side."""
+        contributors = self.contributors
+        function = self._function(contributors)
+        place = [self.names.index(contributor.name) for contributor in contributors]
+        derivatives = self.exact[:, place]
+        deviation, shares = spread.shares(contributors, derivatives)
+        self.progress("looking at the corners of the tolerances")
+        worst = spread.worst_case(function, contributors, derivatives)
+        self.progress(f"drawing {samples} modules")
+        drawn = spread.monte_carlo(function, contributors, samples, seed)
+        self.progress("sharing the variance out")
+        first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
+        kept, together = self._kept(drawn)
+        return Spread(
+            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, drawn,
+            first, total, kept, together, self.left_out,
+        )  # fmt: skip
+
+    def _kept(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:
+        """Each limit, and all together."""
+        found = []
+        every = np.ones(drawn.values.shape[1], dtype=bool)
+        for limit in self.limits:
+            i = self.outputs.index(limit.output)
+            with np.errstate(invalid="ignore"):
+                keeps = np.asarray(limit.residual(drawn.values[i])) <= 0.0
+            every &= keeps
+            able = spread.capability(float(drawn.mean[i]), float(drawn.deviation[i]), limit.limit, limit.sense)
+            found.append(Kept(limit, spread.share_kept(keeps), able))
+        return tuple(found), spread.share_kept(every)
+
+    def preload(self, samples: int, seed: int) -> Preload | None:
+        """The free angle as bought and adjusted; None where the study gives it no tolerance, or nothing hangs on it."""
+        tolerance = self.rig.study.tolerances.get(FREE_ANGLE)
+        if tolerance is None or FREE_ANGLE not in self.names:
+            return None
+        self.progress("adjusting the preload")
+        limits = [limit for limit in self.limits if self._on_preload(limit)]
+        if not limits:
+            return None
+        outputs = list(dict.fromkeys(limit.output for limit in limits))
+        many = ManyModules(self.rig, self.names, outputs)
+        sizes, yields = [], []
+        for adjusted in (False, True):
+            contributors = contributors_of(self.rig, adjusted)
+            drawn = spread.monte_carlo(self._function(contributors, many), contributors, samples, seed)
+            kept = [limit.residual(drawn.values[outputs.index(limit.output)]) <= 0.0 for limit in limits]
+            yields.append(spread.share_kept(np.all(kept, axis=0)))
+            sizes.append(next((one.plus_minus for one in contributors if one.name == FREE_ANGLE), 0.0))
+        stroke = abs(float(self.rig.values["stroke"]))
+        return Preload(sizes[0], sizes[1], sizes[0] / stroke, yields[0], yields[1], tolerance.row or "")

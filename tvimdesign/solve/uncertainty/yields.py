@@ -1,0 +1,103 @@
+"""How many modules keep a study's limits at any of its designs: compiled once, drawn from scrambled Sobol points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.solve.batch.batch_model import ManyModules
+from tvimdesign.solve.nlp import spread
+from tvimdesign.solve.nlp.constraints import Limit, limits_of, on_switch
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.uncertainty.contributors import contributors_of
+
+Array = NDArray[np.float64]
+
+MODULES = 1 << 12
+"""Modules drawn for one design."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """The limits of one design in many modules: residuals, a row a limit, a column a module; kept where <= 0."""
+
+    limits: tuple[Limit, ...]
+    residuals: Array
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """Share of the modules that keep each limit, by its name."""
+        return {limit.name: float(np.mean(row <= 0.0)) for limit, row in zip(self.limits, self.residuals, strict=True)}
+
+    @property
+    def together(self) -> spread.Yield:
+        """Modules that keep every limit."""
+        return spread.share_kept(np.all(self.residuals <= 0.0, axis=0))
+
+    def beyond(self, share: float) -> dict[str, float]:
+        """What so many modules' residuals stay below: above zero where fewer of them keep the limit."""
+        worst = np.nan_to_num(self.residuals, nan=np.inf)
+        at = np.quantile(worst, share, axis=1, method="inverted_cdf")
+        return {limit.name: float(value) for limit, value in zip(self.limits, at, strict=True)}
+
+
+class Yields:
+    """Limits that what spreads can move, as functions of that and of what the study frees."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Compile. A current that follows a profile is not a number: limits on its stages are left out."""
+        study, table = optimizer.study, optimizer.table
+        self._study, self._catalog, self._table, self._model = study, optimizer.catalog, table, optimizer.model
+        spreading = [name for name in study.tolerances if name in optimizer.model.index]
+        self._moving = list(dict.fromkeys([*spreading, *(free.name for free in optimizer.free)]))
+        bases = {name.partition("@")[0] for name in spreading}
+        self.limits = tuple(
+            limit for limit in limits_of(study, table)
+            if bases & {limit.output.partition("@")[0], *table.ancestors(limit.output)}
+            and not (optimizer.currents and on_switch(table, limit.output))
+        )  # fmt: skip
+        self._outputs = list(dict.fromkeys(limit.output for limit in self.limits))
+        start = dict(zip(optimizer.model.names, optimizer.model.start, strict=True))
+        self._many = ManyModules(self._rig(start), self._moving, self._outputs) if self._outputs else None
+
+    def _rig(self, values: Mapping[str, Any]) -> Rig:
+        numbers = {name: float(values[name]) for name in self._model.names}
+        return Rig(self._study, self._catalog, self._table, {**numbers, **self._model.words})
+
+    def at(self, inputs: Array) -> Drawn:
+        """Draw modules of the design with these inputs."""
+        model = self._model
+        contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
+        if self._many is None or not contributors:  # nothing moves any limit
+            return Drawn((), np.zeros((0, MODULES)))
+        places = [self._moving.index(contributor.name) for contributor in contributors]
+        drawn = np.array([inputs[model.index[name]] for name in self._moving])
+        many, pace = self._many, self._many.pace_at(inputs)
+
+        def outputs(columns: Array) -> Array:
+            every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
+            every[places] = columns
+            return many(every, pace=pace)
+
+        values = spread.monte_carlo(outputs, contributors, MODULES, self._study.solver.seed).values
+        with np.errstate(invalid="ignore"):
+            residuals = [limit.residual(values[self._outputs.index(limit.output)]) for limit in self.limits]
+        return Drawn(self.limits, np.array(residuals))
+
+
+def yields_of(optimizer: Optimizer) -> Yields:
+    """How many modules keep the limits at any design of a problem: compiled when first asked for, then kept as long as
+    the problem is.
+    """
+    if optimizer not in _COMPILED:
+        _COMPILED[optimizer] = Yields(optimizer)
+    return _COMPILED[optimizer]
+
+
+_COMPILED: WeakKeyDictionary[Optimizer, Yields] = WeakKeyDictionary()

@@ -1,0 +1,145 @@
+"""Reads the sections `require`, `minimize` and `front`: what must hold, what is to be small, what is to be traded."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+
+from tvimdesign.base.units import format_quantity
+from tvimdesign.device import Output, Swing
+from tvimdesign.study.study import FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement
+from tvimdesign.study.text.mistakes import one_of, quoted, step
+from tvimdesign.study.text.values import Reading, below, entries, misfit, number, si_value, text, unknown_keys, whole
+from tvimdesign.study.text.yaml_text import Node, Sequence, Text
+
+MOST_LIMITS = 10
+_FRONT = ["of", "points"]
+_INSTEAD = "limit `backlash` or `relaxation_loss`"
+_LIMIT = re.compile(r"(?P<sense><=|>=)\s*(?P<quantity>[^\s<>=].*)")
+
+
+def read_require(reading: Reading, node: Node | None, points: Collection[str]) -> tuple[Requirement, ...]:
+    """Return every limit the study sets; every problem is noted."""
+    found: list[Requirement] = []
+    for name, (key, value) in entries(reading.problems, node, "require", "outputs, each with its limits").items():
+        path = step("require", name)
+        row = _output(reading, key, path, name, points)
+        if row is None:
+            continue
+        read = _limits(reading, value, path, name, row)
+        _contradictions(reading, value, path, row, read)
+        found += read
+    return tuple(found)
+
+
+def read_minimize(reading: Reading, node: Node | None, points: Collection[str]) -> dict[str, float]:
+    """Return the weight of each output that is to be small; every problem is noted."""
+    if isinstance(node, Text) and not node.empty:
+        row = _output(reading, node, "minimize", node.value, points)
+        return {} if row is None else {node.value: 1.0}
+    found: dict[str, float] = {}
+    expected = "the name of an output, or outputs with their weights"
+    for name, (key, value) in entries(reading.problems, node, "minimize", expected).items():
+        path = step("minimize", name)
+        if _output(reading, key, path, name, points) is None:
+            continue
+        weight = number(reading.problems, value, path, "a weight, a number above 0")
+        if weight is not None and weight <= 0:
+            reading.problems.add(value, path, f"the weight {weight:g} is not above 0", "a number above 0")
+        elif weight is not None:
+            found[name] = weight
+    return found
+
+
+def read_front(reading: Reading, node: Node | None, points: Collection[str]) -> FrontOptions | None:
+    """Return the outputs to be traded and the count of points; every problem is noted."""
+    expected = "'{of: [response_time, module_mass], points: 12}'"
+    found = unknown_keys(reading.problems, entries(reading.problems, node, "front", expected), "front", "key", _FRONT)
+    if node is None or not found:
+        return None
+    outputs = found.get("of")
+    if not isinstance(outputs, Sequence) or len(outputs.items) not in (2, 3):
+        reading.problems.add(
+            outputs or node, "front.of", "are not two or three outputs", "[response_time, module_mass]"
+        )
+        return None
+    names = [_traded(reading, item, f"front.of[{i}]", points) for i, item in enumerate(outputs.items)]
+    count = whole(reading.problems, found["points"], "front.points") if "points" in found else None
+    if None in names:
+        return None
+    if len(set(names)) < len(names):
+        reading.problems.add(outputs, "front.of", "names an output twice", "two or three different ones")
+        return None
+    least, most = FEWEST_POINTS, MOST_POINTS
+    if count is not None and not least <= count <= most:
+        reading.problems.add(found["points"], "front.points", f"{count} points", f"{least} to {most}")
+        return None
+    return FrontOptions(of=tuple(filter(None, names)), **({} if count is None else {"points": count}))
+
+
+def _traded(reading: Reading, node: Node, path: str, points: Collection[str]) -> str | None:
+    word = text(reading.problems, node, path, "the name of an output")
+    if word is None or not isinstance(node, Text):
+        return None
+    return word if _output(reading, node, path, word, points) else None
+
+
+def _output(reading: Reading, key: Text, path: str, name: str, points: Collection[str]) -> Output | None:
+    """Return the output a full name means, None (and a problem) where it means none."""
+    base, at, point = name.partition("@")
+    row = reading.table.by_name.get(base)
+    add = reading.problems.add
+    if row is None or (isinstance(row, Output) and row.hidden):
+        names = [name.partition("@")[0] for name in reading.table.names(list(points)[:1])]
+        reading.unknown_row(key, path, "output", base, names)
+    elif not isinstance(row, Output):
+        add(key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`")
+    elif row.instant:
+        add(key, path, "changes during the switch and has no single value", "an output with one value")
+    elif isinstance(row, Swing):
+        add(key, path, "is seen in a simulated release once a design is found", "an output that is computed", _INSTEAD)
+    elif row.per_point and not at:
+        add(key, path, "has a value at each operating point", one_of([f"{base}@{name}" for name in points]))
+    elif row.per_point and point not in points:
+        reading.problems.unknown(key, path, f"operating point: {quoted(point)}", point, points)
+    elif at and not row.per_point:
+        add(key, path, "is the same at every operating point", repr(base), f"leave out {quoted('@' + point)}")
+    else:
+        return row
+    return None
+
+
+def _limits(reading: Reading, node: Node, path: str, name: str, row: Output) -> list[Requirement]:
+    if isinstance(node, Sequence):
+        if not 1 <= len(node.items) <= MOST_LIMITS:
+            reading.problems.add(node, path, f"a list of {len(node.items)} limits", f"1 to {MOST_LIMITS} limits")
+            return []
+        read = [_limit(reading, item, f"{path}[{i}]", name, row) for i, item in enumerate(node.items)]
+        return [requirement for requirement in read if requirement is not None]
+    requirement = _limit(reading, node, path, name, row)
+    return [] if requirement is None else [requirement]
+
+
+def _limit(reading: Reading, node: Node, path: str, name: str, row: Output) -> Requirement | None:
+    unit = "" if row.unit == "1" else f" {row.unit}"
+    expected = f"a limit such as '<= 5{unit}' or '>= 5{unit}'"
+    word = text(reading.problems, node, path, expected)
+    if word is None:
+        return None
+    parts = _LIMIT.fullmatch(word)
+    if parts is None:
+        misfit(reading.problems, node, path, expected)
+        return None
+    limit = si_value(reading.problems, node, path, parts["quantity"], row.unit)
+    if limit is None:
+        return None
+    return Requirement(output=name, sense="<=" if parts["sense"] == "<=" else ">=", limit=limit, text=word)
+
+
+def _contradictions(reading: Reading, node: Node, path: str, row: Output, read: list[Requirement]) -> None:
+    floors = [limit.limit for limit in read if limit.sense == ">="]
+    ceilings = [limit.limit for limit in read if limit.sense == "<="]
+    if floors and ceilings and below(min(ceilings), max(floors)):
+        floor, ceiling = format_quantity(max(floors), row.unit), format_quantity(min(ceilings), row.unit)
+        found = f"cannot be both at least {floor} and at most {ceiling}"
+        reading.problems.add(node, path, found, "limits that leave room between them")

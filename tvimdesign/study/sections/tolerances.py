@@ -1,0 +1,252 @@
+"""Reads the sections `tolerances` and `robust`: how far inputs lie from what is drawn, and what must hold anyway."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from functools import cache
+from importlib import resources
+from statistics import NormalDist
+from typing import Any, Literal
+
+import yaml
+
+from tvimdesign.base.errors import UnitError
+from tvimdesign.base.units import format_quantity, parse_quantity
+from tvimdesign.device import Input, Output, Table
+from tvimdesign.study.study import Robust, Tolerance
+from tvimdesign.study.text.mistakes import one_of, quoted, step
+from tvimdesign.study.text.values import Reading, entries, flag, misfit, number, si_value, text, unknown_keys
+from tvimdesign.study.text.yaml_text import Mapping, Node, Text
+
+STANDARD = "standard"
+_SHARE = re.compile(r"(?P<number>[^%]*[0-9.])\s*%")
+_KEYS = ["plus_minus", "row", "distribution", "sigma", "adjustable", "adjusted_to"]
+_MOST_SIGMAS = 6.0
+
+
+@cache
+def standard_entries() -> dict[str, dict[str, Any]]:
+    """The usual tolerances by row, as they stand in the file."""
+    file = resources.files("tvimdesign.study.sections").joinpath("tolerances.yaml")
+    found: dict[str, dict[str, Any]] = yaml.safe_load(file.read_text(encoding="utf-8"))
+    return found
+
+
+def standard_tolerances(table: Table) -> dict[str, Tolerance]:
+    """The usual tolerances of the inputs that a mode has."""
+    return {name: _standard(table, name, entry) for name, entry in standard_entries().items() if name in table.by_name}
+
+
+def _standard(table: Table, name: str, entry: dict[str, Any]) -> Tolerance:
+    unit = difference_unit(table.unit(name))
+    size: dict[str, Any] = {"row": entry["row"]} if "row" in entry else _size(str(entry["plus_minus"]), unit)
+    adjusted = parse_quantity(str(entry["adjusted_to"]), unit) if "adjusted_to" in entry else None
+    return Tolerance(
+        **size, distribution=entry["distribution"], sigma=entry.get("sigma", 3.0), adjusted_to=adjusted,
+        source=entry["source"], status=entry["status"],
+    )  # fmt: skip
+
+
+def _size(written: str, unit: str) -> dict[str, float]:
+    share = _SHARE.fullmatch(written)
+    if share:
+        return {"share": parse_quantity(share["number"], "1") / 100.0}
+    return {"plus_minus": parse_quantity(written, unit)}
+
+
+def difference_unit(unit: str) -> str:
+    """Unit of a difference: a temperature's is the kelvin."""
+    return "K" if unit == "degC" else unit
+
+
+def tolerance_rows(table: Table) -> list[str]:
+    """The outputs that say how far an input may lie from what is drawn."""
+    return [row.name for row in table.outputs if row.name.endswith("_tolerance") and not row.per_point]
+
+
+def read_tolerances(reading: Reading, node: Node | None, points: Collection[str]) -> dict[str, Tolerance]:
+    """Return the tolerance of each input by full name; every problem is noted."""
+    if isinstance(node, Text) and node.value == STANDARD:
+        return standard_tolerances(reading.table)
+    expected = f"{STANDARD}, or names of inputs, each with a plus-minus value"
+    found: dict[str, Tolerance] = {}
+    section = entries(reading.problems, node, "tolerances", expected)
+    if STANDARD in section and flag(reading.problems, section[STANDARD][1], step("tolerances", STANDARD)):
+        found = standard_tolerances(reading.table)
+    for name, (key, value) in section.items():
+        if name == STANDARD:
+            continue
+        path = step("tolerances", name)
+        row = _input(reading, key, path, name, points)
+        read = None if row is None else _tolerance(reading, value, path, row, found.get(name))
+        if read is not None:
+            found[name] = read
+    return found
+
+
+def _input(reading: Reading, key: Text, path: str, name: str, points: Collection[str]) -> Input | None:
+    base, _, point = name.partition("@")
+    row = reading.table.by_name.get(base)
+    if point and isinstance(row, Input) and row.per_point and point not in points:
+        reading.problems.unknown(key, path, f"operating point: {quoted(point)}", point, points)
+        return None
+    if isinstance(row, Input) and not row.integer and row.per_point == bool(point):
+        return row
+    if row is None:
+        names = [one.name for one in reading.table.inputs if not one.integer]
+        reading.unknown_row(key, path, "input", base, names)
+    elif isinstance(row, Input) and row.integer:
+        reading.problems.add(key, path, "counts whole things and has no tolerance")
+    elif isinstance(row, Input):
+        expected = f"{base}@<operating point>" if row.per_point else repr(base)
+        reading.problems.add(key, path, "belongs to an operating point" if row.per_point else "has no points", expected)
+    else:
+        what = "is a result" if isinstance(row, Output) else "is a word"
+        reading.problems.add(key, path, f"{what} and has no tolerance of its own", "an input")
+    return None
+
+
+def _forms(row: Input) -> str:
+    unit = difference_unit(row.unit)
+    share = "" if row.unit == "degC" else " or '5 %'"
+    return f"a plus-minus value such as '0.1{'' if unit == '1' else ' ' + unit}'{share}, or {{plus_minus: ...}}"
+
+
+def _tolerance(reading: Reading, node: Node, path: str, row: Input, standard: Tolerance | None) -> Tolerance | None:
+    if isinstance(node, Text):
+        size = _read_size(reading, node, path, row)
+        return None if size is None else Tolerance(**size, source="the study", status="stated")
+    if not isinstance(node, Mapping) or not node.entries:
+        misfit(reading.problems, node, path, _forms(row))
+        return None
+    before = len(reading.problems.found)
+    parts = unknown_keys(reading.problems, node.entries, path, "key", _KEYS)
+    read = _read_parts(reading, parts, path, row)
+    given = [key for key in ("plus_minus", "row") if key in parts]
+    if len(given) == 2 or (not given and standard is None):
+        problem = "both 'plus_minus' and 'row'" if given else "'plus_minus' missing"
+        reading.problems.add(node, path, problem, _forms(row))
+    if len(reading.problems.found) > before:
+        return None
+    kept = {} if standard is None else standard.model_dump()
+    if given:
+        kept |= {"plus_minus": None, "share": None, "row": None, "source": "the study", "status": "stated"}
+    return Tolerance(**{**kept, **read})
+
+
+def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> dict[str, Any]:
+    """The fields a study states; what is wrong is noted and left out."""
+    read: dict[str, Any] = {}
+    if "plus_minus" in parts:
+        read |= _read_size(reading, parts["plus_minus"], f"{path}.plus_minus", row) or {}
+    if "row" in parts:
+        read |= _read_row(reading, parts["row"], f"{path}.row", row)
+    if "distribution" in parts:
+        read |= _read_distribution(reading, parts["distribution"], f"{path}.distribution")
+    if "sigma" in parts:
+        found = _sigmas(reading, parts["sigma"], f"{path}.sigma")
+        read |= {} if found is None else {"sigma": found}
+    if "adjustable" in parts:
+        read |= {"adjustable": flag(reading.problems, parts["adjustable"], f"{path}.adjustable") or False}
+    if "adjusted_to" in parts:
+        left = _read_size(reading, parts["adjusted_to"], f"{path}.adjusted_to", row)
+        if left is not None and "share" in left:
+            reading.problems.add(parts["adjusted_to"], f"{path}.adjusted_to", "is a share", f"a value in {row.unit}")
+        elif left is not None:
+            read |= {"adjusted_to": left["plus_minus"]}
+    return read
+
+
+def _read_size(reading: Reading, node: Node, path: str, row: Input) -> dict[str, float] | None:
+    """A plus-minus value, SI, or a share of the value where it is written in percent."""
+    word = text(reading.problems, node, path, _forms(row))
+    if word is None:
+        return None
+    share = _SHARE.fullmatch(word)
+    unit = "1" if share else difference_unit(row.unit)
+    value = si_value(reading.problems, node, path, share["number"] if share else word, unit)
+    if value is None:
+        return None
+    if value < 0.0 or (share and value >= 100.0):
+        limit = "0 to 100 %" if share else "0 or more: it counts to either side"
+        reading.problems.add(node, path, f"{quoted(word)} cannot be a tolerance", limit)
+        return None
+    if share and row.unit == "degC":
+        reading.problems.add(node, path, f"{quoted(word)}: a temperature has no share", _forms(row))
+        return None
+    if not share and row.upper - row.lower < value:
+        span = f"{format_quantity(row.lower, row.unit)} to {format_quantity(row.upper, row.unit)}"
+        reading.problems.add(node, path, f"{quoted(word)} is wider than all that {row.name} may be", span)
+        return None
+    return {"share": value / 100.0} if share else {"plus_minus": value}
+
+
+def _read_row(reading: Reading, node: Node, path: str, row: Input) -> dict[str, str]:
+    rows = tolerance_rows(reading.table)
+    word = text(reading.problems, node, path, one_of(rows))
+    if word is None:
+        return {}
+    if word not in rows:
+        reading.problems.unknown(node, path, f"row that gives a tolerance: {quoted(word)}", word, rows)
+        return {}
+    try:
+        parse_quantity(f"1 {reading.table.unit(word)}", difference_unit(row.unit))
+    except UnitError:
+        reading.problems.add(node, path, f"{word} is in {reading.table.unit(word)}", f"a row in {row.unit}")
+        return {}
+    return {"row": word}
+
+
+def _read_distribution(reading: Reading, node: Node, path: str) -> dict[str, Literal["normal", "uniform"]]:
+    word = text(reading.problems, node, path, "normal or uniform")
+    if word == "normal":
+        return {"distribution": "normal"}
+    if word == "uniform":
+        return {"distribution": "uniform"}
+    if word is not None:
+        reading.problems.unknown(node, path, f"distribution: {quoted(word)}", word, ["normal", "uniform"])
+    return {}
+
+
+def _sigmas(reading: Reading, node: Node, path: str) -> float | None:
+    expected = f"a count of standard deviations, above 0 and at most {_MOST_SIGMAS:g}"
+    value = number(reading.problems, node, path, expected)
+    if value is not None and not 0.0 < value <= _MOST_SIGMAS:
+        reading.problems.add(node, path, f"{value:g} is out of range", expected)
+        return None
+    return value
+
+
+def read_robust(
+    reading: Reading, node: Node | None, tolerances: dict[str, Tolerance], *, searched: bool
+) -> Robust | None:
+    """Return in how many of the modules each limit must hold; every problem is noted.
+
+    `searched` says whether the study varies anything, without which there is no optimum to be robust.
+    """
+    expected = "{sigma: 3} or {yield: 99 %}"
+    found = entries(reading.problems, node, "robust", expected)
+    parts = unknown_keys(reading.problems, found, "robust", "key", ["sigma", "yield"])
+    if not parts:
+        return None
+    assert node is not None
+    if len(parts) == 2:
+        reading.problems.add(node, "robust", "both 'sigma' and 'yield'", expected)
+        return None
+    if not tolerances:
+        said = "there is nothing to be robust against: `tolerances` is missing"
+        reading.problems.add(node, "robust", said, "`tolerances: standard`, for one")
+    if not searched:
+        said = "nothing may change: `vary` is missing"
+        reading.problems.add(node, "robust", said, "both or neither", "`tvimdesign tolerate` evaluates as well")
+    if "sigma" in parts:
+        sigma = _sigmas(reading, parts["sigma"], "robust.sigma")
+        return None if sigma is None else Robust(sigma=sigma)
+    share = number(reading.problems, parts["yield"], "robust.yield", "a share such as 99 %")
+    if share is None:
+        return None
+    if not 0.5 < share < 1.0 - 1e-9:
+        reading.problems.add(parts["yield"], "robust.yield", f"{share:g} is out of range", "above 50 % and below 100 %")
+        return None
+    return Robust(sigma=NormalDist().inv_cdf(share), share=share)

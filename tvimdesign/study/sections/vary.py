@@ -1,0 +1,248 @@
+"""Reads the section `vary`: which inputs may change, and between what or among which values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from tvimdesign.base.units import format_quantity
+from tvimdesign.device import Choice, Input
+from tvimdesign.study.sections.sizes import read_sizes
+from tvimdesign.study.study import Options, Range, Vary
+from tvimdesign.study.text.mistakes import one_of, quoted, step
+from tvimdesign.study.text.values import (
+    ROUNDING,
+    Reading,
+    below,
+    choice,
+    entries,
+    expected_for,
+    in_unit,
+    misfit,
+    quantity,
+    unknown_keys,
+)
+from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
+
+MOST_OPTIONS = 200
+
+
+def read_vary(reading: Reading, node: Node | None) -> dict[str, Vary]:
+    """Return what may change by row; every problem is noted."""
+    rows: dict[str, Input | Choice] = {row.name: row for row in reading.table.inputs if row.variable}
+    rows |= {row.name: row for row in reading.table.choices}
+    found: dict[str, Vary] = {}
+    for name, (key, value) in entries(
+        reading.problems, node, "vary", "names of variables, each with a range or list"
+    ).items():
+        path = step("vary", name)
+        row = rows.get(name)
+        if row is not None:
+            read = _input(reading, value, path, row) if isinstance(row, Input) else _choice(reading, value, path, row)
+            found |= {} if read is None else {name: read}
+        elif name in reading.table.by_name:
+            message, hint = _fixed(reading, name)
+            reading.problems.add(key, path, message, one_of(list(rows)), hint)
+        else:
+            reading.unknown_row(key, path, "variable", name, rows)
+    return found
+
+
+def _fixed(reading: Reading, name: str) -> tuple[str, str]:
+    """Say why a row cannot be varied, and what to do instead."""
+    row = reading.table.by_name[name]
+    if not isinstance(row, Input):
+        return "is a result and cannot be varied", "limit it under `require`"
+    if row.per_point:
+        return "belongs to the operating points and cannot be varied", "give it under `operating_points`"
+    return "cannot be varied", "give it under `module`"
+
+
+def _input(reading: Reading, node: Node, path: str, row: Input) -> Vary | None:
+    expected = _forms(row)
+    if isinstance(node, Sequence):
+        return _pair(reading, node, path, row)
+    if not isinstance(node, Mapping) or not node.entries:
+        misfit(reading.problems, node, path, expected)
+        return None
+    kinds = [kind for kind in ("choose", "catalog") if kind in node.entries]
+    steps = row.integer or "step" in node.entries
+    span = ["from", "to", "step"] if steps else ["from", "to", "start"]
+    known = {"choose": ["choose"], "catalog": ["catalog", "from", "to"]}.get(kinds[0] if kinds else "", span)
+    before = len(reading.problems.found)
+    parts = unknown_keys(reading.problems, node.entries, path, f"key beside {kinds[0]!r}" if kinds else "key", known)
+    if len(reading.problems.found) > before:
+        return None
+    if "choose" in parts:
+        return _listed(reading, parts["choose"], path, row)
+    if "catalog" in parts:
+        return read_sizes(reading, parts, path, row)
+    return _steps(reading, node, parts, path, row) if steps else _span(reading, node, parts, path, row)
+
+
+def _forms(row: Input) -> str:
+    unit = "" if row.unit == "1" else f" {row.unit}"
+    if row.integer:
+        return "a list of whole numbers {choose: [3, 4, 6]} or {from: 3, to: 6}"
+    return (
+        f"a range [1{unit}, 2{unit}] or {{from: 1{unit}, to: 2{unit}}}, with a step, a list {{choose: [...]}} or "
+        "{catalog: ...}"
+    )
+
+
+def _pair(reading: Reading, node: Sequence, path: str, row: Input) -> Range | None:
+    if len(node.items) != 2:
+        found = f"a list of {len(node.items)} does not fit here" if node.items else "the list is empty"
+        reading.problems.add(node, path, found, _forms(row), "write several values as {choose: [...]}")
+        return None
+    lower, upper = (quantity(reading.problems, item, f"{path}[{i}]", row) for i, item in enumerate(node.items))
+    return _checked(reading, node, path, row, (lower, upper, None))
+
+
+def _span(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Range | None:
+    values = _ends(reading, node, parts, path, row)
+    if values is None:
+        return None
+    where = parts.get("start", node)
+    return _checked(reading, where, path, row, (values["from"], values["to"], values.get("start")))
+
+
+def _ends(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> dict[str, float] | None:
+    """The values of `from`, `to` and what stands beside them; None (and a problem) where one is missing or wrong."""
+    missing = [key for key in ("from", "to") if key not in parts]
+    if missing:
+        reading.problems.add(node, path, f"{' and '.join(map(repr, missing))} missing", _forms(row))
+    values = {key: quantity(reading.problems, value, f"{path}.{key}", row) for key, value in parts.items()}
+    read = {key: value for key, value in values.items() if value is not None}
+    return None if missing or len(read) < len(values) else read
+
+
+def _steps(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Options | None:
+    """Sizes evenly spaced between two ends, as quarters of a coil; whole things one by one unless said otherwise."""
+    place = parts.get("step", node)
+    width = 1.0
+    if "step" in parts:
+        read = in_unit(reading.problems, place, f"{path}.step", row.unit, expected_for(row))
+        if read is None or not _makes_steps(reading, place, f"{path}.step", row, read):
+            return None
+        width = read
+    values = _ends(reading, node, {key: parts[key] for key in ("from", "to") if key in parts}, path, row)
+    if values is None:
+        return None
+    lower, upper = values["from"], values["to"]
+    if below(upper, lower):
+        reading.problems.add(node, path, "the range is upside down", "from < to", "swap the two")
+        return None
+    count = int((upper - lower) / width * (1.0 + ROUNDING) + ROUNDING) + 1
+    if count > MOST_OPTIONS:
+        reading.problems.add(place, path, f"{count} sizes from end to end", f"1 to {MOST_OPTIONS}", "a longer step")
+        return None
+    return Options(values=tuple(lower + i * width for i in range(count)))
+
+
+def _makes_steps(reading: Reading, place: Node, path: str, row: Input, width: float) -> bool:
+    """Whether a step leads on, and from one whole thing to another where whole things are counted."""
+    if width <= 0.0:
+        reading.problems.add(place, path, "a step of that size leads nowhere", "a step above zero")
+    elif row.integer and not width.is_integer():
+        reading.problems.add(place, path, "counts whole things", "a whole step")
+    return width > 0.0 and (not row.integer or width.is_integer())
+
+
+def _checked(
+    reading: Reading, node: Node, path: str, row: Input, values: tuple[float | None, float | None, float | None]
+) -> Range | None:
+    lower, upper, start = values
+    if lower is None or upper is None:
+        return None
+    if row.integer:
+        reading.problems.add(node, path, "counts whole things, which a range cannot hold", _forms(row))
+    elif not below(lower, upper):
+        low, high = format_quantity(lower, row.unit), format_quantity(upper, row.unit)
+        found = f"the range ends where it begins, at {low}" if math.isclose(lower, upper, rel_tol=ROUNDING) else ""
+        hint = "to fix it, set it under `module`" if found else "swap the two"
+        reading.problems.add(node, path, found or f"the range is upside down: from {low} to {high}", "from < to", hint)
+    elif start is not None and (below(start, lower) or below(upper, start)):
+        low, high = format_quantity(lower, row.unit), format_quantity(upper, row.unit)
+        shown = format_quantity(start, row.unit)
+        reading.problems.add(node, f"{path}.start", f"{shown} lies outside the range", f"{low} to {high}")
+    else:
+        return Range(lower=lower, upper=upper, start=start)
+    return None
+
+
+def _choice(reading: Reading, node: Node, path: str, row: Choice) -> Options | None:
+    if not isinstance(node, Mapping) or list(node.entries) != ["choose"]:
+        misfit(reading.problems, node, path, "a list of names {choose: [...]}")
+        return None
+    return _listed(reading, node.entries["choose"][1], path, row)
+
+
+def _listed(reading: Reading, node: Node, path: str, row: Input | Choice) -> Options | None:
+    path = f"{path}.choose"
+    if not isinstance(node, Sequence):
+        misfit(reading.problems, node, path, "a list [..., ...]")
+        return None
+    if not 1 <= len(node.items) <= MOST_OPTIONS:
+        found = f"the list has {len(node.items)} values" if node.items else "the list is empty"
+        reading.problems.add(node, path, found, f"1 to {MOST_OPTIONS} values")
+        return None
+    values: list[float | str] = []
+    for index, item in enumerate(node.items):
+        where = f"{path}[{index}]"
+        read = (
+            quantity(reading.problems, item, where, row)
+            if isinstance(row, Input)
+            else choice(reading, item, where, row)
+        )
+        if read is not None and _has(values, read):
+            reading.problems.add(item, where, f"{_shown(item)} stands twice in the list", "each value once")
+        elif read is not None:
+            values.append(read)
+    return Options(values=tuple(values)) if len(values) == len(node.items) else None
+
+
+def check_against_module(
+    reading: Reading, vary: dict[str, Vary], module: dict[str, float | str], node: Node | None
+) -> None:
+    """Note each value under `module` that lies outside what `vary` allows for the same row."""
+    values = node.entries if isinstance(node, Mapping) else {}
+    for name in [name for name in vary if name in module and name in values]:
+        allowed, value, place, row = vary[name], module[name], values[name][1], reading.table.by_name[name]
+        if isinstance(allowed, Options) and isinstance(value, str) and value not in allowed.values:
+            span = " or ".join(str(option) for option in allowed.values)
+        elif isinstance(value, float) and isinstance(row, Input):
+            numbers = (allowed.lower, allowed.upper) if isinstance(allowed, Range) else _numbers(allowed.values)
+            low, high = min(numbers), max(numbers)
+            if not below(value, low) and not below(high, value):
+                continue
+            span = f"{format_quantity(low, row.unit)} to {format_quantity(high, row.unit)}"
+        else:
+            continue
+        found = f"{_shown(place)} lies outside what `vary` allows, where it would be the start"
+        reading.problems.add(place, step("module", name), found, span, "widen the range or change the value")
+
+
+def with_start(vary: dict[str, Vary], module: dict[str, float | str]) -> dict[str, Vary]:
+    """Give each range without a start of its own the value under `module`."""
+    started = dict(vary)
+    for name, allowed in vary.items():
+        value = module.get(name)
+        if isinstance(allowed, Range) and allowed.start is None and isinstance(value, float):
+            inside = min(max(value, allowed.lower), allowed.upper)
+            started[name] = allowed.model_copy(update={"start": inside})
+    return started
+
+
+def _numbers(values: Iterable[float | str]) -> list[float]:
+    return [value for value in values if isinstance(value, float)]
+
+
+def _has(values: list[float | str], value: float | str) -> bool:
+    if isinstance(value, str):
+        return value in values
+    return any(isinstance(other, float) and math.isclose(other, value, rel_tol=ROUNDING) for other in values)
+
+
+def _shown(node: Node) -> str:
+    return quoted(node.value) if isinstance(node, Text) else "the value"

@@ -1,0 +1,128 @@
+"""What is wrong with a study: each problem with its place in the file, and all of them as one error."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from typing import Protocol
+
+from tvimdesign.base.errors import InputError
+
+MOST_SHOWN = 50
+"""How many problems an error prints; the rest is counted."""
+_MOST_NAMES = 12
+_LONGEST_WORD = 64
+
+
+class Place(Protocol):
+    """Anything with a line and a column, counted from 1."""
+
+    @property
+    def line(self) -> int:
+        """Line in the file, from 1; 0 where the file as a whole is meant."""
+
+    @property
+    def column(self) -> int:
+        """Column in the line, from 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """A place in the file, counted from 1; line 0 is the file as a whole."""
+
+    line: int
+    column: int
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong: where, what, what was expected instead, and what may help."""
+
+    file: str
+    line: int
+    column: int
+    path: str
+    message: str
+    expected: str = ""
+    hint: str = ""
+
+    def __str__(self) -> str:
+        """One line: `file:line:column: path: message; expected ...; hint`."""
+        place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
+        what = f"{self.path}: {self.message}" if self.path else self.message
+        expected = f"expected {self.expected}" if self.expected else ""
+        return f"{place}: " + "; ".join(part for part in (what, expected, self.hint) if part)
+
+
+class StudyError(InputError):
+    """A study cannot be used; holds every problem found, in the order of the file."""
+
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        """Sort the problems by their place in the file."""
+        self.problems = tuple(sorted(problems, key=lambda problem: (problem.file, problem.line, problem.column)))
+        super().__init__(self.problems)
+
+    def __str__(self) -> str:
+        """The problems, one a line, at most MOST_SHOWN of them."""
+        lines = [str(problem) for problem in self.problems[:MOST_SHOWN]]
+        if len(self.problems) > MOST_SHOWN:
+            lines.append(f"... and {len(self.problems) - MOST_SHOWN} more")
+        return "\n".join(lines)
+
+
+@dataclass
+class Problems:
+    """The list that grows while a study is read."""
+
+    file: str
+    found: list[Problem] = field(default_factory=list)
+
+    def add(self, place: Place, path: str, message: str, expected: str = "", hint: str = "") -> None:
+        """Note one problem."""
+        one_line = "; ".join(message.splitlines())
+        self.found.append(Problem(self.file, place.line, place.column, path, one_line, expected, hint))
+
+    def unknown(self, place: Place, path: str, what: str, word: str, known: Iterable[str]) -> None:
+        """Note a word that is none of the known ones, with the nearest of them."""
+        names = list(known)
+        hint = did_you_mean(word, names) if len(self.found) < MOST_SHOWN else ""
+        self.add(place, path, f"no such {what}", one_of(names), hint)
+
+    def stop(self) -> None:
+        """Raise what was found, if anything was."""
+        if self.found:
+            raise StudyError(self.found)
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """Return `did you mean 'x'?` for the known name nearest to the word, or nothing where none is near."""
+    if len(word) > _LONGEST_WORD:
+        return ""
+    names, spelt = list(known), word.lower().replace(" ", "_").replace("-", "_")
+    near = get_close_matches(spelt, names, n=1, cutoff=0.6)
+    if not near and len(spelt) > 2:
+        near = [name for name in names if spelt in name][:1]
+    return f"did you mean {near[0]!r}?" if near else ""
+
+
+def one_of(names: list[str]) -> str:
+    """Write the names as `one of a, b, c`, shortened where there are many."""
+    if not names:
+        return "none: there are no names to choose from"
+    if len(names) == 1:
+        return repr(names[0])
+    more = f", ... ({len(names)} in all)" if len(names) > _MOST_NAMES else ""
+    return "one of " + ", ".join(names[:_MOST_NAMES]) + more
+
+
+def quoted(text: str) -> str:
+    """Write a piece of the user's text in quotes, on one line, shortened; `repr` escapes what a terminal would obey."""
+    return repr(text if len(text) <= _LONGEST_WORD else text[: _LONGEST_WORD - 3] + "...")
+
+
+def step(path: str, word: str) -> str:
+    """Append a key to a path; a key that is not a plain word is quoted."""
+    shown = word if re.fullmatch(r"[A-Za-z0-9_@-]{1,64}", word) else quoted(word)
+    return f"{path}.{shown}" if path else shown

@@ -1,0 +1,81 @@
+"""From a path to text that is safe to read: an ordinary file of a study's size, UTF-8, without control characters."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.study.text.mistakes import At, Problem, Problems, StudyError, did_you_mean
+from tvimdesign.study.text.named_file import ordinary_bytes, printable
+
+MOST_BYTES = 1_000_000
+CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufffe\uffff\ufeff]")
+_TAB_INDENT = re.compile(r"^ *\t", re.MULTILINE)
+
+
+def read_text(path: Path, problems: Problems) -> str:
+    """Return the text of a file; raises InputError, in words, where it is no file that could be a study."""
+    return _decode(_bytes(path), problems)
+
+
+def _decode(raw: bytes, problems: Problems) -> str:
+    """Return the text of the bytes; raises StudyError where they are too many, not UTF-8 or hold control characters."""
+    whole = At(0, 0)
+    if len(raw) > MOST_BYTES:
+        problems.add(whole, "", _too_big(len(raw)))
+        problems.stop()
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = raw[: error.start]
+        place = At(before.count(b"\n") + 1, error.start - (before.rfind(b"\n") + 1) + 1)
+        kind = "UTF-16 text" if raw[:2] in {b"\xff\xfe", b"\xfe\xff"} else f"byte 0x{raw[error.start]:02x} is no text"
+        problems.add(place, "", f"the file is not UTF-8 text ({kind})", "a study in YAML", "save it as UTF-8")
+        problems.stop()
+    return check_characters(text, problems)
+
+
+def _too_big(size: int) -> str:
+    """Say that a file of this size [bytes] is too large for a study."""
+    return f"the file has {size / 1e6:.3g} MB, a study at most {MOST_BYTES / 1e6:.0f} MB; give the path of a study"
+
+
+def check_characters(text: str, problems: Problems) -> str:
+    """Return the text; raises StudyError where it is too long or holds characters that no study has."""
+    if len(text) > MOST_BYTES:
+        problems.add(At(0, 0), "", _too_big(len(text)))
+    elif odd := CONTROL.search(text):
+        problems.add(_place(text, odd.start()), "", f"control character U+{ord(odd[0]):04X}", "plain text", "remove it")
+    elif tab := _TAB_INDENT.search(text):
+        problems.add(
+            _place(text, tab.end() - 1), "", "a tab at the start of a line", "spaces: YAML indents with spaces"
+        )
+    problems.stop()
+    return text
+
+
+def _bytes(path: Path) -> bytes:
+    """Return the bytes of an ordinary file of a study's size; raises InputError, in words, for anything else."""
+    shown = printable(path)
+    try:
+        return ordinary_bytes(
+            path,
+            MOST_BYTES,
+            "a study file (YAML)",
+            lambda size: StudyError([Problem(shown, 0, 0, "", _too_big(size))]),
+        )
+    except FileNotFoundError:
+        raise InputError(f"{shown}: no such file; {_similar(path) or '`tvimdesign new` writes a study'}") from None
+
+
+def _similar(path: Path) -> str:
+    try:
+        return did_you_mean(path.name, [file.name for file in path.parent.glob("*.y*ml")])
+    except (OSError, ValueError):
+        return ""
+
+
+def _place(text: str, index: int) -> At:
+    start = text.rfind("\n", 0, index) + 1
+    return At(text.count("\n", 0, index) + 1, index - start + 1)

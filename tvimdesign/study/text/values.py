@@ -1,0 +1,211 @@
+"""Reads single values: a quantity, a whole number, true or false, the name of a record."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from tvimdesign.base.errors import CatalogError, UnitError
+from tvimdesign.base.units import format_quantity, parse_quantity
+from tvimdesign.catalog import Catalog, Record
+from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
+from tvimdesign.study.text.mistakes import Place, Problems, quoted, step
+from tvimdesign.study.text.yaml_text import Broken, Mapping, Node, Sequence, Text
+
+LONGEST_VALUE = 200
+ROUNDING = 1e-9
+"""Relative difference below which two quantities are the same: 3.2 mm may be read as 0.0032000000000000001 m."""
+_WHOLE = re.compile(r"0|-?[1-9][0-9]{0,17}")
+_OCTAL = re.compile(r"[+-]?0[0-9]")
+_FLAGS = {"true": True, "True": True, "false": False, "False": False}
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What the sections are read against, and where their problems go."""
+
+    problems: Problems
+    mode: str
+    table: Table
+    catalog: Catalog
+
+    def unknown_row(self, place: Place, path: str, what: str, name: str, known: Iterable[str]) -> None:
+        """Note a name that is no such row; of a row that only another mode has, which one."""
+        others = [mode for mode in MODES if mode != self.mode and _has(mode, name)]
+        if others and not _has(self.mode, name):
+            self.problems.add(place, path, f"{name} is of {others[0]} mode, this study is {self.mode} mode")
+        else:
+            self.problems.unknown(place, path, what, name, known)
+
+
+def _has(mode: str, name: str) -> bool:
+    """Whether a mode has a row of that name that a study may say."""
+    row = table_for(mode).by_name.get(name)
+    return row is not None and not (isinstance(row, Output) and row.hidden)
+
+
+def entries(problems: Problems, node: Node | None, path: str, expected: str) -> dict[str, tuple[Text, Node]]:
+    """Return a section's keys and values; a missing or empty section has none."""
+    if isinstance(node, Mapping):
+        return node.entries
+    if node is not None and not (isinstance(node, Text) and node.empty):
+        misfit(problems, node, path, expected)
+    return {}
+
+
+def misfit(problems: Problems, node: Node, path: str, expected: str) -> None:
+    """Note that a node has the wrong shape, or nothing where that was noted already."""
+    if isinstance(node, Broken):
+        return
+    if isinstance(node, Text):
+        found = "no value" if node.empty else f"the value {quoted(node.value)}"
+    else:
+        found = "a list" if isinstance(node, Sequence) else "a mapping (name: value)"
+    problems.add(node, path, f"{found} does not fit here", expected)
+
+
+def text(problems: Problems, node: Node, path: str, expected: str) -> str | None:
+    """Return the text of a scalar, None (and a problem) where there is none or it is over-long."""
+    if not isinstance(node, Text) or node.empty:
+        misfit(problems, node, path, expected)
+        return None
+    if len(node.value) > LONGEST_VALUE:
+        found = f"{quoted(node.value)} has {len(node.value)} characters, the limit is {LONGEST_VALUE}"
+        problems.add(node, path, found, expected)
+        return None
+    return node.value.strip()
+
+
+def whole(problems: Problems, node: Node, path: str) -> int | None:
+    """Return a whole number written in plain digits."""
+    expected = "a whole number in plain digits"
+    word = text(problems, node, path, expected)
+    if word is None:
+        return None
+    if not _WHOLE.fullmatch(word):
+        misfit(problems, node, path, expected)
+        return None
+    return int(word)
+
+
+def flag(problems: Problems, node: Node, path: str) -> bool | None:
+    """Return true or false; YAML's other words for them (yes, on) are refused, as they surprise."""
+    word = text(problems, node, path, "true or false")
+    if word is not None and word not in _FLAGS:
+        misfit(problems, node, path, "true or false")
+    return _FLAGS.get(word or "")
+
+
+def number(problems: Problems, node: Node, path: str, expected: str = "a number") -> float | None:
+    """Return a number without a unit."""
+    return in_unit(problems, node, path, "1", expected)
+
+
+def in_unit(problems: Problems, node: Node, path: str, unit: str, expected: str) -> float | None:
+    """Return the SI value of a quantity that must have the dimension of `unit`."""
+    word = text(problems, node, path, expected)
+    if word is None:
+        return None
+    return si_value(problems, node, path, word, unit)
+
+
+def si_value(problems: Problems, node: Node, path: str, word: str, unit: str) -> float | None:
+    """Return the SI value of a word that stands in a node, None (and a problem) where it is no such quantity."""
+    if _OCTAL.match(word):
+        problems.add(node, path, f"{quoted(word)} starts with a zero, which some read as octal", hint="leave it out")
+        return None
+    try:
+        return parse_quantity(word, unit)
+    except UnitError as error:
+        problems.add(node, path, str(error))
+        return None
+
+
+def quantity(problems: Problems, node: Node, path: str, row: Input) -> float | None:
+    """Return the SI value of an input, which must lie within the row's own limits."""
+    value = in_unit(problems, node, path, row.unit, expected_for(row))
+    if value is None:
+        return None
+    shown = quoted(node.value.strip()) if isinstance(node, Text) else ""
+    if row.integer and not value.is_integer():
+        problems.add(node, path, f"{shown} is not a whole number", "a whole number")
+        return None
+    if below(value, row.lower):
+        problems.add(
+            node, path, f"{shown} is below the lower limit {format_quantity(row.lower, row.unit)}", limits(row)
+        )
+        return None
+    if below(row.upper, value):
+        problems.add(
+            node, path, f"{shown} is above the upper limit {format_quantity(row.upper, row.unit)}", limits(row)
+        )
+        return None
+    return value
+
+
+def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
+    """Return the name of a record that is on the row's shelf, or one of the row's options."""
+    word = text(reading.problems, node, path, "the name of a record" if row.shelf else "one of the options")
+    if word is None:
+        return None
+    if word in row.options:
+        return word
+    if row.shelf:
+        found = record(reading, node, path, row.shelf, word)
+        return word if found and _fits(reading, node, path, row, found) else None
+    reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
+    return None
+
+
+def _fits(reading: Reading, node: Node, path: str, row: Choice, found: Record) -> bool:
+    """Whether a record is of the kind the row takes; a problem where it is not."""
+    if row.only is None:
+        return True
+    key, wanted, reason = row.only
+    value = found.words.get(key, "not said")
+    if value == wanted:
+        return True
+    reading.problems.add(node, path, f"{found.name} has the {key} {value}; {reason}", f"a record with {key}: {wanted}")
+    return False
+
+
+def record(reading: Reading, node: Node, path: str, shelf: str, name: str) -> Record | None:
+    """Return a record of the catalogue, None (and a problem) where there is none or its file is wrong."""
+    try:
+        known = reading.catalog.names(shelf)
+        if name in known:
+            return reading.catalog.record(shelf, name)
+        reading.problems.unknown(node, path, f"record on the shelf {shelf}: {quoted(name)}", name, known)
+    except CatalogError as error:
+        reading.problems.add(node, path, str(error))
+    return None
+
+
+def below(value: float, limit: float) -> bool:
+    """Whether a value lies below a limit by more than rounding."""
+    return value < limit - ROUNDING * abs(limit) if math.isfinite(limit) else value < limit
+
+
+def expected_for(row: Input) -> str:
+    """What to write for an input."""
+    return ("a whole number" if row.integer else "a number") if row.unit == "1" else f"a quantity in {row.unit}"
+
+
+def limits(row: Input) -> str:
+    """The span an input may have, in its own unit."""
+    lower, upper = (format_quantity(limit, row.unit) for limit in (row.lower, row.upper))
+    if math.isinf(row.upper):
+        return f"at least {lower}"
+    return f"at most {upper}" if math.isinf(row.lower) else f"{lower} to {upper}"
+
+
+def unknown_keys(
+    problems: Problems, found: dict[str, tuple[Text, Node]], path: str, what: str, known: list[str]
+) -> dict[str, Node]:
+    """Return the values of the known keys; every other key is a problem."""
+    for name, (key, _) in found.items():
+        if name not in known:
+            problems.unknown(key, step(path, name), what, name, known)
+    return {name: value for name, (_, value) in found.items() if name in known}

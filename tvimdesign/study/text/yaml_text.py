@@ -1,0 +1,219 @@
+"""From YAML text to nodes that know their place, with the caps that keep a hostile file harmless.
+
+Nothing is constructed and nothing is recursive: the parser's events are stacked into three kinds of node, and a scalar
+stays the text it was written as, so `on`, `010`, `1:30` and `1e400` have no second meaning here.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import yaml
+
+from tvimdesign.study.text.mistakes import At, Place, Problems, quoted, step
+from tvimdesign.study.text.source import CONTROL
+
+MOST_NODES = 10_000
+DEEPEST = 20
+_TAGS = {
+    "text": {"str", "int", "float", "bool", "null"},
+    "list": {"seq"},
+    "map": {"map"},
+}
+_TAG_PREFIX = "tag:yaml.org,2002:"
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A scalar, as written; `plain` says it stood without quotes."""
+
+    line: int
+    column: int
+    value: str
+    plain: bool = True
+
+    @property
+    def empty(self) -> bool:
+        """Whether nothing was written, or YAML's word for nothing."""
+        return self.plain and self.value in {"", "~", "null"}
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence:
+    """A list."""
+
+    line: int
+    column: int
+    items: list[Node] = field(default_factory=list)
+
+
+@dataclass(frozen=True, slots=True)
+class Mapping:
+    """Keys and values, in the file's order; no key stands twice."""
+
+    line: int
+    column: int
+    entries: dict[str, tuple[Text, Node]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Broken:
+    """What was refused already, so that nothing more is said about it."""
+
+    line: int
+    column: int
+
+
+Node: TypeAlias = Text | Sequence | Mapping | Broken
+
+
+def compose(text: str, problems: Problems) -> Node:
+    """Turn YAML text into one node, noting every problem of form; raises StudyError where it cannot go on."""
+    builder = _Builder(problems)
+    try:
+        for event in _events(text):
+            builder.take(event)
+    except yaml.YAMLError as error:
+        _note_syntax(error, text, problems)
+        problems.stop()
+    if builder.root is None or (isinstance(builder.root, Text) and builder.root.empty):
+        problems.add(At(0, 0), "", "the study is empty", hint="`tvimdesign new` writes a commented one")
+        problems.stop()
+    assert builder.root is not None
+    return builder.root
+
+
+def _events(text: str) -> Iterator[Any]:
+    yield from yaml.parse(text, Loader=_LOADER)
+
+
+@dataclass
+class _Open:
+    """A list or a mapping whose end has not come yet; a mapping's children are key, value, key, value."""
+
+    kind: str
+    place: At
+    children: list[Node] = field(default_factory=list)
+
+
+@dataclass
+class _Builder:
+    """Stacks events into nodes."""
+
+    problems: Problems
+    root: Node | None = None
+    stack: list[_Open] = field(default_factory=list)
+    nodes: int = 0
+
+    def take(self, event: Any) -> None:
+        """Take one event of the parser."""
+        place = At(event.start_mark.line + 1, event.start_mark.column + 1)
+        match event:
+            case yaml.DocumentStartEvent() if self.root is not None:
+                self.problems.add(place, "", "a second YAML document starts here", "one study a file")
+                self.problems.stop()
+            case yaml.AliasEvent():
+                self._refuse(place, f"the alias {quoted(f'*{event.anchor}')}", "the value itself: write it out")
+            case yaml.ScalarEvent():
+                self._scalar(event, place)
+            case yaml.CollectionStartEvent():
+                self._start(event, place)
+            case yaml.CollectionEndEvent():
+                self._close(self.stack.pop())
+
+    def _scalar(self, event: Any, place: At) -> None:
+        odd = CONTROL.search(event.value)
+        if not self._tag_allowed(event, "text", place):
+            self._add(Broken(place.line, place.column))
+        elif odd:
+            self._refuse(place, f"control character U+{ord(odd[0]):04X}", "plain text")
+        else:
+            self._add(Text(place.line, place.column, event.value, plain=event.style is None or event.style == ""))
+
+    def _start(self, event: Any, place: At) -> None:
+        kind = "list" if isinstance(event, yaml.SequenceStartEvent) else "map"
+        if not self._tag_allowed(event, kind, place):
+            kind = "broken"
+        self.stack.append(_Open(kind, place))
+        if len(self.stack) > DEEPEST:
+            self.problems.add(place, "", f"nested deeper than {DEEPEST} levels", "the few levels of a study")
+            self.problems.stop()
+
+    def _tag_allowed(self, event: Any, kind: str, place: At) -> bool:
+        tag = event.tag
+        if tag is None or (tag.startswith(_TAG_PREFIX) and tag.removeprefix(_TAG_PREFIX) in _TAGS[kind]):
+            return True
+        shown = tag.replace(_TAG_PREFIX, "!!", 1)
+        self.problems.add(place, self._path(), f"the tag {quoted(shown)} is not allowed", "a plain value without a tag")
+        return False
+
+    def _refuse(self, place: At, message: str, expected: str) -> None:
+        self.problems.add(place, self._path(), message, expected)
+        self._add(Broken(place.line, place.column))
+
+    def _add(self, node: Node) -> None:
+        self.nodes += 1
+        if self.nodes > MOST_NODES:
+            self.problems.add(node, "", f"more than {MOST_NODES} values", "a study, which has some dozens")
+            self.problems.stop()
+        if self.stack:
+            self.stack[-1].children.append(node)
+        else:
+            self.root = node
+
+    def _close(self, done: _Open) -> None:
+        line, column = done.place.line, done.place.column
+        if done.kind == "broken":
+            self._add(Broken(line, column))
+        elif done.kind == "list":
+            self._add(Sequence(line, column, done.children))
+        else:
+            self._add(Mapping(line, column, self._entries(done.children)))
+
+    def _entries(self, children: list[Node]) -> dict[str, tuple[Text, Node]]:
+        entries: dict[str, tuple[Text, Node]] = {}
+        for key, value in zip(children[::2], children[1::2], strict=True):
+            path = self._path()
+            if not isinstance(key, Text):
+                if not isinstance(key, Broken):
+                    self.problems.add(key, path, "a list or a mapping as a key", "a name")
+            elif key.plain and key.value == "<<":
+                self.problems.add(key, path, "a merge key `<<`", "the values themselves: write them out")
+            elif key.value in entries:
+                first = entries[key.value][0].line
+                self.problems.add(key, step(path, key.value), f"given twice, first in line {first}", "one of the two")
+            else:
+                entries[key.value] = (key, value)
+        return entries
+
+    def _path(self) -> str:
+        """The keys that lead to what is being read."""
+        path = ""
+        for level in self.stack:
+            last = level.children[-1] if level.kind == "map" and len(level.children) % 2 else None
+            path = step(path, last.value) if isinstance(last, Text) else path
+        return path
+
+
+_REMEDIES = (
+    (r":\s*['\"]?[<>]=?", "block scalar", 'put a limit in quotes: ">= 5 N.m/rad"'),
+    (r"", "mapping values are not allowed", "check the indentation, and put a text with ': ' in it in quotes"),
+    (r"", "could not find expected ':'", "write 'name: value', with a space after the colon"),
+    (r"", "did not find expected key", "check the indentation of this line and the ones before"),
+    (r"", "cannot start any token", "put the value in quotes"),
+)
+
+
+def _note_syntax(error: yaml.YAMLError, text: str, problems: Problems) -> None:
+    """Note the parser's complaint at its place, with what usually helps."""
+    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+    said = " ".join(str(part) for part in (getattr(error, "context", ""), getattr(error, "problem", "")) if part)
+    place: Place = At(mark.line + 1, mark.column + 1) if mark else At(0, 0)
+    lines = text.splitlines()
+    line = lines[place.line - 1] if 0 < place.line <= len(lines) else ""
+    hint = next((remedy for sign, words, remedy in _REMEDIES if words in said and re.search(sign, line)), "")
+    problems.add(place, "", f"not valid YAML ({said or 'unreadable'})", hint=hint)

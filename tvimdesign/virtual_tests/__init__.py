@@ -1,0 +1,1 @@
+"""Virtual tests of the polymer and of the joint, as a laboratory would run them."""

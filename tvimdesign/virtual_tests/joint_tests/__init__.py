@@ -1,0 +1,1 @@
+"""Tests of the whole joint: released, turned as a sine or a step, loaded through a cycle."""
