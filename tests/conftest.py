@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 from support import ROOT, Command
 
+pytest_plugins = ["shear_designs"]
+
 # What the benchmarks have written for numba is tested as plain Python: compiling it takes longer than all else.
 os.environ["NUMBA_DISABLE_JIT"] = "1"
 
@@ -18,9 +20,9 @@ LONGEST = (
     "test_studies_as_parts.py",
     "test_cad_make.py",
     "test_studies.py",
-    "test_choosing.py",
+    "test_discrete_choices.py",
     "test_compare.py",
-    "test_cad_work.py",
+    "test_worker_and_cache.py",
     "test_cad_mounts.py",
     "test_front.py",
     "test_stiffening.py",

@@ -9,7 +9,7 @@ import pytest
 from support import Command
 
 from tvimdesign.report.simulate_study import figure_data, findings, sheet_csv
-from tvimdesign.virtual_tests.test_result import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
 
 SHEET = Sheet(
     "warm",

@@ -25,7 +25,7 @@ from tvimdesign.simulation.resolved_module import Rig, rig_for, rig_of_design
 from tvimdesign.study import Study, read_study
 from tvimdesign.study.design import read_design
 from tvimdesign.virtual_tests.registry import find_test
-from tvimdesign.virtual_tests.test_result import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
 
 
 def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json: bool) -> None:
@@ -42,7 +42,7 @@ def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json
         trial = do(rig)
         trial = replace(trial, notes=(module, *trial.notes))
         if drawing:
-            drawing.begin(folder.path, [Drawing(trial.test, "test_figures.trial", figure_data(trial))])
+            drawing.begin(folder.path, [Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))])
         told = findings(trial)
         folder.write(f"tested{source.suffix}", source.read_bytes())
         folder.write_json("findings.json", told)

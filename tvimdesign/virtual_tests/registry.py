@@ -11,7 +11,7 @@ from tvimdesign.base.errors import InputError
 
 if TYPE_CHECKING:  # the command line lists the tests, and must not load numpy for that
     from tvimdesign.simulation.resolved_module import Rig
-    from tvimdesign.virtual_tests.test_result import Trial
+    from tvimdesign.virtual_tests.trial import Trial
 
 TESTS: dict[str, str] = {
     "frequency": "tvimdesign.virtual_tests.rheometer.oscillation:frequency",

@@ -1,7 +1,7 @@
 """The torsion springs in the module: their rate, what they are to the output, and what they bear.
 
-Each function is a row of the table; its parameters are the rows it needs (see device/table/quantity.py). Kinematics are those of
-a right-hand spring, which winds up when the rotor turns in its negative sense; the other hand is its mirror image.
+Each function is a row of the table; its parameters are the rows it needs (see device/table/quantity.py). Kinematics are
+those of a right-hand spring, which winds up when the rotor turns in its negative sense; the other hand is its mirror image.
 """
 
 from __future__ import annotations

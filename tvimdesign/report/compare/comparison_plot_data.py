@@ -19,7 +19,7 @@ def drawings(outcome: Outcome) -> list[Drawing]:
     if outcome.fronts:
         found.append(Drawing("fronts", "comparison_figures.fronts", _fronts(outcome)))
     if any("release" in answer for answer in outcome.found.values()):
-        found.append(Drawing("release", "test_figures.trial", _release(outcome)))
+        found.append(Drawing("release", "virtual_test_figures.trial", _release(outcome)))
     if any("heat" in answer for answer in outcome.found.values()):
         found.append(Drawing("heat", "comparison_figures.heat", _heat(outcome)))
     return found

@@ -8,12 +8,12 @@ import numpy as np
 
 from tvimdesign.physics import one_sided
 from tvimdesign.physics.one_sided import Blocks
-from tvimdesign.virtual_tests.joint_tests.test_case import Case
+from tvimdesign.virtual_tests.joint_tests.case import Case
 from tvimdesign.virtual_tests.link_motion import contact, link
 from tvimdesign.virtual_tests.link_motion.contact_simulation import OneSided
 from tvimdesign.virtual_tests.link_motion.linear_system import Stretch
 from tvimdesign.virtual_tests.link_motion.link import Array, Motion
-from tvimdesign.virtual_tests.test_result import Column, Sheet
+from tvimdesign.virtual_tests.trial import Column, Sheet
 
 
 def blocks_of(case: Case) -> Blocks:

@@ -12,7 +12,7 @@ from tvimdesign.physics import motion, polymer, slices
 from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import Model
 from tvimdesign.simulation.resolved_module import Rig
-from tvimdesign.virtual_tests.joint_tests.test_case import joint_of
+from tvimdesign.virtual_tests.joint_tests.case import joint_of
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-6

@@ -11,7 +11,7 @@ from tvimdesign.device.table.quantity import TOUCHING
 from tvimdesign.physics.one_sided import Touching
 from tvimdesign.simulation.resolved_module import Rig
 from tvimdesign.virtual_tests.joint_tests import joint_motion
-from tvimdesign.virtual_tests.joint_tests.test_case import (
+from tvimdesign.virtual_tests.joint_tests.case import (
     Case,
     cases,
     finding,
@@ -22,7 +22,7 @@ from tvimdesign.virtual_tests.joint_tests.test_case import (
 from tvimdesign.virtual_tests.link_motion import link
 from tvimdesign.virtual_tests.link_motion.contact_simulation import TURNS_OF_A_SWING, OneSided, turns_of
 from tvimdesign.virtual_tests.link_motion.link import Array, Motion
-from tvimdesign.virtual_tests.test_result import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
 
 ANGLE = 0.1  # rad, the paper's perturbation
 SETTLED = 0.05  # share of the angle within which the link counts as back

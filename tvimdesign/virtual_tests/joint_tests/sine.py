@@ -9,7 +9,7 @@ import numpy as np
 
 from tvimdesign.simulation.resolved_module import Rig
 from tvimdesign.virtual_tests.joint_tests import joint_motion
-from tvimdesign.virtual_tests.joint_tests.test_case import (
+from tvimdesign.virtual_tests.joint_tests.case import (
     Case,
     cases,
     finding,
@@ -19,7 +19,7 @@ from tvimdesign.virtual_tests.joint_tests.test_case import (
 )
 from tvimdesign.virtual_tests.link_motion.contact_simulation import OneSided
 from tvimdesign.virtual_tests.link_motion.link import Array, Motion
-from tvimdesign.virtual_tests.test_result import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
 
 PERIODS = 10
 SAMPLES = 240  # of one period

@@ -9,6 +9,14 @@ import numpy as np
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.resolved_module import Rig
 from tvimdesign.virtual_tests.joint_tests import joint_motion
+from tvimdesign.virtual_tests.joint_tests.case import (
+    Case,
+    cases,
+    finding,
+    notes_for,
+    overload_notes,
+    with_paper_points,
+)
 from tvimdesign.virtual_tests.joint_tests.load_through_cycle import (
     Carried,
     SliceHistory,
@@ -17,17 +25,9 @@ from tvimdesign.virtual_tests.joint_tests.load_through_cycle import (
     slice_histories,
     support_of,
 )
-from tvimdesign.virtual_tests.joint_tests.test_case import (
-    Case,
-    cases,
-    finding,
-    notes_for,
-    overload_notes,
-    with_paper_points,
-)
 from tvimdesign.virtual_tests.link_motion.contact_simulation import OneSided
 from tvimdesign.virtual_tests.link_motion.linear_system import doubling
-from tvimdesign.virtual_tests.test_result import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
 
 RISE = 0.01  # s
 WATCHED = 100.0  # s

@@ -10,7 +10,7 @@ import numpy as np
 
 from tvimdesign.physics.simple_bodies import Body, KelvinVoigt, Maxwell, StandardLinearSolid
 from tvimdesign.virtual_tests.rheometer.specimen import Specimen, State
-from tvimdesign.virtual_tests.test_result import Array, Column, Finding, Sheet
+from tvimdesign.virtual_tests.trial import Array, Column, Finding, Sheet
 
 BODIES: dict[str, type[Any]] = {
     "kelvin_voigt": KelvinVoigt,

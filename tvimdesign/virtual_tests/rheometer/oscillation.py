@@ -13,7 +13,7 @@ from tvimdesign.simulation.melt_history import frozen_on_cooling
 from tvimdesign.simulation.resolved_module import Rig
 from tvimdesign.virtual_tests.rheometer.model_reduction import TITLES, Comparison, compare, parameters
 from tvimdesign.virtual_tests.rheometer.specimen import Specimen, State, at_fraction, history_note, specimen, specimens
-from tvimdesign.virtual_tests.test_result import Array, Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Array, Column, Finding, Line, Panel, Sheet, Trial
 
 SMALL_STRAIN = 1e-4
 """Strain of the frequency and temperature sweeps: the paper's 0.01 %."""

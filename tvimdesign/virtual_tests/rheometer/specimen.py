@@ -17,7 +17,7 @@ from tvimdesign.physics.viscoelasticity import check_rising, check_spectrum
 from tvimdesign.simulation.melt_history import HISTORIES, fractions_at, melting_range
 from tvimdesign.simulation.resolved_module import Rig
 from tvimdesign.study.study import STANDARD_POINTS
-from tvimdesign.virtual_tests.test_result import Array, Column, Finding, Line
+from tvimdesign.virtual_tests.trial import Array, Column, Finding, Line
 
 PAPER = (303.15, 333.15, 373.15)
 """The temperatures of the paper's rheometer tests [K]."""

@@ -11,7 +11,7 @@ from tvimdesign.physics.simple_bodies import Body
 from tvimdesign.simulation.resolved_module import Rig
 from tvimdesign.virtual_tests.rheometer.model_reduction import TITLES, Comparison, compare, parameters
 from tvimdesign.virtual_tests.rheometer.specimen import Specimen, State, history_note, specimens
-from tvimdesign.virtual_tests.test_result import Array, Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Array, Column, Finding, Line, Panel, Sheet, Trial
 
 STRESS = 50.0  # Pa, the paper's
 LOADED = 300.0  # s, the paper's

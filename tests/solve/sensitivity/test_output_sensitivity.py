@@ -119,7 +119,7 @@ def test_the_compression_module_is_differentiated_alike() -> None:
 @pytest.mark.parametrize("name", ["block_height", "pcl_outer_radius"])
 def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -> None:
     """Newton's whole steps do not converge there; shorter ones do."""
-    study = read_study(Path(__file__).parents[2] / "studies" / "wrist_compression.yaml")
+    study = read_study(Path(__file__).parents[3] / "studies" / "wrist_compression.yaml")
     rig = rig_for(study, Catalog(), table_for(study.mode))
     elements, cells = FINER * study.solver.elements, study.solver.cells
     by = _logarithmic(elasticities(rig, elements, cells, ["frozen_time"], [name]), rig)

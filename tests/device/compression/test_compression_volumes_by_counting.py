@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from counting import Array, count, near, stack_up
 from numpy.typing import NDArray
-from test_volumes_by_counting import Array, count, near, stack_up
 
 from tvimdesign.device import table_for
 

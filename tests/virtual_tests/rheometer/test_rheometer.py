@@ -18,7 +18,7 @@ from tvimdesign.study import read_study_text
 from tvimdesign.virtual_tests.registry import TESTS, find_test
 from tvimdesign.virtual_tests.rheometer import oscillation, transient
 from tvimdesign.virtual_tests.rheometer.specimen import specimen, specimens
-from tvimdesign.virtual_tests.test_result import Finding, Trial
+from tvimdesign.virtual_tests.trial import Finding, Trial
 
 CELSIUS = 273.15
 Done = Callable[[str], Trial]

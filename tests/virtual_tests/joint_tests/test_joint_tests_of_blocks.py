@@ -17,13 +17,13 @@ from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
 from tvimdesign.virtual_tests.joint_tests import joint_motion, step_test
 from tvimdesign.virtual_tests.joint_tests import release as release_test
+from tvimdesign.virtual_tests.joint_tests.case import Case, cases
 from tvimdesign.virtual_tests.joint_tests.load_through_cycle import SliceHistory
 from tvimdesign.virtual_tests.joint_tests.release import contact_seen
-from tvimdesign.virtual_tests.joint_tests.test_case import Case, cases
 from tvimdesign.virtual_tests.link_motion import contact, link
 from tvimdesign.virtual_tests.link_motion.contact_simulation import OneSided
 from tvimdesign.virtual_tests.registry import TESTS, find_test
-from tvimdesign.virtual_tests.test_result import Sheet, Trial
+from tvimdesign.virtual_tests.trial import Sheet, Trial
 
 POINTS = ("cold", "melting", "hot")
 

@@ -13,7 +13,7 @@ from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.melt_history import fractions_at
 from tvimdesign.simulation.resolved_module import Rig
 from tvimdesign.study.study import STANDARD_POINTS
-from tvimdesign.virtual_tests.test_result import Finding
+from tvimdesign.virtual_tests.trial import Finding
 
 LINEAR = (
     "The PCL is linear at every strain: it neither softens with strain nor slips, tears or yields; the structure is "

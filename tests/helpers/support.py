@@ -9,7 +9,7 @@ from subprocess import CompletedProcess
 from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import Model
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 STUDIES = sorted((ROOT / "studies").glob("*.yaml"))
 RELEASED = ("paper_shear", "paper_compression", "machined_shear", "machined_compression")
 """Studies whose parts are in cad/."""

@@ -14,11 +14,11 @@ from tvimdesign.study import read_study, read_study_text
 from tvimdesign.virtual_tests.joint_tests import release as release_test
 from tvimdesign.virtual_tests.joint_tests import sine as sine_test
 from tvimdesign.virtual_tests.joint_tests import step_test
+from tvimdesign.virtual_tests.joint_tests.case import finding, with_paper_points
 from tvimdesign.virtual_tests.joint_tests.load_through_cycle import SliceHistory
-from tvimdesign.virtual_tests.joint_tests.test_case import finding, with_paper_points
-from tvimdesign.virtual_tests.test_result import Trial
+from tvimdesign.virtual_tests.trial import Trial
 
-STUDY = Path(__file__).parents[2] / "studies" / "paper_as_published.yaml"
+STUDY = Path(__file__).parents[3] / "studies" / "paper_as_published.yaml"
 POINTS = ("cold", "melting", "hot")
 
 

@@ -48,5 +48,5 @@ def test_a_sheet_that_agrees_is_not(shipped: Path, tmp_path: Path) -> None:
 
 
 def test_a_record_without_that_rating_is_not() -> None:
-    study = read_study(Path(__file__).parents[2] / "studies" / "paper_shear.yaml")
+    study = read_study(Path(__file__).parents[3] / "studies" / "paper_shear.yaml")
     assert doubts(study, Catalog(), table_for("shear")) == []

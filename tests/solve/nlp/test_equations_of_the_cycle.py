@@ -135,7 +135,7 @@ def test_the_cycle_depends_on_what_one_expects_it_to(solved: Solved, build: Call
 
 def test_a_layer_whose_frozen_edge_runs_through_the_cells_has_elements_enough() -> None:
     """With as many as for softening, `wrist_joint` as it starts would be off by 0.4 %."""
-    study = read_study(Path(__file__).parents[2] / "studies" / "wrist_joint.yaml")
+    study = read_study(Path(__file__).parents[3] / "studies" / "wrist_joint.yaml")
     rig = rig_for(study, Catalog(), table_for(study.mode))
     model = Model(rig.table, rig.values, rig.points, study.solver.cells)
     switch = fine(model).run(model.start)

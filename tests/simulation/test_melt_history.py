@@ -9,7 +9,7 @@ from tvimdesign.device import table_for
 from tvimdesign.simulation.melt_history import fractions_at
 from tvimdesign.simulation.resolved_module import Rig, rig_for
 from tvimdesign.study import read_study_text
-from tvimdesign.virtual_tests.joint_tests.test_case import histories_at
+from tvimdesign.virtual_tests.joint_tests.case import histories_at
 
 KELVIN = 273.15
 
