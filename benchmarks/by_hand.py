@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from hand_module import HEAT, OUTPUTS, RESIDUALS, Array, measure
-from hand_switch import FREE, STEP_OF, switch
+from hand_switch import FREE, STEP_OF, cycle
 from numba import njit
 from scipy.optimize import Bounds, minimize
 
@@ -30,7 +30,7 @@ def evaluate(logs: Array, rows: Array, slopes: Array, sensitive: bool) -> None:
             there[k] -= 2.0 * STEP_OF
             measure(np.exp(there), down, aside)
             slopes[:, k] = (up - down) / (2.0 * STEP_OF)
-    rows[2] = switch(heat, moved, slopes[2], sensitive)
+    rows[2] = cycle(heat, moved, slopes[2], sensitive)
 
 
 class ByHand:

@@ -37,7 +37,7 @@ def plain(design: Path, out: Path) -> None:
     from tvimdesign.cad.assembly.assembly import drawn_parts, free_spring, place
     from tvimdesign.cad.assembly.product_data import instances
     from tvimdesign.cad.geometry.dimensions import dimensions
-    from tvimdesign.cad.geometry.production import MAKING
+    from tvimdesign.cad.geometry.production import PRODUCTION
     from tvimdesign.cad.render.preview import write_preview
     from tvimdesign.cad.render.views import write_exploded, write_section
     from tvimdesign.study.design import read_design
@@ -50,7 +50,7 @@ def plain(design: Path, out: Path) -> None:
         writer = StlAPI_Writer()
         writer.ASCIIMode = False
         writer.Write(solid.wrapped, str(out / f"{kind}.stl"))
-        if not MAKING[kind].drawn:
+        if not PRODUCTION[kind].drawn:
             continue
         document = ezdxf.new("R2010", setup=True)
         for towards_viewer in ((0, 0, 1), (0, -1, 0)):
@@ -85,8 +85,8 @@ def files_only(design: Path, out: Path) -> None:
     from tvimdesign.cad.build import build_plan
     from tvimdesign.cad.build.main import run
 
-    every = build_plan.works
-    build_plan.works = lambda dims: [one for one in every(dims) if not one.name.startswith(CHECKS)]
+    every = build_plan.build_plan
+    build_plan.build_plan = lambda dims: [one for one in every(dims) if not one.name.startswith(CHECKS)]
     with Path(os.devnull).open("w") as nowhere:
         run(design, out, 90.0, nowhere)
 

@@ -51,10 +51,10 @@ def main() -> int:
 
 def _slicer(path: Path) -> str:
     """Why a mesh does not slice as it is; nothing where it does."""
-    told = _run(["prusa-slicer", "--info", str(path)])
-    facts = dict(line.split(" = ") for line in told.splitlines() if " = " in line)
+    reported = _run(["prusa-slicer", "--info", str(path)])
+    facts = dict(line.split(" = ") for line in reported.splitlines() if " = " in line)
     if facts.get("manifold", "").strip() != "yes":
-        return f"not manifold: {told.strip().splitlines()[-1:]}"
+        return f"not manifold: {reported.strip().splitlines()[-1:]}"
     if any("repair" in name or "fixed" in name or "reversed" in name for name in facts):
         return "was repaired when read"
     volume, ours = float(facts["volume"]), trimesh.load_mesh(path.with_suffix(".stl")).volume
@@ -78,8 +78,8 @@ def _kernel(path: Path) -> str:
     with tempfile.NamedTemporaryFile("w", suffix=".geo") as file:
         file.write(script)
         file.flush()
-        told = _run(["gmsh", "-", file.name])
-    solids, volume = (re.search(rf"^{word} ([0-9.e+-]+)\s*$", told, re.MULTILINE) for word in ("solids", "volume"))
+        reported = _run(["gmsh", "-", file.name])
+    solids, volume = (re.search(rf"^{word} ([0-9.e+-]+)\s*$", reported, re.MULTILINE) for word in ("solids", "volume"))
     stated = VOLUME.search(re.sub(r"\n\s*", "", path.read_text()))
     if not solids or not volume or not stated:
         return "cannot be read"

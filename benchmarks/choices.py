@@ -20,9 +20,9 @@ from reference_problem import study_of_sizes
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.discrete_choices import listed_sizes
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.enumeration import account_for_all, enumerate_all
-from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import Work
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Options, Study, read_study
@@ -65,39 +65,39 @@ class Clocked:
     objectives: list[float]
     work: Work
     seconds: float
-    told: str = ""
+    reported: str = ""
 
 
-def clocked(tree: Tree, how: str) -> Clocked:
+def clocked(relaxation: Relaxation, how: str) -> Clocked:
     """Run one way: so many of the best by branch and bound, all accounted for, or each solved."""
-    tree.work, told = Work(), ""
+    relaxation.work, reported = Work(), ""
     begin = time.process_time()
     if how == "each":
-        runs = list(enumerate_all(tree).values())
+        runs = list(enumerate_all(relaxation).values())
     elif how == "all":
-        every = account_for_all(tree, 1, {})
+        every = account_for_all(relaxation, 1, {})
         runs = list(every.found.values())
-        told = (
+        reported = (
             f"  {len(runs)} solved, {every.bounded} bounded, {every.broken} impossible; bounds off by {every.below:.0e}"
         )
     else:
-        search = BranchAndBound([tree], int(how))
+        search = BranchAndBound([relaxation], int(how))
         search.run()
         runs = list(search.found.values())
     seconds = time.process_time() - begin
-    return Clocked(sorted(run.start.objective for run in runs), tree.work, seconds, told)
+    return Clocked(sorted(run.start.objective for run in runs), relaxation.work, seconds, reported)
 
 
 def compare(study: Study, weights: dict[str, float], ways: Sequence[str]) -> str:
     """One set of weights: a line for each way; the last of them is what the others are held against."""
     asked = study.model_copy(update={"minimize": weights})
     table = table_for(study.mode)
-    sizes = listed_sizes(asked, table)
+    sizes = discrete_sizes(asked, table)
     begin = time.process_time()
-    tree = Tree(0, Optimizer(asked, Catalog(), table), {}, sizes, Work())
-    tree.starts()
+    relaxation = Relaxation(0, Optimizer(asked, Catalog(), table), {}, sizes, Work())
+    relaxation.starts()
     built = time.process_time() - begin
-    results = {how: clocked(tree, how) for how in ways}
+    results = {how: clocked(relaxation, how) for how in ways}
     best = results[ways[-1]].objectives
     lines = [
         f"minimize {', '.join(f'{name} {weight:g}' for name, weight in weights.items())}: {sizes.count} combinations; "
@@ -110,7 +110,7 @@ def compare(study: Study, weights: dict[str, float], ways: Sequence[str]) -> str
         equal = all(abs(a / b - 1.0) <= SAME for a, b in pairs)
         lines.append(
             f"  {NAMES[how]:30}{runs:7} runs{iterations:8} iterations{iterations / max(runs, 1):6.1f} each"
-            f"{one.seconds:8.1f} s  {one.objectives[0]:.7f} {'equal' if equal else 'NOT EQUAL'}{one.told}"
+            f"{one.seconds:8.1f} s  {one.objectives[0]:.7f} {'equal' if equal else 'NOT EQUAL'}{one.reported}"
         )
     return "\n".join(lines)
 
@@ -126,15 +126,15 @@ def main() -> None:
     chosen = parser.parse_args()
     larger = read_study(chosen.study or STUDIES / "standard_parts.yaml")
     studies = [larger] if chosen.study else [study_of_sizes(), larger]
-    told, ways = [], ["1", "all", *(["5", "each"] if chosen.every else [])]
+    reported, ways = [], ["1", "all", *(["5", "each"] if chosen.every else [])]
     for study in studies:
-        told.append(study.name)
-        print(told[-1], flush=True)
+        reported.append(study.name)
+        print(reported[-1], flush=True)
         for weights in WEIGHTS[: chosen.weights]:
-            told.append(compare(fewer(study, chosen.sizes), weights, ways))
-            print(told[-1], flush=True)
+            reported.append(compare(fewer(study, chosen.sizes), weights, ways))
+            print(reported[-1], flush=True)
     if chosen.out:
-        chosen.out.write_text("\n".join(told) + "\n", encoding="utf-8")
+        chosen.out.write_text("\n".join(reported) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

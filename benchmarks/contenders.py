@@ -116,13 +116,13 @@ class Event:
 def lsoda(tolerance: float) -> Callable[[Reference, Array], float]:
     """The switch by LSODA with the exact Jacobian, stopped at the event."""
 
-    def switch(reference: Reference, design: Array) -> float:
+    def cycle(reference: Reference, design: Array) -> float:
         heat = reference.heat(design)
         found = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="LSODA", jac=heat.jacobian, rtol=tolerance,
                           atol=1e-2 * tolerance, events=Event(heat))  # fmt: skip
         return float(found.t_events[0][0]) if len(found.t_events[0]) else LONGEST
 
-    return switch
+    return cycle
 
 
 def bdf(reference: Reference, design: Array) -> float:
@@ -135,9 +135,9 @@ def bdf(reference: Reference, design: Array) -> float:
 class Once:
     """Objective and residuals in the logarithms of the variables; a design asked for again is not simulated again."""
 
-    def __init__(self, reference: Reference, switch: Callable[[Reference, Array], float]) -> None:
+    def __init__(self, reference: Reference, cycle: Callable[[Reference, Array], float]) -> None:
         """Nothing is simulated yet."""
-        self.reference, self.switch = reference, switch
+        self.reference, self.cycle = reference, cycle
         self.evaluations = 0
         self._last: tuple[bytes, Array] | None = None
 
@@ -147,7 +147,7 @@ class Once:
         if self._last is None or self._last[0] != key:
             design = np.exp(unknowns)
             self.evaluations += 1
-            self._last = key, self.reference.rows(design, self.switch(self.reference, design))
+            self._last = key, self.reference.rows(design, self.cycle(self.reference, design))
         return self._last[1]
 
     def objective(self, unknowns: Array) -> float:
@@ -163,11 +163,11 @@ class Once:
         return Bounds(np.log(self.reference.lower), np.log(self.reference.upper), keep_feasible=True)
 
 
-def slsqp(switch: Callable[[Reference, Array], float], step: float) -> Callable[[Reference, Array], Found]:
+def slsqp(cycle: Callable[[Reference, Array], float], step: float) -> Callable[[Reference, Array], Found]:
     """scipy's SLSQP with its finite differences at a step."""
 
     def solve(reference: Reference, begin: Array) -> Found:
-        once = Once(reference, switch)
+        once = Once(reference, cycle)
         found = minimize(
             once.objective, np.log(begin), method="SLSQP", bounds=once.bounds(),
             constraints={"type": "ineq", "fun": once.room}, options={"maxiter": 300, "ftol": 1e-9, "eps": step},
@@ -197,7 +197,7 @@ def openmdao(reference: Reference, begin: Array) -> Found:
     count = {"switches": 0}
     switch_time = lsoda(1e-8)
 
-    class Switch(om.ExplicitComponent):
+    class Cycle(om.ExplicitComponent):
         def setup(self) -> None:
             self.add_input("unknowns", np.log(begin))
             self.add_output("time", 100.0)
@@ -220,7 +220,7 @@ def openmdao(reference: Reference, begin: Array) -> Found:
             outputs["objective"], outputs["residuals"] = rows[0], rows[1:]
 
     problem = om.Problem(reports=False)
-    problem.model.add_subsystem("switch", Switch(), promotes=["*"])
+    problem.model.add_subsystem("switch", Cycle(), promotes=["*"])
     problem.model.add_subsystem("algebra", Algebra(), promotes=["*"])
     problem.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", tol=1e-9, maxiter=300, disp=False)
     problem.model.add_design_var("unknowns", np.log(reference.lower), np.log(reference.upper))
@@ -281,8 +281,8 @@ def aerosandbox(reference: Reference, begin: Array) -> Found:
 
     with arrays_of_casadi():
         written = reference.written_anew()
-        stage, algebra = written.stages["softening"], reference.algebra(written)
-        rates, gap, initial = stage.rates, stage.watch([reference.event]), stage.initial
+        phase, algebra = written.phases["softening"], reference.algebra(written)
+        rates, gap, initial = phase.rates, phase.watch([reference.event]), phase.initial
     ca.GlobalOptions.setNumpyMode(0)  # AeroSandbox does not know the symbols of the other mode
     opti = asb.Opti()
     elements, (points, derivative, _) = 3, radau()
@@ -293,16 +293,16 @@ def aerosandbox(reference: Reference, begin: Array) -> Found:
     for i, place in enumerate(reference.places):
         entries[place] = ca.exp(logs[i])
     inputs = ca.vertcat(*entries)
-    start, drive = along_time(initial, [inputs]), inputs[reference.current]
+    start, profile = along_time(initial, [inputs]), inputs[reference.current]
     warm = _heated(reference, begin, elements * len(points))
     states = ca.reshape(opti.variable(init_guess=warm.ravel(order="F")), *warm.shape)
-    slopes_there = along_time(rates, [states, drive, inputs])
+    slopes_there = along_time(rates, [states, profile, inputs])
     for element in range(elements):
         columns = slice(element * len(points), (element + 1) * len(points))
         before = start if element == 0 else states[:, element * len(points) - 1]
         slopes = ca.mtimes(ca.horzcat(before, states[:, columns]), derivative)
         opti.subject_to(ca.vec(slopes - ca.exp(log_time) / elements * slopes_there[:, columns]) == 0)
-    opti.subject_to(along_time(gap, [states[:, -1], drive, inputs]) == 0)
+    opti.subject_to(along_time(gap, [states[:, -1], profile, inputs]) == 0)
     rows = along_time(algebra, [inputs, ca.exp(log_time)])
     opti.subject_to(rows[1:] <= 0)
     opti.minimize(rows[0])
@@ -314,7 +314,7 @@ def aerosandbox(reference: Reference, begin: Array) -> Found:
 def _heated(reference: Reference, begin: Array, columns: int) -> Array:
     """A simulated trajectory to start the collocation from, which its user needs as much as we do."""
     inputs = reference.inputs(begin)
-    trajectory = Simulator(reference.model).run(inputs, stages=["softening"]).trajectory
+    trajectory = Simulator(reference.model).run(inputs, phases=["softening"]).trajectory
     return trajectory.at(np.linspace(0.0, 1.0, columns + 1)[1:])
 
 

@@ -25,7 +25,7 @@ from reference_problem import LONGEST, Reference, study
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.batch.cycle_kernel import Pace, SwitchKernel
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -57,7 +57,7 @@ class ManyDesigns:
         places.append((1, model.switch_names.index(reference.event)))
         seen = np.ones(len(model.switch_names))
         self._arithmetic = Kernel(of_columns(model.outputs(wanted), [model.start, seen], places))
-        self._switch = SwitchKernel(model, names, [reference.event])
+        self._switch = CycleKernel(model, names, [reference.event])
         self._pace = Pace({"softening": pace}, {})
 
     def __call__(self, designs: Array) -> tuple[Array, Array]:
@@ -121,7 +121,7 @@ def ours(reference: Reference, outputs: tuple[str, ...], points: int) -> Ours:
         built.append((optimizer, runs))
 
     began = time.process_time()
-    solution = optimize(asked, Catalog(), table_for(asked.mode), keep=keep, traded=outputs)
+    solution = optimize(asked, Catalog(), table_for(asked.mode), keep=keep, objectives=outputs)
     found = time.process_time()
     optimizer, runs = built[0]
     front = trace_front(Tradeoff(asked, solution, optimizer, runs), outputs, points)
@@ -129,7 +129,7 @@ def ours(reference: Reference, outputs: tuple[str, ...], points: int) -> Ours:
     alone = [optimizer.solve(begin=optimizer.model.start, goal=point.goal) for point in front.points]
     last = time.process_time()
     for run in alone:
-        optimizer.simulator.run(run.inputs, run.drives)
+        optimizer.simulator.run(run.inputs, run.current_profiles)
     checked = time.process_time()
     designs = np.array([[point.values[free.name] for free in reference.free] for point in front.points]).T
     return Ours(front, np.ascontiguousarray(designs), found - began, done - found, last - done,
@@ -251,13 +251,13 @@ def compare(outputs: tuple[str, ...], populations: list[int], seeds: int, longes
         runs = [nsga2(reference, many, volume, population, seed, longest, whole) for seed in range(1, seeds + 1)]
         for share in SHARES:
             there = sorted(one for run in runs if (one := run.reached(share * whole)))
-            told = f"{name} to {share:.0%}, {len(there)} of {seeds} seeds there"
+            reported = f"{name} to {share:.0%}, {len(there)} of {seeds} seeds there"
             if len(there) > seeds // 2:  # the middle one of all seeds, whether they came to it or not
                 seconds, evaluations = there[seeds // 2]
-                row(told, seconds, f"{evaluations}", share)
+                row(reported, seconds, f"{evaluations}", share)
             else:
                 stopped = sorted((run.volumes[-1], run.seconds[-1], run.evaluations[-1]) for run in runs)[seeds // 2]
-                row(told, stopped[1], f"{stopped[2]}", stopped[0] / whole, "more than ")
+                row(reported, stopped[1], f"{stopped[2]}", stopped[0] / whole, "more than ")
 
     for population in populations:
         evolved(f"NSGA-II of {population}", many, population, seeds)

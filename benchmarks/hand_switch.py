@@ -229,7 +229,7 @@ def pace(q: Array) -> float:
 
 
 @njit(cache=True)
-def switch(q: Array, moved: Array, slopes: Array, sensitive: bool) -> float:
+def cycle(q: Array, moved: Array, slopes: Array, sensitive: bool) -> float:
     """Time [s] until the far face is at its target, and its slopes by the logarithms of the variables."""
     y, before = np.full(STATES, AMBIENT), np.empty(STATES)
     y[2 : 2 + CELLS] = H_AMBIENT

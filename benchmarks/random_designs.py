@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import TvimError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
-from tvimdesign.device.table.quantity import Output, Supplied, Swing
+from tvimdesign.device.table.quantity import FirstOscillation, Output, Supplied
 from tvimdesign.study import Study, given, read_study
 from tvimdesign.study.design import Design
 from tvimdesign.study.study import Options
@@ -126,7 +126,9 @@ def _is_plain(row: Output, table: Table) -> bool:
     """Whether a row follows from the inputs alone, without an operating point and without a simulation."""
     behind = [table.by_name[name] for name in (row.name, *table.ancestors(row.name)) if name in table.by_name]
     return not any(
-        isinstance(one, (*Supplied, Swing)) or getattr(one, "per_point", False) or getattr(one, "instant", False)
+        isinstance(one, (*Supplied, FirstOscillation))
+        or getattr(one, "per_point", False)
+        or getattr(one, "instant", False)
         for one in behind
     )
 
@@ -137,7 +139,7 @@ def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
     from tvimdesign.cad.export.mesh import solid_mesh
     from tvimdesign.cad.export.print_files import closed
     from tvimdesign.cad.geometry.dimensions import dimensions
-    from tvimdesign.cad.geometry.production import MAKING
+    from tvimdesign.cad.geometry.production import PRODUCTION
     from tvimdesign.cad.inspection.inspect import module_checks, part_checks, solid_check
     from tvimdesign.cad.inspection.size_checks import all_checks
 
@@ -146,7 +148,7 @@ def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
     checks = [*all_checks(design, dims, drawn), *(solid_check(kind, solid) for kind, solid in drawn.items())]
     for kind, solid in drawn.items():
         closed(kind, solid_mesh(solid))
-        if inspect and MAKING[kind].drawn:
+        if inspect and PRODUCTION[kind].drawn:
             checks += part_checks(design, dims, kind, solid)
     if inspect:
         checks += module_checks(design, dims, drawn)
@@ -224,8 +226,8 @@ def main(arguments: Sequence[str]) -> int:
         for text in tally.failed:
             print(f"    {text}")
         for title, counts in (("refused by rule", tally.refused), ("warnings", tally.warned)):
-            told = ", ".join(f"{name} {number}" for name, number in counts.most_common() if number)
-            print(f"  {title}: {told or 'none'}")
+            reported = ", ".join(f"{name} {number}" for name, number in counts.most_common() if number)
+            print(f"  {title}: {reported or 'none'}")
         failed = failed or bool(tally.failed)
     return 1 if failed else 0
 

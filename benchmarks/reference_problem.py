@@ -20,7 +20,7 @@ from quick import Quick
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import impossible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study
@@ -79,32 +79,32 @@ class Reference:
         self.begin = model.start[self.places]
         self.weights = {name: w / self.optimizer.reference[name] for name, w in asked.minimize.items()}
         (self.event,) = problem.events
-        self.stage = model.stages["softening"]
-        self._state, self._inputs = ca.SX.sym("state", self.stage.state_size), ca.SX.sym("inputs", len(model.names))
+        self.phase = model.phases["softening"]
+        self._state, self._inputs = ca.SX.sym("state", self.phase.state_size), ca.SX.sym("inputs", len(model.names))
         self.current = model.index["current"]
         self._algebra = Quick(self.algebra(model))
         self._heat = self._heat_functions()
 
-    def algebra(self, model: Model) -> Any:
+    def algebra(self, model: DeviceFunctions) -> Any:
         """The function (inputs, time) -> objective, then every limit's residual, kept where <= 0."""
         wanted = list(dict.fromkeys([*self.weights, *(limit.output for limit in self.limits)]))
         time = ca.SX.sym("time")
-        switch = ca.vertcat(*(time if name == self.event else np.nan for name in model.switch_names))
-        values = model.outputs(wanted)(self._inputs, switch)
+        cycle = ca.vertcat(*(time if name == self.event else np.nan for name in model.switch_names))
+        values = model.outputs(wanted)(self._inputs, cycle)
         objective = sum(weight * values[wanted.index(name)] for name, weight in self.weights.items())
         rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
         return ca.Function("algebra", [self._inputs, time], [ca.vertcat(objective, *rows)])
 
-    def written_anew(self) -> Model:
+    def written_anew(self) -> DeviceFunctions:
         """The model as symbols of CasADi's own arrays, nothing of it written yet: how its users write equations."""
         known = self.model
         given = {**dict(zip(known.names, known.start.tolist(), strict=True)), **known.words}
-        return Model(known.table, given, known.points, known.cells)
+        return DeviceFunctions(known.table, given, known.points, known.cells)
 
     def _heat_functions(self) -> tuple[Quick, Quick, Quick]:
-        drive = self._inputs[self.current]
-        rates = self.stage.rates(self._state, drive, self._inputs)
-        gap = self.stage.watch([self.event])(self._state, drive, self._inputs)
+        profile = self._inputs[self.current]
+        rates = self.phase.rates(self._state, profile, self._inputs)
+        gap = self.phase.watch([self.event])(self._state, profile, self._inputs)
         slope = ca.densify(ca.jacobian(rates, self._state))
         arguments = [self._state, self._inputs]
         rates_of, slope_of, gap_of = (
@@ -122,7 +122,7 @@ class Reference:
     def heat(self, design: Array) -> Heat:
         """The initial-value problem of a design."""
         inputs = self.inputs(design)
-        start = np.asarray(self.stage.initial(inputs)).ravel()
+        start = np.asarray(self.phase.initial(inputs)).ravel()
         rates, slope, gap = self._heat
         return Heat(
             start,
@@ -152,6 +152,6 @@ class Reference:
     def _is_one(self, design: Array) -> bool:
         if not np.all(np.isfinite(self.rows(design, 1.0))):
             return False
-        switch = self.optimizer.simulator.run(self.inputs(design), stages=["softening"])
-        values = self.model.values(self.inputs(design), switch.values)
+        cycle = self.optimizer.simulator.run(self.inputs(design), phases=["softening"])
+        values = self.model.values(self.inputs(design), cycle.values)
         return np.isfinite(values[self.event]) and not impossible(values, self.model.table)

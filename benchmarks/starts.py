@@ -12,8 +12,8 @@ from reference_problem import study
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.discrete.discrete_choices import listed_sizes
-from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
+from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import Work, same_optimum
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import meaning
@@ -28,15 +28,17 @@ def main() -> None:
     asked = asked.model_copy(update={"solver": asked.solver.model_copy(update={"starts": count})})
     table = table_for(asked.mode)
     begin = time.process_time()
-    tree = Tree(0, Optimizer(asked, Catalog(), table), {}, listed_sizes(asked, table), Work())
-    starts = [run.start for run in tree.starts()]
+    relaxation = Relaxation(0, Optimizer(asked, Catalog(), table), {}, discrete_sizes(asked, table), Work())
+    starts = [run.start for run in relaxation.starts()]
     seconds = time.process_time() - begin
     converged = [start for start in starts if start.converged]
     iterations = sum(start.iterations for start in starts) / len(starts)
     again = sum(start.second_try for start in starts)
     print(f"{len(converged)} of {count} starts converged in {seconds:.1f} s, {iterations:.1f} iterations a start")
-    print(f"{again} only from a design that keeps all limits; passed over: {tree.optimizer.beginnings.passed_over}")
-    for optimum in tree.optima:
+    print(
+        f"{again} only from a design that keeps all limits; passed over: {relaxation.optimizer.multistart.passed_over}"
+    )
+    for optimum in relaxation.optima:
         reached = sum(same_optimum(start, optimum.start) for start in converged)
         print(f"objective {optimum.start.objective:.8f}: {reached}")
     for start in starts:

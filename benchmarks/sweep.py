@@ -19,8 +19,8 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.solve.batch.cycle_kernel import Pace, SwitchKernel
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel, of_columns
 from tvimdesign.study import given, read_study
 
@@ -28,7 +28,7 @@ STUDY = Path(__file__).resolve().parents[1] / "studies/compare_shear.yaml"
 MOVING = ["wire_diameter", "coil_diameter", "coil_count", "preload_angle", "pcl_inner_radius", "pcl_outer_radius",
           "arc_span", "pcl_thickness", "core_radius", "spring_youngs_modulus", "link_thickness",
           "rotor_rim"]  # fmt: skip
-OUTPUTS = ["spring_stiffness", "spring_index", "spring_static_safety", "spring_fatigue_safety", "preload_reserve",
+OUTPUTS = ["spring_stiffness", "spring_index", "spring_static_safety", "spring_fatigue_safety", "preload_margin",
            "envelope_volume", "module_mass", "parts_inertia"]  # fmt: skip
 OF_SWITCH = ["current", "ambient_temperature", "peltier_seebeck", "peltier_resistance", "pcl_thickness"]
 
@@ -42,13 +42,13 @@ def main() -> None:
     study = read_study(asked.study)
     table = table_for(study.mode)
     known = given(study, Catalog(), table)
-    model = Model(table, known, tuple(study.operating_points), study.solver.cells)
+    model = DeviceFunctions(table, known, tuple(study.operating_points), study.solver.cells)
     arithmetic(model, asked.designs)
     for event in ("far_face_time", "softening_time"):
-        switch(model, event, min(asked.designs, 1 << 14))
+        cycle(model, event, min(asked.designs, 1 << 14))
 
 
-def _columns(model: Model, names: list[str], count: int, width: float) -> np.ndarray:
+def _columns(model: DeviceFunctions, names: list[str], count: int, width: float) -> np.ndarray:
     drawn = np.random.default_rng(1).uniform(1.0 - width, 1.0 + width, (len(names), count))
     return np.array([[model.start[model.index[name]]] for name in names]) * drawn
 
@@ -60,7 +60,7 @@ def _told(name: str, count: int, do: Callable[[], object]) -> None:
     print(f"{name:56s} {count / cpu:14,.0f} /CPU s {count / wall:14,.0f} /s")
 
 
-def arithmetic(model: Model, count: int) -> None:
+def arithmetic(model: DeviceFunctions, count: int) -> None:
     """The rows that are arithmetic."""
     places = [(0, model.index[name]) for name in MOVING]
     function = of_columns(model.outputs(OUTPUTS), [model.start, np.ones(len(model.switch_names))], places)
@@ -91,14 +91,14 @@ def arithmetic(model: Model, count: int) -> None:
     print(f"{'largest difference from CasADi':56s} {np.max(np.abs(out[:, :500] / expected - 1.0)):14.1e}")
 
 
-def switch(model: Model, event: str, count: int) -> None:
+def cycle(model: DeviceFunctions, event: str, count: int) -> None:
     """The softening switch, its full heat model included."""
     simulator = Simulator(model)
     began = time.perf_counter()
-    kernel = SwitchKernel(model, OF_SWITCH, [event])
+    kernel = CycleKernel(model, OF_SWITCH, [event])
     print(f"\n{event}, {model.cells} cells in the layer; compiled in {time.perf_counter() - began:.2f} s")
     nominal = simulator.run(model.start)
-    ends = {name: nominal.values[stage.stage.ends] for name, stage in model.stages.items()}
+    ends = {name: nominal.values[phase.phase.ends] for name, phase in model.phases.items()}
     pace = Pace({**ends, "softening": nominal.values[event]}, nominal.balances)
     columns = _columns(model, OF_SWITCH, count, 0.02)
     found = kernel(columns, pace)[0]
@@ -109,7 +109,7 @@ def switch(model: Model, event: str, count: int) -> None:
         for i in range(few):
             inputs = model.start.copy()
             inputs[[model.index[name] for name in OF_SWITCH]] = columns[:, i]
-            times[i] = simulator.run(inputs, stages=["softening"]).values[event]
+            times[i] = simulator.run(inputs, phases=["softening"]).values[event]
 
     _told("the simulator, one by one", few, one_by_one)
     _told("compiled steps, one thread", count, lambda: kernel(columns, pace))

@@ -27,7 +27,7 @@ from tvimdesign.device.core import thermal_stack
 from tvimdesign.physics import heat, layer, polymer
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
 Array = NDArray[np.float64]
@@ -56,7 +56,7 @@ class Contender:
     solve: Callable[[float], Array]
 
 
-def written_by_hand(model: Model, sparse: bool) -> Equations:
+def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     """Write the equations as a user of numpy and scipy would: floats through `physics.heat`, a state as an array."""
     numbers = {name: float(value) for name, value in zip(model.names, model.start, strict=True)}
     known = {**model.words, **numbers, "rotor_cells": int(numbers["rotor_cells"])}
@@ -77,20 +77,20 @@ def written_by_hand(model: Model, sparse: bool) -> Equations:
         mean = np.mean(now.cells)
         return [now.near - target, mean - target, now.far - target, np.log(soft / impedance)]
 
-    start = np.asarray(model.stages["softening"].initial(model.start)).ravel()
+    start = np.asarray(model.phases["softening"].initial(model.start)).ravel()
     return Equations(start, rates, gaps, sparsity=_pattern(model) if sparse else None)
 
 
-def compiled(model: Model) -> Equations:
+def compiled(model: DeviceFunctions) -> Equations:
     """Hand scipy tvimdesign's own compiled right-hand side, exact Jacobian and its events."""
-    stage = model.stages["softening"]
-    state, inputs = ca.SX.sym("state", stage.state_size), ca.SX.sym("inputs", len(model.names))
+    phase = model.phases["softening"]
+    state, inputs = ca.SX.sym("state", phase.state_size), ca.SX.sym("inputs", len(model.names))
     current = inputs[model.index["current"]]
-    rates = stage.rates(state, current, inputs)
-    waits = stage.watch(EVENTS)(state, current, inputs)
+    rates = phase.rates(state, current, inputs)
+    waits = phase.watch(EVENTS)(state, current, inputs)
     slope = ca.densify(ca.jacobian(rates, state))
     return Equations(
-        np.asarray(stage.initial(model.start)).ravel(),
+        np.asarray(phase.initial(model.start)).ravel(),
         *(
             _called(Quick(ca.Function(name, [state, inputs], [expression])), model.start)
             for name, expression in (("rates", rates), ("gaps", waits), ("jacobian", slope))
@@ -103,8 +103,8 @@ def _called(function: Quick, inputs: Array) -> Callable[[float, Array], Array]:
     return lambda _, state: function(state, inputs)
 
 
-def _pattern(model: Model) -> Array:
-    return np.asarray(ca.DM(model.stages["softening"].rates.jac_sparsity(0, 0), 1).full())
+def _pattern(model: DeviceFunctions) -> Array:
+    return np.asarray(ca.DM(model.phases["softening"].rates.jac_sparsity(0, 0), 1).full())
 
 
 def by_scipy(equations: Equations, method: str) -> Callable[[float], Array]:
@@ -136,12 +136,12 @@ def by_scipy(equations: Equations, method: str) -> Callable[[float], Array]:
     return solve
 
 
-def by_tvimdesign(model: Model) -> Callable[[float], Array]:
+def by_tvimdesign(model: DeviceFunctions) -> Callable[[float], Array]:
     """Event times as the product finds them, with its own tolerance, energies and peaks included."""
     simulator = Simulator(model)
 
     def solve(_: float) -> Array:
-        values = simulator.run(model.start, stages=["softening"]).values
+        values = simulator.run(model.start, phases=["softening"]).values
         return np.array([values[name] for name in EVENTS])
 
     return solve
@@ -170,7 +170,7 @@ def clocked(contenders: list[tuple[Contender, float]], repeats: int) -> list[flo
     return [statistics.median(times) for times in taken]
 
 
-def table(model: Model, wanted: float | None, repeats: int) -> str:
+def table(model: DeviceFunctions, wanted: float | None, repeats: int) -> str:
     """Compare at an accuracy of the event times; None is as accurate as tvimdesign."""
     machine = compiled(model)
     ours = Contender("tvimdesign", by_tvimdesign(model))
@@ -191,9 +191,9 @@ def table(model: Model, wanted: float | None, repeats: int) -> str:
         f"{'solver':34}{'tolerance':>10}{'error':>10}{'ms':>9}{'times tvimdesign':>18}",
     ]
     for (contender, tolerance), median in zip(runs, medians, strict=True):
-        told = f"{tolerance:.0e}" if tolerance else "shipped"
+        reported = f"{tolerance:.0e}" if tolerance else "shipped"
         error = _error(contender.solve(tolerance), reference)
-        lines.append(f"{contender.name:34}{told:>10}{error:>10.0e}{1e3 * median:>9.1f}{median / medians[0]:>18.1f}")
+        lines.append(f"{contender.name:34}{reported:>10}{error:>10.0e}{1e3 * median:>9.1f}{median / medians[0]:>18.1f}")
     return "\n".join(lines)
 
 
@@ -205,7 +205,7 @@ def main() -> None:
     chosen = parser.parse_args()
     study = read_study(STUDY)
     rows = table_for(study.mode)
-    model = Model(rows, given(study, Catalog(), rows), tuple(study.operating_points), study.solver.cells)
+    model = DeviceFunctions(rows, given(study, Catalog(), rows), tuple(study.operating_points), study.solver.cells)
     text = "\n\n".join(table(model, wanted, chosen.repeats) for wanted in (None, 1e-4))
     print(text)
     if chosen.out:

@@ -151,10 +151,10 @@ def test_requirements_that_quarrel_end_in_exit_code_3_and_keep_the_results(tvimd
     assert done.returncode == 3
     assert "These cannot hold together" in done.stderr
     assert re.search(r"spring_stiffness >= 20 N·m/rad: alone it would have to move to >= \d", done.stderr)
-    told = json.loads((tmp_path / "out/results.json").read_text())
-    assert told["status"].startswith("infeasible")
-    assert not told["feasible"]
-    assert {side["limit"].split(" ")[0] for side in told["quarrel"]["cannot_hold_together"]} == {
+    reported = json.loads((tmp_path / "out/results.json").read_text())
+    assert reported["status"].startswith("infeasible")
+    assert not reported["feasible"]
+    assert {side["limit"].split(" ")[0] for side in reported["quarrel"]["cannot_hold_together"]} == {
         "spring_stiffness",
         "spring_fatigue_safety",
     }
@@ -184,10 +184,10 @@ def test_a_deep_check_says_what_depends_on_nothing(tvimdesign: Command, tmp_path
     assert done.returncode == 0, done.stderr
     assert "no limit and no goal depends on current" in done.stdout
     assert "no design has an objective below" in done.stdout
-    told = json.loads(tvimdesign("check", file, "--deep", "--json").stdout)
-    assert told["structure"]["idle"] == ["current"]
-    assert told["bound"]["bound"] <= told["start"]["objective"]
-    assert not told["sound"]
+    reported = json.loads(tvimdesign("check", file, "--deep", "--json").stdout)
+    assert reported["structure"]["idle"] == ["current"]
+    assert reported["bound"]["bound"] <= reported["start"]["objective"]
+    assert not reported["sound"]
 
 
 def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path) -> None:
@@ -207,9 +207,9 @@ def test_a_module_that_never_stiffens_is_said_so_and_leaves_a_whole_folder(tvimd
     assert re.search(r"stiffening_time\W+never", done.stdout)
     assert re.search(r"cycle_time\W+never", done.stdout)
     assert re.search(r"response_time\W+1[67]\d", done.stdout)
-    told = json.loads((tmp_path / "out/results.json").read_text())["values"]
-    assert told["stiffening_time"]["value"] is None
-    assert told["response_time"]["value"] > 0.0
+    reported = json.loads((tmp_path / "out/results.json").read_text())["values"]
+    assert reported["stiffening_time"]["value"] is None
+    assert reported["response_time"]["value"] > 0.0
     assert (tmp_path / "out/stiffening.csv").stat().st_size > 1000
 
 

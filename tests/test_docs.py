@@ -45,8 +45,8 @@ def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column:
         "stiff again, as the melting curve would claim": f"{values['equilibrium_stiffening_time']:.0f} s",
     }
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in README.splitlines() if line.startswith("|")]
-    told = {row[0]: row[column] for row in rows if row[0] in expected}
-    assert told == expected
+    reported = {row[0]: row[column] for row in rows if row[0] in expected}
+    assert reported == expected
 
 
 @pytest.mark.parametrize("block", [0, 1])

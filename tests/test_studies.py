@@ -44,8 +44,8 @@ def runs(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Runs:
 
 
 def _results(folder: Path) -> dict[str, Any]:
-    told: dict[str, Any] = json.loads((folder / "results.json").read_text())
-    return told
+    reported: dict[str, Any] = json.loads((folder / "results.json").read_text())
+    return reported
 
 
 def _front(folder: Path) -> list[dict[str, Any]]:
@@ -65,16 +65,16 @@ def test_a_study_leaves_a_whole_folder(runs: Runs, study: Path) -> None:
     assert {path.name for path in folder.glob("front/*")} == {Path(point["design"]).name for point in front}
     manifest = json.loads((folder / "manifest.json").read_text())
     assert manifest["inputs"]["study"] == "sha256:" + hashlib.sha256(study.read_bytes()).hexdigest()
-    for name, told in manifest["files"].items():
-        assert told == "sha256:" + hashlib.sha256((folder / name).read_bytes()).hexdigest(), name
+    for name, reported in manifest["files"].items():
+        assert reported == "sha256:" + hashlib.sha256((folder / name).read_bytes()).hexdigest(), name
     assert manifest["libraries"]["casadi"]
 
 
 @names
 def test_a_study_s_design_keeps_every_limit(runs: Runs, study: Path) -> None:
-    told = _results(runs[study.stem])
-    assert told["feasible"], [check for check in told["checks"] if not check["kept"]]
-    assert told["status"] in {"evaluated", "optimal"}
+    reported = _results(runs[study.stem])
+    assert reported["feasible"], [check for check in reported["checks"] if not check["kept"]]
+    assert reported["status"] in {"evaluated", "optimal"}
 
 
 @names
@@ -106,11 +106,11 @@ def test_the_re_optimised_module_is_better_in_all_it_was_asked_for(runs: Runs) -
 
 @pytest.mark.slow
 def test_the_wrist_is_half_the_size_and_takes_wire_one_can_buy(runs: Runs) -> None:
-    told = _results(runs["wrist_joint"])
+    reported = _results(runs["wrist_joint"])
     paper = _results(runs["paper_as_published"])["values"]["envelope_diameter"]["value"]
-    assert told["values"]["envelope_diameter"]["value"] <= 0.5 * paper + 0.5
+    assert reported["values"]["envelope_diameter"]["value"] <= 0.5 * paper + 0.5
     gauges = [0.041, 0.043, 0.045, 0.047, 0.049, 0.051, 0.055, 0.059, 0.063, 0.067, 0.071, 0.075, 0.08, 0.085]  # inch
-    wire = told["values"]["wire_diameter"]["value"] / 25.4
+    wire = reported["values"]["wire_diameter"]["value"] / 25.4
     assert min(abs(wire - gauge) for gauge in gauges) < 1e-6
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import gc
 import sys
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.base.errors import InputError, RenamedWarning, TvimError
 from tvimdesign.virtual_tests.registry import TESTS
 
 INTERRUPTED = 130
@@ -226,10 +227,17 @@ def _default_folder(source: Path) -> Path:
 
 def main() -> None:
     """Run the command line; every error is a message and an exit code, never a traceback."""
+    warnings.showwarning = _show_warning
     gc.set_threshold(200_000, 20, 20)  # a command makes many objects and keeps most: looking for garbage costs 5 %
     code = _guarded(lambda: app(standalone_mode=False))
     gc.freeze()  # or the interpreter looks through all of them once more on its way out, for nothing: 5 %
     sys.exit(code)
+
+
+def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
+    """What a user can act on, in plain words; libraries' own warnings are for developers and stay unsaid."""
+    if issubclass(category, RenamedWarning):
+        sys.stderr.write(f"Warning: {message}\n")
 
 
 def _guarded(command: Callable[[], Any]) -> int:

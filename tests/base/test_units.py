@@ -187,5 +187,5 @@ def test_the_usual_units_are_what_pint_reads() -> None:
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 def test_no_row_of_a_table_waits_for_pint(mode: str) -> None:
-    units = {row.unit for row in table_for(mode).rows if not isinstance(row, Choice)}
+    units = {row.unit for row in table_for(mode).quantities if not isinstance(row, Choice)}
     assert units <= read_by_pint().keys()

@@ -18,8 +18,8 @@ def reference() -> Reference:
 
 
 def test_the_functions_of_the_rivals_are_those_of_the_product(reference: Reference) -> None:
-    switch = reference.optimizer.beginnings.switch.values
-    values = reference.model.values(reference.model.start, switch)
+    cycle = reference.optimizer.multistart.cycle.values
+    values = reference.model.values(reference.model.start, cycle)
     assert lsoda(1e-9)(reference, reference.begin) == pytest.approx(values["response_time"], rel=1e-4)
     rows = reference.rows(reference.begin, values["response_time"])
     assert rows[0] == pytest.approx(3.0)  # three outputs, each over its value at the start
@@ -52,7 +52,7 @@ def others(reference: Reference) -> list[np.ndarray]:
 
 
 def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> None:
-    constant = ("soft_reach", "stiff_reach", "key_width_reserve", "key_pitch_reserve")
+    constant = ("soft_reach", "stiff_reach", "key_width_margin", "key_pitch_margin")
     kept = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in constant]
     sizes = reference.model.outputs(["envelope_volume", "module_mass"])
     for design in others(reference):

@@ -58,9 +58,9 @@ def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made
         "shear": {"rotor | spring_right_1", "housing | spring_left_2"},
         "compression": {"rotor | pcl_block_1", "peltier_pad_2 | pcl_block_1", "housing | pcl_block_1"},
     }
-    told = {check.name for check in made.report.checks}
+    reported = {check.name for check in made.report.checks}
     for angle in ("-0.1040", "-0.0520", "+0.0520", "+0.1040"):
-        assert {f"{pair} at {angle} rad" for pair in pairs[made.design.mode]} <= told
+        assert {f"{pair} at {angle} rad" for pair in pairs[made.design.mode]} <= reported
 
 
 def test_step_and_mesh_read_back_as_the_parts(made: Made) -> None:

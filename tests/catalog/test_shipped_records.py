@@ -5,10 +5,10 @@ import math
 import pytest
 
 from tvimdesign.base.errors import CatalogError
-from tvimdesign.catalog import SHELVES, Catalog, check_records
+from tvimdesign.catalog import CATEGORIES, Catalog, check_records
 
 CATALOG = Catalog()
-EVERY_RECORD = [(shelf, name) for shelf in SHELVES for name in CATALOG.names(shelf)]
+EVERY_RECORD = [(category, name) for category in CATEGORIES for name in CATALOG.names(category)]
 
 
 def strength(name: str, diameter: float) -> float:
@@ -22,7 +22,7 @@ def test_nothing_lacks_unit_source_or_status() -> None:
 
 
 def test_every_shelf_has_its_records() -> None:
-    assert {shelf: len(CATALOG.names(shelf)) for shelf in SHELVES} == {
+    assert {category: len(CATALOG.names(category)) for category in CATEGORIES} == {
         "spring_materials": 9,
         "structure_materials": 5,
         "processes": 5,
@@ -38,17 +38,17 @@ def test_every_shelf_has_its_records() -> None:
     }
 
 
-@pytest.mark.parametrize(("shelf", "name"), EVERY_RECORD)
-def test_a_record_has_what_its_shelf_requires(shelf: str, name: str) -> None:
-    record = CATALOG.record(shelf, name)
-    assert set(SHELVES[shelf].values) <= set(record.entries)
-    assert set(SHELVES[shelf].tables) <= set(record.tables)
-    assert set(SHELVES[shelf].words) <= set(record.words)
+@pytest.mark.parametrize(("category", "name"), EVERY_RECORD)
+def test_a_record_has_what_its_shelf_requires(category: str, name: str) -> None:
+    record = CATALOG.record(category, name)
+    assert set(CATEGORIES[category].values) <= set(record.entries)
+    assert set(CATEGORIES[category].tables) <= set(record.tables)
+    assert set(CATEGORIES[category].words) <= set(record.words)
     for entry in record.entries.values():
         assert entry.unit
         assert entry.source
         assert entry.status != "assumed" or entry.low is not None
-    assert record.file == f"catalog/{shelf}/{name}.yaml"
+    assert record.file == f"catalog/{category}/{name}.yaml"
 
 
 @pytest.mark.parametrize(

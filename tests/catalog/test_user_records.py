@@ -26,10 +26,10 @@ words: {form: flexible}
 """
 
 
-def put(folder: Path, text: str | bytes, shelf: str = "peltiers", name: str = "mine") -> Catalog:
+def put(folder: Path, text: str | bytes, category: str = "peltiers", name: str = "mine") -> Catalog:
     """Write one user record and return the catalogue that sees it."""
-    (folder / shelf).mkdir(exist_ok=True)
-    (folder / shelf / f"{name}.yaml").write_bytes(text.encode() if isinstance(text, str) else text)
+    (folder / category).mkdir(exist_ok=True)
+    (folder / category / f"{name}.yaml").write_bytes(text.encode() if isinstance(text, str) else text)
     return Catalog(folder)
 
 
@@ -113,7 +113,7 @@ WIRE = "title: w\ntables:\n  sizes: {{columns: {columns}, rows: {rows}, source: 
     ],
 )
 def test_a_broken_table_is_named(tmp_path: Path, columns: str, rows: str, status: str, said: str) -> None:
-    catalog = put(tmp_path, WIRE.format(columns=columns, rows=rows, status=status), shelf="wires")
+    catalog = put(tmp_path, WIRE.format(columns=columns, rows=rows, status=status), category="wires")
     with pytest.raises(CatalogError) as caught:
         catalog.record("wires", "mine")
     assert said in str(caught.value)
@@ -140,7 +140,7 @@ def test_a_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str,
     text = PCL.read_text(encoding="utf-8")
     assert good in text
     with pytest.raises(CatalogError) as caught:
-        put(tmp_path, text.replace(good, bad, 1), shelf="polymers").record("polymers", "mine")
+        put(tmp_path, text.replace(good, bad, 1), category="polymers").record("polymers", "mine")
     assert said in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
 
@@ -149,7 +149,7 @@ def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
     shipped = Path(__file__).parents[2] / "tvimdesign" / "catalog" / "data" / "spring_materials" / "music_wire.yaml"
     text = shipped.read_text(encoding="utf-8").replace("wire_diameter_to: mm", "wire_diameter_to: in", 1)
     with pytest.raises(CatalogError, match="wire_diameter_to: must be in mm"):
-        put(tmp_path, text, shelf="spring_materials").record("spring_materials", "mine")
+        put(tmp_path, text, category="spring_materials").record("spring_materials", "mine")
 
 
 @pytest.mark.parametrize(

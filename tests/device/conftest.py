@@ -8,8 +8,8 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Supplied, Table, table_for
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study_text
 
 POINTS = ("cold", "hot")
@@ -32,22 +32,22 @@ def inputs() -> dict[str, Any]:
 
 
 @pytest.fixture(scope="session", params=["unity", "geometry"])
-def model(request: pytest.FixtureRequest, table: Table) -> Model:
-    return Model(table, inputs_of(transmission=request.param), POINTS, 12)
+def model(request: pytest.FixtureRequest, table: Table) -> DeviceFunctions:
+    return DeviceFunctions(table, inputs_of(transmission=request.param), POINTS, 12)
 
 
 @pytest.fixture(scope="session")
-def unity(table: Table) -> Model:
-    return Model(table, inputs_of(), POINTS, 12)
+def unity(table: Table) -> DeviceFunctions:
+    return DeviceFunctions(table, inputs_of(), POINTS, 12)
 
 
 @pytest.fixture(scope="session")
-def simulator(unity: Model) -> Simulator:
+def simulator(unity: DeviceFunctions) -> Simulator:
     return fine(unity)
 
 
 @pytest.fixture(scope="session")
-def switch(simulator: Simulator, unity: Model) -> Switch:
+def cycle(simulator: Simulator, unity: DeviceFunctions) -> Cycle:
     return simulator.run(unity.start)
 
 
@@ -58,28 +58,28 @@ def squeezed() -> dict[str, Any]:
 
 
 @pytest.fixture(scope="session")
-def squeezed_model(squeezed: dict[str, Any]) -> Model:
-    return Model(table_for("compression"), squeezed, POINTS, 12)
+def squeezed_model(squeezed: dict[str, Any]) -> DeviceFunctions:
+    return DeviceFunctions(table_for("compression"), squeezed, POINTS, 12)
 
 
 @pytest.fixture(scope="session")
-def squeezed_simulator(squeezed_model: Model) -> Simulator:
+def squeezed_simulator(squeezed_model: DeviceFunctions) -> Simulator:
     return fine(squeezed_model)
 
 
 @pytest.fixture(scope="session")
-def squeezed_switch(squeezed_simulator: Simulator, squeezed_model: Model) -> Switch:
+def squeezed_switch(squeezed_simulator: Simulator, squeezed_model: DeviceFunctions) -> Cycle:
     return squeezed_simulator.run(squeezed_model.start)
 
 
 @pytest.fixture(scope="session")
 def algebraic(table: Table) -> list[str]:
     """Full names of the outputs a study can ask for that no simulation supplies."""
-    return [name for name in table.names(POINTS) if not isinstance(table.row(name), Supplied)]
+    return [name for name in table.names(POINTS) if not isinstance(table.quantity(name), Supplied)]
 
 
 @pytest.fixture(scope="session")
-def numbers(switch: Switch) -> dict[str, float]:
+def numbers(cycle: Cycle) -> dict[str, float]:
     """Values of what a simulation supplies."""
-    assert all(np.isfinite(value) for value in switch.values.values())
-    return dict(switch.values)
+    assert all(np.isfinite(value) for value in cycle.values.values())
+    return dict(cycle.values)

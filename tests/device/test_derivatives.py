@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Table, table_for
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.solve.nlp.transcription import guess, stage_block
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.nlp.transcription import guess, phase_block
 
 Array = NDArray[np.float64]
 # Not the depth of a hub that has none: it has no share of itself by which it could be changed.
@@ -35,11 +35,11 @@ def differences(function: Any, at: Array, which: list[int], share: float) -> Arr
 
 
 def test_every_output_has_the_derivatives_by_every_input_that_differences_show(
-    model: Model, numbers: dict[str, float]
+    model: DeviceFunctions, numbers: dict[str, float]
 ) -> None:
-    inputs, switch = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("switch", len(model.switch_names))
+    inputs, cycle = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("cycle", len(model.switch_names))
     supplied = np.array([numbers[name] for name in model.switch_names])
-    jacobian = ca.Function("jacobian", [inputs, switch], [ca.jacobian(model.every_output(inputs, switch), inputs)])
+    jacobian = ca.Function("jacobian", [inputs, cycle], [ca.jacobian(model.every_output(inputs, cycle), inputs)])
     exact = np.asarray(ca.DM(jacobian(model.start, supplied)).full())
     which = [i for i, name in enumerate(model.names) if name != "rotor_cells"]  # a shape, not a number
     shown = differences(lambda x: model.every_output(x, supplied), model.start, which, 1e-4)
@@ -54,48 +54,48 @@ def test_every_output_has_the_derivatives_by_every_input_that_differences_show(
 
 
 def test_every_output_of_a_switch_has_the_derivatives_by_the_switch_that_differences_show(
-    unity: Model, numbers: dict[str, float]
+    unity: DeviceFunctions, numbers: dict[str, float]
 ) -> None:
     supplied = np.array([numbers[name] for name in unity.switch_names])
-    switch = ca.MX.sym("switch", len(supplied))
-    jacobian = ca.Function("jacobian", [switch], [ca.jacobian(unity.every_output(unity.start, switch), switch)])
+    cycle = ca.MX.sym("cycle", len(supplied))
+    jacobian = ca.Function("jacobian", [cycle], [ca.jacobian(unity.every_output(unity.start, cycle), cycle)])
     shown = differences(lambda x: unity.every_output(unity.start, x), supplied, list(range(len(supplied))), 1e-3)
     values = np.abs(np.asarray(unity.every_output(unity.start, supplied)).ravel())[:, None]
     error = np.abs(np.asarray(ca.DM(jacobian(supplied)).full()) - shown)
     assert np.all(error * supplied <= 1e-9 * np.maximum(values, 1e-6))
 
 
-def event_gradient(model: Model, switch: Switch, event: str) -> tuple[float, Array]:
+def event_gradient(model: DeviceFunctions, cycle: Cycle, event: str) -> tuple[float, Array]:
     """Time of an event by collocation, and its derivative by every input from the implicit function theorem."""
     inputs = ca.MX.sym("inputs", len(model.names))
-    stage = model.stages["softening"]
+    phase = model.phases["softening"]
     current = inputs[model.index["current"]]
-    block = stage_block(stage, event, ELEMENTS, inputs, stage.initial(inputs), current)
+    block = phase_block(phase, event, ELEMENTS, inputs, phase.initial(inputs), current)
     unknowns = ca.vertcat(ca.vec(block.states), block.log_time)
     system = ca.Function("system", [unknowns, inputs], [block.equations])
     solve = ca.rootfinder("solve", "newton", system, {"abstol": 1e-11, "max_iter": 50})
-    time = switch.values[event]
-    scaled = guess(switch.trajectory, ELEMENTS) if event == "response_time" else _until(switch, time)
+    time = cycle.values[event]
+    scaled = guess(cycle.trajectory, ELEMENTS) if event == "response_time" else _until(cycle, time)
     begin = np.append(scaled.ravel(order="F"), np.log(time))
     gradient = ca.Function("gradient", [inputs], [ca.jacobian(solve(begin, inputs)[-1], inputs)])
     found = float(np.asarray(solve(begin, model.start))[-1, 0])
     return float(np.exp(found)), np.exp(found) * np.asarray(ca.DM(gradient(model.start)).full()).ravel()
 
 
-def _until(switch: Switch, time: float) -> Array:
+def _until(cycle: Cycle, time: float) -> Array:
     """Guess of the states at the collocation points of a switch that ends at another time than the simulated one."""
-    trajectory = switch.trajectory
+    trajectory = cycle.trajectory
     times = np.linspace(0.0, time, 400)
     states = np.array([np.interp(times, trajectory.times, row) for row in trajectory.states])
     return guess(type(trajectory)(times=times, states=states, currents=np.zeros(400)), ELEMENTS)
 
 
 @pytest.fixture(scope="module")
-def shown_by_simulation(unity: Model, simulator: Simulator) -> dict[str, Array]:
+def shown_by_simulation(unity: DeviceFunctions, simulator: Simulator) -> dict[str, Array]:
     """Derivatives of all event times by every design variable, from simulations of changed designs."""
 
     def times(inputs: Array) -> Array:
-        values = simulator.run(inputs, stages=["softening"]).values
+        values = simulator.run(inputs, phases=["softening"]).values
         return np.array([values[event] for event in EVENTS])
 
     jacobian = differences(times, unity.start, [unity.index[name] for name in VARIABLES], 1e-3)
@@ -104,15 +104,15 @@ def shown_by_simulation(unity: Model, simulator: Simulator) -> dict[str, Array]:
 
 @pytest.mark.parametrize("event", EVENTS)
 def test_response_times_have_the_derivatives_that_simulations_show(
-    event: str, unity: Model, switch: Switch, shown_by_simulation: dict[str, Array], table: Table
+    event: str, unity: DeviceFunctions, cycle: Cycle, shown_by_simulation: dict[str, Array], table: Table
 ) -> None:
-    assert {row.name for row in unity.stages["softening"].events} == set(EVENTS)
-    time, gradient = event_gradient(unity, switch, event)
-    assert time == pytest.approx(switch.values[event], rel=5e-4)
+    assert {row.name for row in unity.phases["softening"].events} == set(EVENTS)
+    time, gradient = event_gradient(unity, cycle, event)
+    assert time == pytest.approx(cycle.values[event], rel=5e-4)
     for name, shown in zip(VARIABLES, shown_by_simulation[event], strict=True):
         exact = gradient[unity.index[name]]
         # 1e-3 of the derivative, or of the time itself where the variable hardly matters.
         scale = max(abs(shown) * unity.start[unity.index[name]], 0.01 * time) / unity.start[unity.index[name]]
         assert exact == pytest.approx(shown, abs=1e-3 * scale), name
-        if name not in {*table.ancestors(event), table.stage("softening").drive}:
+        if name not in {*table.ancestors(event), table.phase("softening").current_input}:
             assert exact == 0.0, name

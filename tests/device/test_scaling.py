@@ -16,12 +16,12 @@ POWERS = {
 # The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
 SWINGS = {"damping_ratio": -1, "critical_damping": 4}
 # Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, or lengths that are sold.
-FIXED = {"spring_tensile_strength", "wire_range_reserve", "coil_diameter_tolerance", "screw_length_misfit"}
+FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit"}
 TABLES = {mode: table_for(mode) for mode in MODES}
 
 
 def _power(table: Table, name: str) -> int:
-    row = table.row(name)
+    row = table.quantity(name)
     if isinstance(row, Input) and row.unit == "Hz":
         return 0  # the frequency a modulus is stated at
     return SWINGS.get(row.name, POWERS.get(table.unit(name), 0))
@@ -48,7 +48,7 @@ def test_outputs_scale_with_the_length_as_their_units_say(
         name
         for name in table.names(("cold", "hot"))
         if _free_of_fixed_lengths(table, name)
-        and not any(isinstance(table.row(base), Supplied) for base in (name, *table.ancestors(name)))
+        and not any(isinstance(table.quantity(base), Supplied) for base in (name, *table.ancestors(name)))
     ]
     assert len(wanted) > 70
     # Where there are no adjusters and no cover their rules have a constant room, of no size.

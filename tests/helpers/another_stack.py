@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 Array = NDArray[np.float64]
 CELLS, PLATE_CELLS = 120, 40
@@ -20,7 +20,7 @@ GAS = 8.314462618
 LAYER, PLATE = slice(2, 2 + CELLS), slice(2 + CELLS, 2 + CELLS + PLATE_CELLS)
 
 
-def value_of(model: Model) -> Callable[[str], float]:
+def value_of(model: DeviceFunctions) -> Callable[[str], float]:
     """Numbers of a model's inputs, and of its outputs that no simulation supplies."""
     computed = model.values(model.start, dict.fromkeys(model.switch_names, 0.0))
     return lambda name: float(model.start[model.index[name]]) if name in model.index else computed[name]

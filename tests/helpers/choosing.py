@@ -44,7 +44,7 @@ def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> di
     lists = {name: vary.values for name, vary in study.vary.items() if isinstance(vary, Options)}
     asked = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": starts})})
     optimizer = Optimizer(asked, Catalog(), table_for(study.mode), reference)
-    begins = list(optimizer.beginnings.points())
+    begins = list(optimizer.multistart.points())
     found: dict[tuple[float, ...], float] = {}
     for combination in itertools.product(*lists.values()):
         sizes = [float(value) for value in combination]

@@ -9,11 +9,11 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Switch
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.cycle import Cycle
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study_text
 
-Build = Callable[..., Model]
+Build = Callable[..., DeviceFunctions]
 # Designs of other proportions: thin and fast, thick and slow, under an aluminium rotor with a fan on the cold side.
 DESIGNS: dict[str, dict[str, float | str]] = {
     "as it is": {},
@@ -30,23 +30,23 @@ def build() -> Build:
     """A model of one of the designs, built once."""
 
     @cache
-    def make(design: str = "as it is", cells: int = 12, rotor_cells: int | None = None) -> Model:
+    def make(design: str = "as it is", cells: int = 12, rotor_cells: int | None = None) -> DeviceFunctions:
         catalog, table = Catalog(), table_for("shear")
         study = read_study_text("mode: shear\n", "a test").model_copy(update={"module": DESIGNS[design]})
         inputs: dict[str, Any] = given(study, catalog, table)
         if rotor_cells is not None:
             inputs["rotor_cells"] = rotor_cells
-        return Model(table, inputs, ("cold", "hot"), cells)
+        return DeviceFunctions(table, inputs, ("cold", "hot"), cells)
 
     return make
 
 
 @pytest.fixture(scope="session")
-def switch_of(build: Build) -> Callable[[str], Switch]:
+def switch_of(build: Build) -> Callable[[str], Cycle]:
     """The switch of one of the designs as the product simulates it."""
 
     @cache
-    def run(design: str) -> Switch:
+    def run(design: str) -> Cycle:
         model = build(design)
         return fine(model).run(model.start)
 

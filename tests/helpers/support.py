@@ -7,7 +7,7 @@ from pathlib import Path
 from subprocess import CompletedProcess
 
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 ROOT = Path(__file__).resolve().parents[2]
 STUDIES = sorted((ROOT / "studies").glob("*.yaml"))
@@ -29,6 +29,6 @@ def digits(name: str, usual: float) -> float:
     return 1e-9 if name.partition("@")[0] in TRANSFORMED else usual
 
 
-def fine(model: Model) -> Simulator:
+def fine(model: DeviceFunctions) -> Simulator:
     """A simulator ten thousand times as exact as the product's, for what is differenced or held to many digits."""
     return Simulator(model, tolerance=1e-9, steps=200)

@@ -41,7 +41,7 @@ def bare_stack() -> Callable[..., heat.Stack]:
     def make(**changes: Any) -> heat.Stack:
         stack = heat.Stack(
             area=1e-3, thickness=1e-3, density=1145.0, conductivity_solid=0.2, conductivity_melt=0.2,
-            melting=NO_MELTING, peltier=peltier.Module(0.0, 1.0, 0.0), cold_capacity=1e9, hot_capacity=1e-7,
+            melting=NO_MELTING, peltier=peltier.PeltierModule(0.0, 1.0, 0.0), cold_capacity=1e9, hot_capacity=1e-7,
             cold_surface=heat.NOWHERE, hot_contact=1e12, plate_contact=1e-12, plate_thickness=1e-3,
             plate_conductivity=0.2, plate_heat_capacity=1e6, plate_surface=heat.Surface(1e-3, 1e-12), ambient=COLD,
             plate_cells=1,

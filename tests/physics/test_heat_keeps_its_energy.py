@@ -13,7 +13,7 @@ from tvimdesign.simulation.casadi_setup import ca
 AREA = 1579.2e-6  # m^2, Exley et al., table I
 AMBIENT, TARGET = 295.15, 373.15
 PCL = polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
-FLEXIBLE = peltier.Module(0.025, 3.0, 0.12)
+FLEXIBLE = peltier.PeltierModule(0.025, 3.0, 0.12)
 PETG = {"plate_conductivity": 0.24, "plate_heat_capacity": 1270.0 * 1200.0, "plate_thickness": 4e-3}
 ALUMINIUM = {"plate_conductivity": 167.0, "plate_heat_capacity": 2700.0 * 896.0, "plate_thickness": 2e-3}
 # A plate that takes 3 W/m^2 K from the layer and stores next to nothing.
@@ -21,7 +21,7 @@ LOSS_ONLY = {"plate_conductivity": 1e3, "plate_heat_capacity": 1e3, "plate_surfa
 INSULATED = {"plate_surface": heat.Surface(AREA, 1e-9)}
 
 
-def stack_of(module: peltier.Module, side_capacity: float, **changes: Any) -> heat.Stack:
+def stack_of(module: peltier.PeltierModule, side_capacity: float, **changes: Any) -> heat.Stack:
     """The shear module's stack, the cold side in free air."""
     stack = heat.Stack(
         area=AREA, thickness=1e-3, density=1145.0, conductivity_solid=0.225, conductivity_melt=0.18, melting=PCL,
@@ -94,13 +94,13 @@ def test_stored_energy_is_mass_times_specific_heat_times_warming() -> None:
         (FLEXIBLE, 2.9, LOSS_ONLY, 69.0, 77.0),
         (FLEXIBLE, 2.9, {"thickness": 2e-3, **LOSS_ONLY}, 104.0, 134.0),
         (FLEXIBLE, 2.9, ALUMINIUM, 120.0, 158.0),
-        (peltier.Module(4 * 6.37e-3, 4 * 0.515, 4 * 0.028), 3.9, LOSS_ONLY, 90.0, 98.0),  # four QC-17
-        (peltier.Module(52.6e-3, 2.05, 0.550), 8.6, LOSS_ONLY, 175.0, 187.0),  # 12706
+        (peltier.PeltierModule(4 * 6.37e-3, 4 * 0.515, 4 * 0.028), 3.9, LOSS_ONLY, 90.0, 98.0),  # four QC-17
+        (peltier.PeltierModule(52.6e-3, 2.05, 0.550), 8.6, LOSS_ONLY, 175.0, 187.0),  # 12706
     ],
     ids=["1 mm", "2 mm", "1 mm under 2 mm of aluminium", "four QC-17", "12706"],
 )
 def test_response_times_come_near_an_independent_calculation(
-    module: peltier.Module, side_capacity: float, changes: dict[str, Any], near: float, far: float
+    module: peltier.PeltierModule, side_capacity: float, changes: dict[str, Any], near: float, far: float
 ) -> None:
     # Another model of these stacks, cold side in free air (15 W/m^2 K), PETG behind the layer. It is met where the PETG
     # stores no heat and takes 3 W/m^2 K, and a side of the pads holds 2.9 J/K, of which that model said nothing. The
@@ -129,7 +129,7 @@ def test_power_for_70_seconds_is_about_that_of_an_independent_calculation(
     # within the published ranges but not known: its heat is 5 % less than that of the middle of the ranges.
     def late(power: float) -> float:
         stack = stack_of(
-            peltier.Module(0.0, 2.0 * power, 0.0), 1e-3, cold_capacity=1e9, thickness=thickness,
+            peltier.PeltierModule(0.0, 2.0 * power, 0.0), 1e-3, cold_capacity=1e9, thickness=thickness,
             **({"plate_heat_capacity": 1.0} | changes),
         )  # fmt: skip
         return face_times(stack, current=1.0)[1] - 70.0
@@ -144,9 +144,13 @@ def test_the_flux_of_a_switch_in_70_seconds_takes_twice_as_long_through_a_little
     # The paper's 140 s against 70 s, by the same independent calculation: a question of depth alone.
     def far_time(power: float, depth: float) -> float:
         stack = stack_of(
-            peltier.Module(0.0, 2.0 * power, 0.0), 1e-3, cold_capacity=1e9, thickness=depth, plate_heat_capacity=1.0,
+            peltier.PeltierModule(0.0, 2.0 * power, 0.0),
+            1e-3,
+            cold_capacity=1e9,
+            thickness=depth,
+            plate_heat_capacity=1.0,
             **INSULATED,
-        )  # fmt: skip
+        )
         return face_times(stack, current=1.0)[1]
 
     power = brentq(lambda watts: far_time(watts, thickness) - 70.0, 5.0, 16.0, xtol=1e-2)

@@ -19,7 +19,7 @@ AMBIENT = 295.15
 AREA = 1579.2e-6
 PCL = polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
 FREEZING = crystallization.Kinetics(3.0, 170.0, 313.15, 6.08e4, 347.15, 213.15, 6270.0, 0.5)
-PADS = peltier.Module(0.025, 3.0, 0.12)
+PADS = peltier.PeltierModule(0.025, 3.0, 0.12)
 SINK = heat.Lump(5.0, 30.0, heat.Surface(15e-3, 10.0, 0.85))
 STRIP = heat.Lump(0.4, 12.0, heat.Surface(4e-3, 6.0, 0.9))
 CORE = heat.Lump(0.05, 40.0, heat.NOWHERE)
@@ -153,7 +153,7 @@ def test_reversed_current_cools_to_the_balance_of_the_peltier_equations(
     # Layer and hot side are insulated, Q_h = 0; the cold side gives -Q_c = h A (T_c - T_a): two linear equations.
     seebeck, ohms, leak, loss = 0.025, 3.0, 0.12, 0.3
     stack = bare_stack(
-        peltier=peltier.Module(seebeck, ohms, leak), cold_capacity=4.0, hot_capacity=2.5, hot_contact=1e4,
+        peltier=peltier.PeltierModule(seebeck, ohms, leak), cold_capacity=4.0, hot_capacity=2.5, hot_contact=1e4,
         cold_surface=heat.Surface(0.03, 10.0),
     )  # fmt: skip
     joule = 0.5 * current**2 * ohms

@@ -16,7 +16,10 @@ SHEETS = {  # I_max [A], V_max [V], dT_max [K], T_h [K] of the data sheets, and 
 }
 kelvins = st.floats(250.0, 420.0)
 modules = st.builds(
-    peltier.Module, seebeck=st.floats(1e-3, 0.1), resistance=st.floats(0.1, 10.0), conductance=st.floats(0.01, 2.0)
+    peltier.PeltierModule,
+    seebeck=st.floats(1e-3, 0.1),
+    resistance=st.floats(0.1, 10.0),
+    conductance=st.floats(0.01, 2.0),
 )
 
 
@@ -59,14 +62,16 @@ def test_rated_cooling_follows_from_the_other_ratings(name: str, watts: float, w
 
 
 @given(module=modules, cold=kelvins)
-def test_max_cooling_is_the_most_any_current_draws_without_a_difference(module: peltier.Module, cold: float) -> None:
+def test_max_cooling_is_the_most_any_current_draws_without_a_difference(
+    module: peltier.PeltierModule, cold: float
+) -> None:
     best = minimize_scalar(lambda i: -peltier.cold_side_heat(module, i, cold, cold), bracket=(0.0, 1.0))
     assert peltier.max_cooling_power(module, cold) == pytest.approx(-best.fun, rel=1e-6)
 
 
 @given(module=modules, current=st.floats(-5.0, 5.0), hot=kelvins, cold=kelvins)
 def test_electrical_power_is_the_difference_of_the_heats(
-    module: peltier.Module, current: float, hot: float, cold: float
+    module: peltier.PeltierModule, current: float, hot: float, cold: float
 ) -> None:
     heat = peltier.hot_side_heat(module, current, hot, cold) - peltier.cold_side_heat(module, current, hot, cold)
     power = peltier.voltage(module, current, hot, cold) * current
@@ -75,7 +80,7 @@ def test_electrical_power_is_the_difference_of_the_heats(
 
 @given(module=modules, hot=st.floats(300.0, 400.0), difference=st.floats(1.0, 30.0))
 def test_best_coefficient_of_performance_is_the_textbooks(
-    module: peltier.Module, hot: float, difference: float
+    module: peltier.PeltierModule, hot: float, difference: float
 ) -> None:
     # Rowe (ed.), CRC Handbook of Thermoelectrics: T_c/(T_h - T_c) (m - T_h/T_c)/(m + 1), m = sqrt(1 + Z T_mean),
     # at the current S dT/(R (m - 1)).
@@ -89,7 +94,7 @@ def test_best_coefficient_of_performance_is_the_textbooks(
 
 
 def test_current_through_a_module_of_one_temperature_pumps_heat_to_the_hot_side() -> None:
-    module = peltier.Module(0.05, 2.0, 0.5)
+    module = peltier.PeltierModule(0.05, 2.0, 0.5)
     assert peltier.hot_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 + 1.0)
     assert peltier.cold_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 - 1.0)
 
@@ -102,6 +107,6 @@ def test_a_40_mm_module_with_a_well_sunk_cold_side_stalls_near_76_degrees_at_1_5
 
 
 def test_heat_flows_back_from_hot_to_cold_without_current() -> None:
-    module = peltier.Module(0.05, 2.0, 0.5)
+    module = peltier.PeltierModule(0.05, 2.0, 0.5)
     assert peltier.hot_side_heat(module, 0.0, 310.0, 300.0) == pytest.approx(-5.0)
     assert peltier.cold_side_heat(module, 0.0, 310.0, 300.0) == pytest.approx(-5.0)

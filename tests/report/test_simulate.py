@@ -9,9 +9,9 @@ import pytest
 from support import Command
 
 from tvimdesign.report.simulate_study import figure_data, findings, sheet_csv
-from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
-SHEET = Sheet(
+SHEET = CurveTable(
     "warm",
     (
         Column("temperature", "degC", np.array([273.15, 333.15])),
@@ -20,7 +20,7 @@ SHEET = Sheet(
         Column("strain_high", "%", np.array([0.02, 0.03])),
     ),
 )
-LINE = Line("warm", "temperature", "strain", "as is", ("strain_low", "strain_high"))
+LINE = PlottedLine("warm", "temperature", "strain", "as is", ("strain_low", "strain_high"))
 TRIAL = Trial(
     test="none",
     title="No test",
@@ -86,9 +86,9 @@ def test_scripts_get_json(tvimdesign: Command, tmp_path: Path) -> None:
     done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "amplitude", "--json", "--out",
                       tmp_path / "out")  # fmt: skip
     assert done.returncode == 0, done.stderr
-    told = json.loads(done.stdout)
-    assert told["test"] == "amplitude"
-    names = {found["name"] for found in told["findings"]}
+    reported = json.loads(done.stdout)
+    assert reported["test"] == "amplitude"
+    names = {found["name"] for found in reported["findings"]}
     assert "linear_limit@30_degC" in names
 
 
@@ -117,17 +117,17 @@ def test_the_design_of_a_run_is_tested_in_place_of_the_start_of_its_study(tvimde
     study = tmp_path / "thin.yaml"
     study.write_text("mode: shear\nvary: {pcl_thickness: [0.6 mm, 2 mm]}\nminimize: module_mass\nsolver: {starts: 1}\n")
     assert tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "run").returncode == 0
-    told = {}
+    reported = {}
     for name, source in (("start", study), ("design", tmp_path / "run")):
         done = tvimdesign("simulate", source, "--test", "sine", "--json", "--out", tmp_path / name)
         assert done.returncode == 0, done.stderr
-        told[name] = json.loads(done.stdout)
-    assert "the start of" in told["start"]["notes"][0]
-    assert "the design" in told["design"]["notes"][0]
+        reported[name] = json.loads(done.stdout)
+    assert "the start of" in reported["start"]["notes"][0]
+    assert "the design" in reported["design"]["notes"][0]
     values = json.loads((tmp_path / "run/results.json").read_text())["values"]
     stiffness = {
         name: next(found["value"] for found in one["findings"] if found["name"] == "stiffness@hot")
-        for name, one in told.items()
+        for name, one in reported.items()
     }
     assert stiffness["design"] == pytest.approx(values["joint_stiffness@hot"]["value"], rel=1e-3)
     assert stiffness["start"] != pytest.approx(stiffness["design"], rel=1e-3)

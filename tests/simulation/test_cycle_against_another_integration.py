@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.integrate import simpson, solve_ivp
 from support import fine
 
-from tvimdesign.simulation.cycle import Switch
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.cycle import Cycle
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "thick", "aluminium", "sink")
@@ -23,8 +23,8 @@ LONG = {"thick", "aluminium", "sink"}
     scope="module", params=[pytest.param(name, marks=pytest.mark.slow if name in LONG else []) for name in DESIGNS]
 )
 def pair(
-    request: pytest.FixtureRequest, build: Callable[..., Model], switch_of: Callable[[str], Switch]
-) -> tuple[Switch, dict[str, float]]:
+    request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> tuple[Cycle, dict[str, float]]:
     """The product's switch and what the independent integration finds for the same design."""
     model = build(request.param)
     reference = AnotherStack(value_of(model), sink=model.words["cold_side"] == "sink")
@@ -60,21 +60,21 @@ def pair(
     return switch_of(request.param), values
 
 
-def test_switch_agrees_with_the_independent_integration(pair: tuple[Switch, dict[str, float]]) -> None:
+def test_switch_agrees_with_the_independent_integration(pair: tuple[Cycle, dict[str, float]]) -> None:
     # 1 % is what the product promises; twelve cells in the layer and eight in the rotor reach half of it.
-    switch, reference = pair
+    cycle, reference = pair
     for name in ("near_face_time", "mean_time", "far_face_time", "switch_energy", "peak_power", "peak_pcl_temperature"):
-        assert switch.values[name] == pytest.approx(reference[name], rel=5e-3), name
+        assert cycle.values[name] == pytest.approx(reference[name], rel=5e-3), name
 
 
-def test_peak_of_the_rotor_is_that_of_its_face_to_the_layer(pair: tuple[Switch, dict[str, float]]) -> None:
-    switch, reference = pair
-    assert switch.values["peak_rotor_temperature"] == pytest.approx(reference["rotor_face"], abs=1.0)
+def test_peak_of_the_rotor_is_that_of_its_face_to_the_layer(pair: tuple[Cycle, dict[str, float]]) -> None:
+    cycle, reference = pair
+    assert cycle.values["peak_rotor_temperature"] == pytest.approx(reference["rotor_face"], abs=1.0)
 
 
 @pytest.mark.parametrize("design", DESIGNS)
 def test_near_face_comes_before_the_mean_and_the_mean_before_the_far_face(
-    design: str, switch_of: Callable[[str], Switch]
+    design: str, switch_of: Callable[[str], Cycle]
 ) -> None:
     values = switch_of(design).values
     assert 0.0 < values["near_face_time"] < values["mean_time"] < values["far_face_time"]
@@ -84,42 +84,42 @@ def test_near_face_comes_before_the_mean_and_the_mean_before_the_far_face(
 
 @pytest.mark.parametrize("design", DESIGNS)
 def test_energy_is_the_integral_of_the_power_over_the_trajectory(
-    design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
 ) -> None:
-    model, switch = build(design), switch_of(design)
-    trajectory = switch.trajectory
+    model, cycle = build(design), switch_of(design)
+    trajectory = cycle.trajectory
     current = model.start[model.index["current"]]
-    power_at = model.stages["softening"].watch(["switch_energy"])
+    power_at = model.phases["softening"].watch(["switch_energy"])
     power = [float(power_at(state, current, model.start)) for state in trajectory.states.T]
     energy = simpson(power, x=trajectory.times)
-    assert switch.values["switch_energy"] == pytest.approx(energy, rel=1e-4)
-    assert trajectory.times[-1] == pytest.approx(switch.values["response_time"], rel=1e-12)
-    assert switch.values["peak_power"] == pytest.approx(max(power), rel=1e-9)
+    assert cycle.values["switch_energy"] == pytest.approx(energy, rel=1e-4)
+    assert trajectory.times[-1] == pytest.approx(cycle.values["response_time"], rel=1e-12)
+    assert cycle.values["peak_power"] == pytest.approx(max(power), rel=1e-9)
 
 
 def test_state_at_the_response_time_fulfils_the_event(
-    build: Callable[..., Model], switch_of: Callable[[str], Switch]
+    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
 ) -> None:
-    model, switch = build(), switch_of("as it is")
-    gap = model.stages["softening"].watch(["response_time"])(switch.trajectory.states[:, -1], 1.5, model.start)
+    model, cycle = build(), switch_of("as it is")
+    gap = model.phases["softening"].watch(["response_time"])(cycle.trajectory.states[:, -1], 1.5, model.start)
     assert float(gap) == pytest.approx(0.0, abs=2e-5)  # in hundreds of kelvin
 
 
-def test_a_switch_that_stalls_has_no_response_time(build: Callable[..., Model]) -> None:
+def test_a_switch_that_stalls_has_no_response_time(build: Callable[..., DeviceFunctions]) -> None:
     # At 0.4 A the pads cannot hold 100 degC against the losses.
     model = build()
     inputs = model.start.copy()
     inputs[model.index["current"]] = 0.4
-    switch = fine(model).run(inputs)
-    assert switch.values["far_face_time"] == np.inf
-    assert switch.values["response_time"] == np.inf
+    cycle = fine(model).run(inputs)
+    assert cycle.values["far_face_time"] == np.inf
+    assert cycle.values["response_time"] == np.inf
 
 
-def test_times_converge_with_the_square_of_the_cell(build: Callable[..., Model]) -> None:
+def test_times_converge_with_the_square_of_the_cell(build: Callable[..., DeviceFunctions]) -> None:
     found = []
     for cells in (6, 12, 24, 48):
         model = build("as it is", cells, 8)
-        found.append(fine(model).run(model.start, stages=["softening"]).values["far_face_time"])
+        found.append(fine(model).run(model.start, phases=["softening"]).values["far_face_time"])
     changes = np.abs(np.diff(found))
     # Melting passes cell after cell, so the order is uneven; it must not be less than one on the whole.
     assert changes[-1] < 0.5 * changes[0]

@@ -7,14 +7,14 @@ from support import ROOT, fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
 
 @pytest.mark.parametrize("design", ["as it is", "thin", "thick", "aluminium"])
 def test_the_shipped_tolerance_finds_the_values_of_the_tight_one(
-    design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
 ) -> None:
     model, tight = build(design), switch_of(design)
     shipped = Simulator(model).run(model.start)
@@ -26,7 +26,7 @@ def test_an_event_that_a_second_look_just_misses_is_found_where_it_is() -> None:
     """At this start the sample after the event has it, and the same moment integrated once more not quite."""
     study, catalog = read_study(ROOT / "studies" / "fast_switch.yaml"), Catalog()
     table = table_for(study.mode)
-    model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+    model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
     shown, tight = Simulator(model).run_to_show(model.start), fine(model).run(model.start)
     for name in ("softening_time", "stiffening_time", "equilibrium_stiffening_time"):
         assert shown.values[name] == pytest.approx(tight.values[name], rel=2e-5), name

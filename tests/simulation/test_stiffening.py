@@ -13,9 +13,9 @@ from scipy.integrate import solve_ivp
 from support import fine
 
 from tvimdesign.physics import polymer
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.phase_model import StageModel
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.phase_model import PhaseFunctions
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "sink")
@@ -31,7 +31,7 @@ class AnotherCycle:
     far_face: float
 
 
-def impedance_of(model: Model, value: Callable[[str], float]) -> Callable[[Array, Array], float]:
+def impedance_of(model: DeviceFunctions, value: Callable[[str], float]) -> Callable[[Array, Array], float]:
     """Joint's impedance at the cold point's frequency from temperatures [degC] and fractions of the layer's cells."""
     rheology = model.table.evaluate(
         {**model.words, **{name: float(model.start[i]) for name, i in model.index.items()}}, ["pcl_rheology"]
@@ -46,7 +46,7 @@ def impedance_of(model: Model, value: Callable[[str], float]) -> Callable[[Array
     return at
 
 
-def another_cycle(model: Model) -> AnotherCycle:
+def another_cycle(model: DeviceFunctions) -> AnotherCycle:
     """Heat until the far face is at the target, and cool until the joint is stiff, with and without kinetics."""
     value, sink = value_of(model), model.words["cold_side"] == "sink"
     stack = AnotherStack(value, sink=sink)
@@ -55,14 +55,14 @@ def another_cycle(model: Model) -> AnotherCycle:
     stiff = value("joint_impedance@cold") / value("stiffening_band")
     cold = value("temperature@cold") - 273.15
 
-    def run(stage: AnotherStack, begin: Array, current: float, gap: Callable[[Array], float]) -> tuple[Array, float]:
+    def run(phase: AnotherStack, begin: Array, current: float, gap: Callable[[Array], float]) -> tuple[Array, float]:
         def ends(_: float, y: Array) -> float:
             return gap(y)
 
         ends.terminal = True
         found = solve_ivp(
-            lambda _, y: stage.rates(y, current), (0.0, 3600.0), begin, method="BDF", rtol=1e-6, atol=1e-5,
-            jac_sparsity=stage.neighbours(), events=[ends],
+            lambda _, y: phase.rates(y, current), (0.0, 3600.0), begin, method="BDF", rtol=1e-6, atol=1e-5,
+            jac_sparsity=phase.neighbours(), events=[ends],
         )  # fmt: skip
         time = float(found.t_events[0][0]) if found.t_events[0].size else np.inf
         return found.y_events[0][0] if np.isfinite(time) else found.y[:, -1], time
@@ -79,7 +79,7 @@ def another_cycle(model: Model) -> AnotherCycle:
 
 @pytest.mark.parametrize("design", DESIGNS)
 def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cells(
-    design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
 ) -> None:
     values, another = switch_of(design).values, another_cycle(build(design))
     assert 10 * build(design).cells == CELLS
@@ -90,7 +90,7 @@ def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cel
 
 
 @pytest.mark.parametrize("design", ["as it is", "sink"])
-def test_stiffening_converges_with_the_square_of_the_cell(design: str, build: Callable[..., Model]) -> None:
+def test_stiffening_converges_with_the_square_of_the_cell(design: str, build: Callable[..., DeviceFunctions]) -> None:
     names = ("stiffening_time", "equilibrium_stiffening_time", "far_face_cooling_time", "stiffening_energy")
     found = []
     for cells in (6, 12, 24, 48):
@@ -114,7 +114,7 @@ def test_a_layer_with_kinetics_never_stiffens_sooner_than_its_melting_curve_clai
     assert values["stiffening_time"] >= values["equilibrium_stiffening_time"]
 
 
-def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., Model]) -> None:
+def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., DeviceFunctions]) -> None:
     model = build("equilibrium")
     values = fine(model).run(model.start).values
     assert values["stiffening_time"] == pytest.approx(values["equilibrium_stiffening_time"], rel=1e-8)
@@ -124,22 +124,22 @@ def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., M
 
 
 def test_the_layer_starts_to_stiffen_where_the_switch_left_it(
-    build: Callable[..., Model], switch_of: Callable[[str], Switch]
+    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
 ) -> None:
-    model, switch = build(), switch_of("as it is")
-    hot, cooling = switch.trajectories["softening"], switch.trajectories["stiffening"]
-    before = temperatures(model.stages["softening"], hot.states[:, -1], 1.5, model)
-    after = temperatures(model.stages["stiffening"], cooling.states[:, 0], -0.2, model)
+    model, cycle = build(), switch_of("as it is")
+    hot, cooling = cycle.trajectories["softening"], cycle.trajectories["stiffening"]
+    before = temperatures(model.phases["softening"], hot.states[:, -1], 1.5, model)
+    after = temperatures(model.phases["stiffening"], cooling.states[:, 0], -0.2, model)
     assert after == pytest.approx(before, abs=0.01)  # all of the layer is molten here
     assert cooling.times[0] == 0.0
     assert np.all(cooling.currents == -0.2)
 
 
-def temperatures(stage: StageModel, state: Array, current: float, model: Model) -> Array:
-    return np.asarray(stage.temperatures(state, current, model.start)).ravel()
+def temperatures(phase: PhaseFunctions, state: Array, current: float, model: DeviceFunctions) -> Array:
+    return np.asarray(phase.temperatures(state, current, model.start)).ravel()
 
 
-def changed(model: Model, **inputs: float) -> Array:
+def changed(model: DeviceFunctions, **inputs: float) -> Array:
     """Inputs of a model that are its own but for what is said."""
     start = model.start.copy()
     for name, value in inputs.items():
@@ -148,7 +148,7 @@ def changed(model: Model, **inputs: float) -> Array:
 
 
 @pytest.fixture(scope="module")
-def simulators(build: Callable[..., Model]) -> dict[str, Simulator]:
+def simulators(build: Callable[..., DeviceFunctions]) -> dict[str, Simulator]:
     return {design: fine(build(design)) for design in ("as it is", "sink")}
 
 
@@ -156,44 +156,44 @@ def simulators(build: Callable[..., Model]) -> dict[str, Simulator]:
 def test_a_current_that_heats_the_module_never_stiffens_it_and_breaks_nothing(
     cooling: float,
     simulators: dict[str, Simulator],
-    switch_of: Callable[[str], Switch],
+    switch_of: Callable[[str], Cycle],
     capfd: pytest.CaptureFixture[str],
 ) -> None:
     # With its cold side in free air the module cannot give away what an ampere puts in: it runs away upwards.
     simulator = simulators["as it is"]
-    switch = simulator.run(changed(simulator.model, cooling_current=cooling))
+    cycle = simulator.run(changed(simulator.model, cooling_current=cooling))
     for name in ("stiffening_time", "equilibrium_stiffening_time", "far_face_cooling_time"):
-        assert switch.values[name] == np.inf
-    values = simulator.model.values(simulator.model.start, switch.values)
+        assert cycle.values[name] == np.inf
+    values = simulator.model.values(simulator.model.start, cycle.values)
     assert values["cycle_time"] == np.inf
-    assert all(np.all(np.isfinite(line.states)) for line in switch.trajectories.values())
-    assert switch.values["response_time"] == switch_of("as it is").values["response_time"]
+    assert all(np.all(np.isfinite(line.states)) for line in cycle.trajectories.values())
+    assert cycle.values["response_time"] == switch_of("as it is").values["response_time"]
     assert "NaN" not in capfd.readouterr().err
 
 
 def test_a_switch_that_never_ends_has_no_stiffening(simulators: dict[str, Simulator]) -> None:
     simulator = simulators["as it is"]
-    switch = simulator.run(changed(simulator.model, current=0.4))
-    assert set(switch.trajectories) == {"softening"}
-    assert switch.values["stiffening_time"] == np.inf
-    assert switch.balances == {}
+    cycle = simulator.run(changed(simulator.model, current=0.4))
+    assert set(cycle.trajectories) == {"softening"}
+    assert cycle.values["stiffening_time"] == np.inf
+    assert cycle.balances == {}
 
 
 def test_only_the_stages_that_are_asked_for_and_those_before_them_are_simulated(
-    simulators: dict[str, Simulator], switch_of: Callable[[str], Switch]
+    simulators: dict[str, Simulator], switch_of: Callable[[str], Cycle]
 ) -> None:
     simulator = simulators["as it is"]
-    switch = simulator.run(simulator.model.start, stages=["stiffening"])
-    assert set(switch.trajectories) == {"softening", "stiffening"}
-    assert switch.values["stiffening_time"] == switch_of("as it is").values["stiffening_time"]
-    assert switch.values["equilibrium_stiffening_time"] == np.inf
+    cycle = simulator.run(simulator.model.start, phases=["stiffening"])
+    assert set(cycle.trajectories) == {"softening", "stiffening"}
+    assert cycle.values["stiffening_time"] == switch_of("as it is").values["stiffening_time"]
+    assert cycle.values["equilibrium_stiffening_time"] == np.inf
 
 
 def test_with_a_sink_more_current_stiffens_sooner_and_in_free_air_it_does_not(simulators: dict[str, Simulator]) -> None:
     times = {}
     for design, simulator in simulators.items():
         for cooling in (0.2, 0.8):
-            values = simulator.run(changed(simulator.model, cooling_current=cooling), stages=["stiffening"]).values
+            values = simulator.run(changed(simulator.model, cooling_current=cooling), phases=["stiffening"]).values
             times[design, cooling] = values["stiffening_time"]
     assert times["sink", 0.8] < 0.8 * times["sink", 0.2]
     assert times["as it is", 0.8] > times["as it is", 0.2]

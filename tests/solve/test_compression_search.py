@@ -32,7 +32,7 @@ vary:
 require:
   spring_stiffness: ">= 5 N.m/rad"
   holding_torque: ">= 8 N.m"
-  peltier_temperature_reserve: ">= 0 K"
+  peltier_temperature_margin: ">= 0 K"
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 solver: {starts: 7, seed: 1}
 """
@@ -65,4 +65,4 @@ def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most
     assert free.values[row] > 1.5 * limit
     assert held.values[row] == pytest.approx(limit, rel=1e-4)
     assert held.objective > 1.01 * free.objective
-    assert next(one.price for one in held.held if one.name == f"{row} <=") > 0.0
+    assert next(one.shadow_price for one in held.held if one.name == f"{row} <=") > 0.0

@@ -11,7 +11,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.simulation.cycle import Simulator, Trajectory
-from tvimdesign.solve.nlp.solution import Held, Solution
+from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
 
@@ -59,17 +59,17 @@ def with_pieces(pieces: int, text: str = HEATING) -> str:
     return text.replace("softening: 0", f"softening: {pieces}")
 
 
-def terminals(solution: Solution, stage: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def terminals(solution: Solution, phase: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Voltage, hot and cold side over a stage, by the Peltier equations from temperatures and currents."""
-    line, model = solution.switch.trajectories[stage], solution.model
-    seen = np.array([kelvins(solution, stage, line, i) for i in range(len(line.times))])
+    line, model = solution.cycle.trajectories[phase], solution.model
+    seen = np.array([kelvins(solution, phase, line, i) for i in range(len(line.times))])
     share = solution.values["peltier_scale"]
     seebeck, ohms = (share * solution.inputs[model.index[f"peltier_{name}"]] for name in ("seebeck", "resistance"))
     return np.abs(seebeck * (seen[:, 1] - seen[:, 0]) + ohms * line.currents), seen[:, 1], seen[:, 0]
 
 
-def kelvins(solution: Solution, stage: str, line: Trajectory, i: int) -> np.ndarray:
-    compiled = solution.model.stages[stage]
+def kelvins(solution: Solution, phase: str, line: Trajectory, i: int) -> np.ndarray:
+    compiled = solution.model.phases[phase]
     return np.asarray(compiled.temperatures(line.states[:, i], line.currents[i], solution.inputs)).ravel()[:2]
 
 
@@ -87,17 +87,17 @@ def test_more_pieces_are_never_slower_than_fewer_and_any_beats_a_constant_curren
 def test_the_limits_hold_all_along_the_simulated_heating() -> None:
     solution = solve(with_pieces(8))
     voltage, hot, _ = terminals(solution, "softening")
-    line = solution.switch.trajectories["softening"]
+    line = solution.cycle.trajectories["softening"]
     assert np.max(voltage) <= 7.6 * (1.0 + TOLERANCE)
     assert np.max(voltage * line.currents) <= 15.0 * (1.0 + TOLERANCE)
     assert np.max(hot) <= 398.15 + 100.0 * TOLERANCE
-    drive = solution.drives["softening"]
-    assert (drive.moments[0], drive.currents[0]) == (0.0, 0.0)
-    ramped = line.times >= drive.moments[1]
-    assert drive.moments[1] == pytest.approx(drive.currents[1] / 0.2)
+    profile = solution.current_profiles["softening"]
+    assert (profile.moments[0], profile.currents[0]) == (0.0, 0.0)
+    ramped = line.times >= profile.moments[1]
+    assert profile.moments[1] == pytest.approx(profile.currents[1] / 0.2)
     assert np.min(line.currents[ramped]) >= 0.3
     assert np.max(line.currents) <= 3.0
-    assert solution.drives["softening"].steepest <= 0.2 * (1.0 + 1e-6)
+    assert solution.current_profiles["softening"].steepest <= 0.2 * (1.0 + 1e-6)
     # The limits that are said to hold it do: one is met.
     assert max(np.max(voltage) / 7.6, np.max(voltage * line.currents) / 15.0) > 0.99
     assert np.max(hot) > 398.15 - 0.3
@@ -108,27 +108,27 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
     solution = solve(CYCLE)
     assert solution.status == "optimal"
     voltage, hot, _ = terminals(solution, "softening")
-    assert np.max(voltage * solution.switch.trajectories["softening"].currents) <= 20.0 * (1.0 + TOLERANCE)
+    assert np.max(voltage * solution.cycle.trajectories["softening"].currents) <= 20.0 * (1.0 + TOLERANCE)
     assert np.max(hot) <= 403.15 + 100.0 * TOLERANCE
     voltage, _, _ = terminals(solution, "stiffening")
-    drive = solution.drives["stiffening"]
-    assert drive.currents[0] == 0.0
-    line = solution.switch.trajectories["stiffening"]
-    cooling = line.currents[line.times >= drive.moments[1]]
+    profile = solution.current_profiles["stiffening"]
+    assert profile.currents[0] == 0.0
+    line = solution.cycle.trajectories["stiffening"]
+    cooling = line.currents[line.times >= profile.moments[1]]
     assert np.max(voltage) <= 6.0 * (1.0 + TOLERANCE)
     assert np.max(cooling) <= -0.05
     assert np.min(cooling) >= -2.5
-    assert all(drive.steepest == pytest.approx(0.5, rel=1e-9) for drive in solution.drives.values())
+    assert all(profile.steepest == pytest.approx(0.5, rel=1e-9) for profile in solution.current_profiles.values())
 
 
 def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
     solution = solve(CYCLE)
-    again = Simulator(solution.model, tolerance=1e-9, steps=200).run(solution.inputs, solution.drives)
-    for stage, event in (("softening", "response_time"), ("stiffening", "stiffening_time")):
+    again = Simulator(solution.model, tolerance=1e-9, steps=200).run(solution.inputs, solution.current_profiles)
+    for phase, event in (("softening", "response_time"), ("stiffening", "stiffening_time")):
         assert again.values[event] == pytest.approx(solution.values[event], rel=2e-4)
-        assert solution.drives[stage].moments[-1] == pytest.approx(again.values[event], rel=1e-3)
-        assert abs(solution.drives[stage].mean) == pytest.approx(
-            solution.inputs[solution.model.index[TABLE.stage(stage).drive]], rel=1e-12
+        assert solution.current_profiles[phase].moments[-1] == pytest.approx(again.values[event], rel=1e-3)
+        assert abs(solution.current_profiles[phase].mean) == pytest.approx(
+            solution.inputs[solution.model.index[TABLE.phase(phase).current_input]], rel=1e-12
         )
 
 
@@ -142,16 +142,16 @@ def test_a_slow_supply_costs_time_and_is_told() -> None:
     tighter, slow, eased = (solve(CYCLE.replace("0.5 A/s", f"{slew} A/s")) for slew in ("0.0792", "0.08", "0.0808"))
     assert slow.status == "optimal"
     assert slow.values["cycle_time"] > solve(CYCLE).values["cycle_time"]
-    assert max(drive.steepest for drive in slow.drives.values()) == pytest.approx(0.08, rel=1e-4)
+    assert max(profile.steepest for profile in slow.current_profiles.values()) == pytest.approx(0.08, rel=1e-4)
     # All studies start from the same module, so that their objectives are one measure. The solver's own are taken:
     # what a hundredth saves is not far above the simulator's tolerance.
     ends = [solution.starts[0].objective for solution in (tighter, slow, eased)]
-    price = one(slow, "current_slew <=").price
-    assert price > 1e-3
-    assert 50.0 * (ends[0] - ends[2]) / ends[1] == pytest.approx(price, rel=0.05)
+    shadow_price = one(slow, "current_slew <=").shadow_price
+    assert shadow_price > 1e-3
+    assert 50.0 * (ends[0] - ends[2]) / ends[1] == pytest.approx(shadow_price, rel=0.05)
 
 
-def one(solution: Solution, name: str) -> Held:
+def one(solution: Solution, name: str) -> ActiveConstraint:
     (held,) = (held for held in solution.held if held.name == name)
     return held
 
@@ -175,10 +175,10 @@ def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
     below, above = (
         solve(text.replace(f"<= {written}", f"<= {float(number) + moved} {unit}")) for moved in (-step, step)
     )
-    price = one(solve(text), name).price
-    assert price > 1e-2
+    shadow_price = one(solve(text), name).shadow_price
+    assert shadow_price > 1e-2
     saved = 100.0 * (below.objective - above.objective) / (2.0 * shares * solve(text).objective)
-    assert saved == pytest.approx(price, rel=0.1)
+    assert saved == pytest.approx(shadow_price, rel=0.1)
 
 
 def test_ten_random_starts_find_one_profile() -> None:
@@ -194,11 +194,11 @@ def test_ten_random_starts_find_one_profile() -> None:
 def test_ten_random_starts_of_the_whole_cycle_end_in_optima_that_are_all_told() -> None:
     solution = solve(CYCLE.replace("starts: 1", "starts: 11"))
     assert sum(start.converged for start in solution.starts) >= 10
-    told = [start.objective for start in solution.distinct_optima()]
-    assert solution.objective == pytest.approx(min(told), rel=1e-3)
+    reported = [start.objective for start in solution.distinct_optima()]
+    assert solution.objective == pytest.approx(min(reported), rel=1e-3)
     for start in solution.starts:
         if start.converged:
-            assert any(abs(start.objective - objective) <= 1e-4 * objective for objective in told)
+            assert any(abs(start.objective - objective) <= 1e-4 * objective for objective in reported)
 
 
 def test_a_profile_nothing_depends_on_is_refused() -> None:

@@ -12,7 +12,7 @@ from support import ROOT
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
@@ -64,12 +64,12 @@ def test_ten_random_starts_come_to_one_optimum() -> None:
 def test_the_paper_s_study_ends_in_optima_that_are_all_told(paper: Solution) -> None:
     """A ring of narrow arcs farther out is an optimum of its own, 7 % worse than four wide ones near the hub."""
     assert sum(start.converged for start in paper.starts) >= 10
-    told = [start.objective for start in paper.distinct_optima()]
-    assert paper.objective == pytest.approx(min(told), rel=1e-3)
+    reported = [start.objective for start in paper.distinct_optima()]
+    assert paper.objective == pytest.approx(min(reported), rel=1e-3)
     for start in paper.starts:
         if start.converged:
-            assert any(abs(start.objective - objective) <= 1e-4 * objective for objective in told)
-    best = [start for start in paper.starts if start.objective <= (1.0 + 1e-4) * min(told)]
+            assert any(abs(start.objective - objective) <= 1e-4 * objective for objective in reported)
+    best = [start for start in paper.starts if start.objective <= (1.0 + 1e-4) * min(reported)]
     assert len(best) >= 3
     for name, value in best[0].end.items():
         assert np.allclose([start.end[name] for start in best], value, rtol=1e-4), name
@@ -93,18 +93,18 @@ def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: S
     coarse = paper.model
     fine.update({name: float(paper.inputs[i]) for name, i in coarse.index.items()})
     fine["rotor_cells"] = 10 * int(fine["rotor_cells"])
-    model = Model(TABLE, fine, tuple(study.operating_points), 10 * coarse.cells)
-    stage, current = model.stages["softening"], model.start[model.index["current"]]
-    gap = stage.watch(["response_time"])
+    model = DeviceFunctions(TABLE, fine, tuple(study.operating_points), 10 * coarse.cells)
+    phase, current = model.phases["softening"], model.start[model.index["current"]]
+    gap = phase.watch(["response_time"])
 
     def reached(_: float, state: np.ndarray) -> float:
         return float(gap(state, current, model.start))
 
     reached.terminal = True
-    jacobian = stage.rates.jacobian()
-    begin = np.asarray(stage.initial(model.start)).ravel()
+    jacobian = phase.rates.jacobian()
+    begin = np.asarray(phase.initial(model.start)).ravel()
     run = solve_ivp(
-        lambda _, s: np.asarray(stage.rates(s, current, model.start)).ravel(),
+        lambda _, s: np.asarray(phase.rates(s, current, model.start)).ravel(),
         (0.0, 300.0), begin, method="Radau", rtol=1e-6, atol=1e-9, events=reached,
         jac=lambda _, s: np.asarray(jacobian(s, current, model.start, 0)[0]),
     )  # fmt: skip
@@ -116,7 +116,7 @@ def test_a_price_is_what_relaxing_the_limit_saves() -> None:
     before = _solve(study)
     checked = 0
     for held in before.held:
-        if held.origin != "require" or held.price < 1e-2:
+        if held.origin != "require" or held.shadow_price < 1e-2:
             continue
         name = held.name.split(" ")[0]
         eased = [
@@ -125,7 +125,7 @@ def test_a_price_is_what_relaxing_the_limit_saves() -> None:
         ]
         after = _solve(study.model_copy(update={"require": tuple(eased)}))
         saved = 100.0 * (before.objective - after.objective) / before.objective
-        assert saved == pytest.approx(held.price, rel=0.1), held.text
+        assert saved == pytest.approx(held.shadow_price, rel=0.1), held.text
         checked += 1
     assert checked >= 2
 
@@ -133,13 +133,13 @@ def test_a_price_is_what_relaxing_the_limit_saves() -> None:
 def test_a_bound_s_price_is_what_moving_it_saves() -> None:
     study = _study(SMALL)
     before = _solve(study)
-    held = max((h for h in before.held if h.origin == "vary"), key=lambda h: h.price)
-    name, sense, _ = held.name.split(" ")[0], held.name.split(" ")[1], held.price
+    held = max((h for h in before.held if h.origin == "vary"), key=lambda h: h.shadow_price)
+    name, sense, _ = held.name.split(" ")[0], held.name.split(" ")[1], held.shadow_price
     vary = study.vary[name]
     assert isinstance(vary, Range)
     moved = {"upper": vary.upper * 1.01} if sense == "<=" else {"lower": vary.lower * 0.99}
     after = _solve(study.model_copy(update={"vary": {**study.vary, name: vary.model_copy(update=moved)}}))
-    assert 100.0 * (before.objective - after.objective) / before.objective == pytest.approx(held.price, rel=0.1)
+    assert 100.0 * (before.objective - after.objective) / before.objective == pytest.approx(held.shadow_price, rel=0.1)
 
 
 def test_listed_sizes_are_as_good_as_solving_each_on_its_own() -> None:
@@ -224,7 +224,7 @@ def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
 
 def test_advice_that_is_not_followed_is_told(tmp_path: Path) -> None:
     found = answer(_study("mode: shear\n"), Catalog(tmp_path), TABLE)
-    assert "structure_temperature_reserve" in {warning.output for warning in found.warnings}
+    assert "structure_temperature_margin" in {warning.output for warning in found.warnings}
 
 
 @pytest.mark.parametrize(

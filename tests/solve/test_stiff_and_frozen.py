@@ -6,19 +6,19 @@ import pytest
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.result import Answer, answer
+from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
 # Half a millimetre with a strong sink: at 30 degC and 1 Hz the supercooled melt alone is within twice a soft target.
 QUICK = "cold_side: sink, pcl_thickness: 0.6 mm, cooling_current: 1.5 A, stiffening_band: 4"
 
 
-def answered(module: str, points: str = "") -> Answer:
+def answered(module: str, points: str = "") -> StudyResult:
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n{points}", "a test")
     return answer(study, Catalog(), table_for("shear"))
 
 
-def warned(found: Answer) -> set[str]:
+def warned(found: StudyResult) -> set[str]:
     return {check.output for check in found.warnings}
 
 

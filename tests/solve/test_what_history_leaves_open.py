@@ -5,19 +5,19 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.result import Answer, answer
+from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
 KELVIN = 273.15
 POINTS = "operating_points: {{cold: {{temperature: {cold} degC}}, hot: {{temperature: {hot} degC}}}}\n"
 
 
-def answered(module: str, cold: float = 30.0, hot: float = 100.0) -> Answer:
+def answered(module: str, cold: float = 30.0, hot: float = 100.0) -> StudyResult:
     text = f"mode: shear\nmodule: {{{module}}}\n" + POINTS.format(cold=cold, hot=hot)
     return answer(read_study_text(text, "a test"), Catalog(), table_for("shear"))
 
 
-def liquid_impedance(found: Answer, celsius: float) -> complex:
+def liquid_impedance(found: StudyResult, celsius: float) -> complex:
     """K* of the joint with a layer that is all melt, at 1 Hz, from the record's table in complex numbers."""
     value = found.design.value
     rows = Catalog().record("polymers", found.design.choices["pcl_grade"]).table("melt_spectrum")

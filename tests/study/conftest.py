@@ -11,7 +11,7 @@ import pytest
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.device import Choice, Event, Input, Output, Table
 from tvimdesign.device import Path as PathRow
-from tvimdesign.device.table.phases import STAGES
+from tvimdesign.device.table.phases import PHASES
 from tvimdesign.study import Study, StudyError, read_study_text
 
 
@@ -33,9 +33,13 @@ def table() -> Table:
     return Table(
         (
             Choice(
-                name="spring_material", description="Steel", group="m", default="music_wire", shelf="spring_materials"
+                name="spring_material",
+                description="Steel",
+                group="m",
+                default="music_wire",
+                category="spring_materials",
             ),
-            Choice(name="peltier", description="Heater", group="m", default="flexible_1600", shelf="peltiers"),
+            Choice(name="peltier", description="Heater", group="m", default="flexible_1600", category="peltiers"),
             Choice(name="rate_model", description="Formula", group="m", default="bending", options=("bending", "smi")),
             _input("wire_diameter", "mm", 0.5e-3, 5e-3, default=2.413e-3),
             _input("coil_diameter", "mm", 5e-3, 60e-3, default=24e-3),
@@ -61,10 +65,10 @@ def table() -> Table:
             _output("impedance_range", "1", lambda joint_stiffness_at_cold: joint_stiffness_at_cold),
             _output("moduli", "1", lambda wire_diameter: [wire_diameter], hidden=True),
             _output("face_temperature", "degC", lambda state: state[0], instant=True),
-            _output("response_time", "s", lambda state: state[0], Event, stage="softening"),
-            _output("switch_energy", "J", lambda state: state[0], PathRow, stage="softening", reduce="integral"),
+            _output("response_time", "s", lambda state: state[0], Event, phase="softening"),
+            _output("switch_energy", "J", lambda state: state[0], PathRow, phase="softening", reduce="integral"),
         ),
-        STAGES,
+        PHASES,
     )
 
 
@@ -88,11 +92,11 @@ class SmallRecord:
 class SmallCatalog:
     """Stands in for the catalogue: the same calls, four shelves."""
 
-    def __init__(self, extra: Path | None = None) -> None:
-        if extra is not None and (extra / "broken").exists():
-            raise CatalogError(f"{extra} is broken\nin two ways")
+    def __init__(self, extra_folder: Path | None = None) -> None:
+        if extra_folder is not None and (extra_folder / "broken").exists():
+            raise CatalogError(f"{extra_folder} is broken\nin two ways")
         wire = [{"wire_diameter": mm / 1000} for mm in (3.2, 1.0, 1.6, 2.0, 2.413, 1.6)]
-        self.shelves = {
+        self.categories = {
             "spring_materials": [
                 SmallRecord("music_wire", {"youngs_modulus": 203.4e9}),
                 SmallRecord("stainless_302", {"youngs_modulus": 193e9}),
@@ -102,14 +106,14 @@ class SmallCatalog:
             "wires": [SmallRecord("metric", sizes=wire), SmallRecord("quarter_coils", sizes=[{"coil_count": 3.25}])],
         }
 
-    def names(self, shelf: str) -> list[str]:
-        return [record.name for record in self.shelves[shelf]]
+    def names(self, category: str) -> list[str]:
+        return [record.name for record in self.categories[category]]
 
-    def record(self, shelf: str, name: str) -> SmallRecord:
-        for record in self.shelves[shelf]:
+    def record(self, category: str, name: str) -> SmallRecord:
+        for record in self.categories[category]:
             if record.name == name:
                 return record
-        raise CatalogError(f"no record {name!r} on the shelf {shelf}")
+        raise CatalogError(f"no record {name!r} on the shelf {category}")
 
 
 @pytest.fixture(scope="session")

@@ -56,31 +56,31 @@ def test_a_different_task_or_condition_is_told_with_both_places(
     tmp_path: Path, old: str, new: str, place: str, words: str
 ) -> None:
     assert old in COMPRESSION
-    told = said(tmp_path, SHEAR, COMPRESSION.replace(old, new))
-    assert len(told) == 1
-    assert place in told[0]
-    assert words in told[0]
-    assert told[0].count("study_0.yaml:") + told[0].count("study_1.yaml:") == 2
+    reported = said(tmp_path, SHEAR, COMPRESSION.replace(old, new))
+    assert len(reported) == 1
+    assert place in reported[0]
+    assert words in reported[0]
+    assert reported[0].count("study_0.yaml:") + reported[0].count("study_1.yaml:") == 2
 
 
 def test_a_range_is_not_a_fixed_current(tmp_path: Path) -> None:
     ranged = COMPRESSION.replace("vary:", "vary:\n  current: [1 A, 2 A]")
-    told = said(tmp_path, SHEAR, ranged)
-    assert len(told) == 1
-    assert "vary.current: 1 A to 2 A, drawn with 1.5 A here, 1.5 A in" in told[0]
+    reported = said(tmp_path, SHEAR, ranged)
+    assert len(reported) == 1
+    assert "vary.current: 1 A to 2 A, drawn with 1.5 A here, 1.5 A in" in reported[0]
     assert said(tmp_path, SHEAR.replace("vary:", "vary:\n  current: [1 A, 2 A]"), ranged) == []
 
 
 def test_all_differences_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
     other = COMPRESSION.replace("current: 1.5 A", "current: 2 A").replace(">= 5 N.m/rad", ">= 4 N.m/rad")
-    told = said(tmp_path, SHEAR, other)
-    assert ["module.current" in told[0], "require.spring_stiffness" in told[1]] == [True, True]
-    assert len(told) == 2
+    reported = said(tmp_path, SHEAR, other)
+    assert ["module.current" in reported[0], "require.spring_stiffness" in reported[1]] == [True, True]
+    assert len(reported) == 2
 
 
 def test_another_record_is_one_difference_and_not_one_for_each_of_its_numbers(tmp_path: Path) -> None:
-    told = said(tmp_path, SHEAR, SHEAR.replace("  current", "  structure_material: aluminum_6061_t6\n  current"))
-    assert len(told) == 1
+    reported = said(tmp_path, SHEAR, SHEAR.replace("  current", "  structure_material: aluminum_6061_t6\n  current"))
+    assert len(reported) == 1
 
 
 def test_layout_springs_and_their_steel_are_each_study_s_own(tmp_path: Path) -> None:
@@ -97,18 +97,18 @@ def test_limits_on_what_one_mode_alone_has_may_differ(tmp_path: Path) -> None:
 
 def test_limits_of_one_mode_are_held_against_each_other_behind_a_study_of_another_mode(tmp_path: Path) -> None:
     strict = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.4"')
-    told = said(tmp_path, SHEAR, COMPRESSION, strict)
-    assert len(told) == 1
-    assert "study_2.yaml" in told[0]
-    assert "block_strain <= 0.4 is required here" in told[0]
+    reported = said(tmp_path, SHEAR, COMPRESSION, strict)
+    assert len(reported) == 1
+    assert "study_2.yaml" in reported[0]
+    assert "block_strain <= 0.4 is required here" in reported[0]
 
 
 def test_a_study_that_is_evaluated_only_is_not_held_against_an_optimised_one(tmp_path: Path) -> None:
     start, end = COMPRESSION.index("vary:"), COMPRESSION.index("require:")
     drawn = (COMPRESSION[:start] + COMPRESSION[end:]).replace("minimize: {module_mass: 1, response_time: 1}\n", "")
-    told = said(tmp_path, SHEAR, drawn)
-    assert len(told) == 1
-    assert "vary: missing: this study is evaluated only" in told[0]
+    reported = said(tmp_path, SHEAR, drawn)
+    assert len(reported) == 1
+    assert "vary: missing: this study is evaluated only" in reported[0]
 
 
 def test_one_study_twice_is_told(tmp_path: Path) -> None:

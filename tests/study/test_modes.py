@@ -5,7 +5,7 @@ import pytest
 import yaml
 
 from tvimdesign.device import MODES, Output, table_for
-from tvimdesign.solve.nlp.constraints import limits_of
+from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import StudyError, read_study_text
 from tvimdesign.study.schema import json_schema
 
@@ -50,7 +50,7 @@ def test_what_only_a_simulated_release_shows_is_told_with_what_to_limit_instead(
 def test_a_study_may_squeeze_its_blocks_further_than_the_assumed_rule() -> None:
     def limits(text: str) -> list[float]:
         study = read_study_text(f"mode: compression\n{text}")
-        return [limit.limit for limit in limits_of(study, TABLES["compression"]) if limit.output == "block_strain"]
+        return [limit.limit for limit in constraints_of(study, TABLES["compression"]) if limit.output == "block_strain"]
 
     (rule,) = TABLES["compression"].output("block_strain").rules
     assert "assumed, 0.3 to 0.6" in rule.reason

@@ -144,7 +144,8 @@ catalog: no_folder
         "8:14: module.arc_count: '3.5' is not a whole number",
         "9:3: module.temperature: belongs to an operating point; expected it under `operating_points`",
         "10:3: module.module_mass: is a result and cannot be set; expected an input; limit it under `require`",
-        "11:20: module.spring_material: no such record on the shelf spring_materials: 'musik_wire'; expected one of mu",
+        "11:20: module.spring_material: no such record in the category spring_materials: 'musik_wire'; expected one of "
+        "mu",
         "12:15: module.rate_model: no such option: 'smii'; expected one of bending, smi; did you mean 'smi'?",
         "13:14: module.coil_count: no value does not fit here; expected a number",
         "15:3: operating_points.Hot: 'Hot' cannot name an operating point",

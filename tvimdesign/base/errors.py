@@ -35,3 +35,7 @@ class GeometryError(TvimError):
     """A part could not be built, or a built part is not what the model says it is."""
 
     exit_code = 4
+
+
+class RenamedWarning(FutureWarning):
+    """A study uses a name that has changed; it is read as the new one until the next release."""

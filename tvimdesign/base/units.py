@@ -101,7 +101,7 @@ USUAL_UNITS = Path(__file__).with_name("units_read.json")
 @cache
 def _usual() -> dict[str, _Unit]:
     """The usual units as pint reads them, by their text."""
-    return {text: _Unit(**told) for text, told in json.loads(USUAL_UNITS.read_text(encoding="utf-8")).items()}
+    return {text: _Unit(**reported) for text, reported in json.loads(USUAL_UNITS.read_text(encoding="utf-8")).items()}
 
 
 def read_by_pint() -> dict[str, dict[str, Any]]:
@@ -274,5 +274,5 @@ def format_quantity(value_si: float, unit: str, digits: int = 4) -> str:
 
 
 if __name__ == "__main__":
-    lines = (f"{json.dumps(text)}: {json.dumps(told)}" for text, told in read_by_pint().items())
+    lines = (f"{json.dumps(text)}: {json.dumps(reported)}" for text, reported in read_by_pint().items())
     USUAL_UNITS.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")

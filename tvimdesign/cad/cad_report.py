@@ -11,7 +11,7 @@ Level = Literal["pass", "warning", "failure"]
 
 
 @dataclass(frozen=True)
-class Check:
+class SolidCheck:
     """One thing that was held against the design."""
 
     name: str
@@ -48,7 +48,7 @@ class CadReport:
     folder: Path
     files: tuple[str, ...]
     """Relative to the folder."""
-    checks: tuple[Check, ...]
+    checks: tuple[SolidCheck, ...]
     seconds: float
     notes: tuple[str, ...] = field(default=())
     """What is missing and why, such as the picture on a machine that cannot render."""
@@ -57,6 +57,6 @@ class CadReport:
     """The parts and checks that were kept from before, because nothing they hang on has changed."""
 
     @property
-    def failed(self) -> tuple[Check, ...]:
+    def failed(self) -> tuple[SolidCheck, ...]:
         """The checks that did not hold: the parts are there to be looked at, not to be made."""
         return tuple(check for check in self.checks if not check.ok)

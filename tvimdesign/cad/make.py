@@ -18,7 +18,7 @@ from typing import IO, Any
 
 import tvimdesign
 from tvimdesign.base.errors import GeometryError, InputError
-from tvimdesign.cad.cad_report import CadReport, Check
+from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
 TIMEOUT = 300.0
 """Seconds; a module takes about ten."""
@@ -46,8 +46,8 @@ def make_cad(
     """
     out.mkdir(parents=True, exist_ok=True)
     state: dict[str, Any] = {"progress": "starting"}
-    with tempfile.TemporaryFile() as talk:
-        process = _start([job, str(design_path.resolve()), str(out.resolve()), str(part_timeout_s)], talk)
+    with tempfile.TemporaryFile() as progress_output:
+        process = _start([job, str(design_path.resolve()), str(out.resolve()), str(part_timeout_s)], progress_output)
         try:
             for message in _messages(process, time.monotonic() + timeout_s):
                 state |= message
@@ -58,15 +58,15 @@ def make_cad(
             code = None
         finally:
             _end(process)
-        return _report(out, state, code, timeout_s, _tail(talk))
+        return _report(out, state, code, timeout_s, _tail(progress_output))
 
 
-def _start(arguments: list[str], talk: IO[bytes]) -> subprocess.Popen[str]:
+def _start(arguments: list[str], progress_output: IO[bytes]) -> subprocess.Popen[str]:
     here = str(Path(tvimdesign.__file__).parents[1])
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
     return subprocess.Popen(
         [sys.executable, "-m", *arguments],
-        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=talk, text=True, encoding="utf-8",
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=progress_output, text=True, encoding="utf-8",
         env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)}, start_new_session=True,
     )  # fmt: skip
 
@@ -114,15 +114,15 @@ def _report(out: Path, state: dict[str, Any], code: int | None, timeout_s: float
     return CadReport(
         folder=out,
         files=tuple(state["files"]),
-        checks=tuple(Check(**check) for check in state["checks"]),
+        checks=tuple(SolidCheck(**check) for check in state["checks"]),
         seconds=state["seconds"],
         notes=tuple(state["notes"]),
         reused=tuple(state["reused"]),
     )
 
 
-def _tail(talk: IO[bytes]) -> str:
+def _tail(progress_output: IO[bytes]) -> str:
     """Last line of what the child wrote to standard error."""
-    talk.seek(0)
-    written = talk.read().decode(errors="replace").strip().splitlines()
+    progress_output.seek(0)
+    written = progress_output.read().decode(errors="replace").strip().splitlines()
     return written[-1] if written else ""

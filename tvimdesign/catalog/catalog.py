@@ -1,4 +1,4 @@
-"""Finds records by shelf and name, the user's folder before the shipped one, and reads them when asked."""
+"""Finds records by category and name, the user's folder before the shipped one, and reads them when asked."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from tvimdesign.base.errors import CatalogError
-from tvimdesign.catalog.categories import SHELVES
+from tvimdesign.catalog.categories import CATEGORIES
 from tvimdesign.catalog.record import Record
 from tvimdesign.catalog.validate import build_record
 from tvimdesign.catalog.yaml_file import read_tree
@@ -17,56 +17,58 @@ _MOST_PROBLEMS = 50
 
 
 class Catalog:
-    """The shipped records, and those of a user's folder `<shelf>/<name>.yaml`, which add to them or replace them."""
+    """The shipped records, and those of a user's folder `<category>/<name>.yaml`, which add to them or replace them."""
 
-    def __init__(self, extra: Path | None = None) -> None:
-        """Note the folders; no record is read yet. Raises CatalogError where `extra` is no folder of shelves."""
-        self._folders = [_SHIPPED] if extra is None else [extra, _SHIPPED]
+    def __init__(self, extra_folder: Path | None = None) -> None:
+        """Note the folders; no record is read yet. Raises CatalogError where `feature` is no folder of categories."""
+        self._folders = [_SHIPPED] if extra_folder is None else [extra_folder, _SHIPPED]
         self._records: dict[tuple[str, str], Record] = {}
-        if extra is None:
+        if extra_folder is None:
             return
         try:
-            folders = [item.name for item in extra.iterdir() if item.is_dir()]
+            folders = [item.name for item in extra_folder.iterdir() if item.is_dir()]
         except (OSError, ValueError):
-            raise CatalogError(f"{str(extra)[:200]}: the catalogue folder is not there or cannot be read") from None
+            raise CatalogError(
+                f"{str(extra_folder)[:200]}: the catalogue folder is not there or cannot be read"
+            ) from None
         for folder in folders:
-            close = get_close_matches(folder, SHELVES, n=1)
-            if close and folder not in SHELVES:
-                raise CatalogError(f"{extra / folder}: this is no shelf; did you mean {close[0]}?")
+            close = get_close_matches(folder, CATEGORIES, n=1)
+            if close and folder not in CATEGORIES:
+                raise CatalogError(f"{extra_folder / folder}: this is no category; did you mean {close[0]}?")
 
-    def shelves(self) -> list[str]:
-        """Return the names of the shelves."""
-        return list(SHELVES)
+    def categories(self) -> list[str]:
+        """Return the names of the categories."""
+        return list(CATEGORIES)
 
-    def names(self, shelf: str) -> list[str]:
-        """Return the names of a shelf's records, sorted; raises CatalogError for an unknown shelf."""
-        if shelf not in SHELVES:
-            raise CatalogError(f"no shelf is named {shelf[:60]!r}; {_nearest(shelf, list(SHELVES))}")
+    def names(self, category: str) -> list[str]:
+        """Return the names of a category's records, sorted; raises CatalogError for an unknown category."""
+        if category not in CATEGORIES:
+            raise CatalogError(f"no category is named {category[:60]!r}; {_nearest(category, list(CATEGORIES))}")
         try:
-            return sorted({path.stem for folder in self._folders for path in (folder / shelf).glob("*.yaml")})
+            return sorted({path.stem for folder in self._folders for path in (folder / category).glob("*.yaml")})
         except OSError as error:
-            raise CatalogError(f"shelf {shelf}: its folder cannot be read ({type(error).__name__})") from None
+            raise CatalogError(f"category {category}: its folder cannot be read ({type(error).__name__})") from None
 
-    def path(self, shelf: str, name: str) -> Path:
+    def path(self, category: str, name: str) -> Path:
         """Return the file of a record; raises CatalogError with the nearest names where there is none."""
-        names = self.names(shelf)
-        # Only a listed name is made into a path, so no name can leave the shelf.
+        names = self.names(category)
+        # Only a listed name is made into a path, so no name can leave the category.
         if name not in names:
-            raise CatalogError(f"{shelf} has no record {name[:60]!r}; {_nearest(name, names)}")
-        candidates = (folder / shelf / f"{name}.yaml" for folder in self._folders)
-        return next((path for path in candidates if path.exists()), self._folders[0] / shelf / f"{name}.yaml")
+            raise CatalogError(f"{category} has no record {name[:60]!r}; {_nearest(name, names)}")
+        candidates = (folder / category / f"{name}.yaml" for folder in self._folders)
+        return next((path for path in candidates if path.exists()), self._folders[0] / category / f"{name}.yaml")
 
-    def record(self, shelf: str, name: str) -> Record:
+    def record(self, category: str, name: str) -> Record:
         """Return a record, read once; raises CatalogError naming every problem of its file."""
-        if (shelf, name) not in self._records:
-            path = self.path(shelf, name)
+        if (category, name) not in self._records:
+            path = self.path(category, name)
             read = _read_shipped if path.is_relative_to(_SHIPPED) else _read
-            self._records[shelf, name] = read(shelf, name, path)
-        return self._records[shelf, name]
+            self._records[category, name] = read(category, name, path)
+        return self._records[category, name]
 
 
-def _read(shelf: str, name: str, path: Path) -> Record:
-    record, problems = build_record(shelf, name, _shown(path), read_tree(path))
+def _read(category: str, name: str, path: Path) -> Record:
+    record, problems = build_record(category, name, _shown(path), read_tree(path))
     if len(problems) > _MOST_PROBLEMS:
         problems[_MOST_PROBLEMS:] = [f"{_shown(path)}: and {len(problems) - _MOST_PROBLEMS} more"]
     if problems:
@@ -79,12 +81,12 @@ _read_shipped = cache(_read)
 
 
 def check_records(catalog: Catalog) -> list[str]:
-    """Read every record and name everything that lacks a unit, a source, a status, or what its shelf requires."""
+    """Read every record and name everything that lacks a unit, a source, a status, or what its category requires."""
     problems: list[str] = []
-    for shelf in catalog.shelves():
-        for name in catalog.names(shelf):
+    for category in catalog.categories():
+        for name in catalog.names(category):
             try:
-                catalog.record(shelf, name)
+                catalog.record(category, name)
             except CatalogError as error:
                 problems += str(error).splitlines()
     return problems

@@ -1,4 +1,4 @@
-"""The shelves, and what every record on each must say: the one list of required values, tables and words."""
+"""The categories, and what every record on each must say: the one list of required values, tables and words."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Columns:
 
 
 @dataclass(frozen=True)
-class Shelf:
+class Category:
     """What a record must say. Every required number is greater than zero, or `may_be_zero`; `rising` lists rise.
 
     The rows of `paired` tables belong together, first to first: there must be as many in each.
@@ -35,8 +35,8 @@ class Shelf:
     may_be_zero: tuple[str, ...] = ()
 
 
-SHELVES: Mapping[str, Shelf] = {
-    "spring_materials": Shelf(
+CATEGORIES: Mapping[str, Category] = {
+    "spring_materials": Category(
         values={"youngs_modulus": "GPa", "density": "kg/m^3", "yield_ratio": "1", "fatigue_strength_ratio": "1"},
         tables={
             "strength": Columns(
@@ -46,7 +46,7 @@ SHELVES: Mapping[str, Shelf] = {
             )
         },
     ),
-    "structure_materials": Shelf(
+    "structure_materials": Category(
         values={
             "youngs_modulus": "GPa",
             "poissons_ratio": "1",
@@ -58,7 +58,7 @@ SHELVES: Mapping[str, Shelf] = {
             "service_temperature": "degC",
         }
     ),
-    "processes": Shelf(
+    "processes": Category(
         values={
             "minimum_wall": "mm",
             "minimum_feature": "mm",
@@ -88,7 +88,7 @@ SHELVES: Mapping[str, Shelf] = {
         may_be_zero=("hole_compensation",),
         rising=(("minimum_running_clearance", "running_clearance"), ("thinnest_wall", "minimum_wall")),
     ),
-    "screws": Shelf(
+    "screws": Category(
         values={
             "nominal_diameter": "mm",
             "head_diameter": "mm",
@@ -101,7 +101,7 @@ SHELVES: Mapping[str, Shelf] = {
         words={"insert": ()},
         rising=(("tap_drill", "nominal_diameter", "clearance_hole", "head_diameter"),),
     ),
-    "inserts": Shelf(
+    "inserts": Category(
         values={
             "nominal_diameter": "mm",
             "hole_diameter": "mm",
@@ -112,7 +112,7 @@ SHELVES: Mapping[str, Shelf] = {
         },
         rising=(("nominal_diameter", "hole_diameter", "outer_diameter"),),
     ),
-    "bearings": Shelf(
+    "bearings": Category(
         values={
             "bore": "mm",
             "outer_diameter": "mm",
@@ -124,7 +124,7 @@ SHELVES: Mapping[str, Shelf] = {
         },
         rising=(("bore", "inner_shoulder", "outer_shoulder", "outer_diameter"),),
     ),
-    "sensor_flanges": Shelf(
+    "sensor_flanges": Category(
         values={
             "pitch_diameter": "mm",
             "screw_count": "1",
@@ -137,7 +137,7 @@ SHELVES: Mapping[str, Shelf] = {
         },
         rising=(("tap_drill", "thread_diameter"), ("centring_diameter", "pitch_diameter")),
     ),
-    "motors": Shelf(
+    "motors": Category(
         values={
             "stator_diameter": "mm",
             "stator_bore": "mm",
@@ -153,7 +153,7 @@ SHELVES: Mapping[str, Shelf] = {
         },
         rising=(("rotor_bore", "rotor_diameter", "stator_bore", "stator_diameter"),),
     ),
-    "encoders": Shelf(
+    "encoders": Category(
         values={
             "magnet_diameter": "mm",
             "magnet_height": "mm",
@@ -166,7 +166,7 @@ SHELVES: Mapping[str, Shelf] = {
         },
         rising=(("magnet_diameter", "board_diameter"),),
     ),
-    "polymers": Shelf(
+    "polymers": Category(
         values={
             "density_solid": "kg/m^3",
             "density_melt": "kg/m^3",
@@ -212,7 +212,7 @@ SHELVES: Mapping[str, Shelf] = {
             ("melting_start", "equilibrium_melting_temperature"),
         ),
     ),
-    "peltiers": Shelf(
+    "peltiers": Category(
         values={
             "seebeck": "mV/K",
             "resistance": "ohm",
@@ -227,5 +227,5 @@ SHELVES: Mapping[str, Shelf] = {
         },
         words={"form": ("flexible", "rigid")},
     ),
-    "wires": Shelf(tables={"sizes": Columns({"wire_diameter": "mm"})}),
+    "wires": Category(tables={"sizes": Columns({"wire_diameter": "mm"})}),
 }

@@ -25,7 +25,7 @@ class Entry:
 
 
 @dataclass(frozen=True)
-class Sheet:
+class RecordTable:
     """One table in SI, with the units its columns were written in, source and status; `range` says how sure it is."""
 
     columns: Mapping[str, str]
@@ -37,13 +37,13 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Record:
-    """One thing on a shelf: a material, a wire table, a Peltier module."""
+    """One thing on a category: a material, a wire table, a Peltier module."""
 
-    shelf: str
+    category: str
     name: str
     title: str
     entries: Mapping[str, Entry] = field(default_factory=dict)
-    tables: Mapping[str, Sheet] = field(default_factory=dict)
+    tables: Mapping[str, RecordTable] = field(default_factory=dict)
     words: Mapping[str, str] = field(default_factory=dict)
     file: str = ""
 
@@ -62,7 +62,7 @@ class Record:
         The columns convert by their units, which in `strength` makes the coefficient pascal while its exponent keeps
         going with d in millimetres: S_ut = coefficient / (d / 1 mm)^exponent.
         """
-        sheet: Sheet = self._find("tables", self.tables, name)
+        sheet: RecordTable = self._find("tables", self.tables, name)
         return [dict(zip(sheet.columns, row, strict=True)) for row in sheet.rows]
 
     def word(self, name: str) -> str:
@@ -75,4 +75,4 @@ class Record:
             return where[name]
         close = get_close_matches(name, where, n=1)
         hint = f"did you mean {close[0]}?" if close else f"it has {', '.join(where) or 'none'}"
-        raise CatalogError(f"{self.file or self.shelf + '/' + self.name}: {section}.{name} is missing; {hint}")
+        raise CatalogError(f"{self.file or self.category + '/' + self.name}: {section}.{name} is missing; {hint}")

@@ -10,8 +10,8 @@ from typing import Any
 
 from tvimdesign.base import units
 from tvimdesign.base.errors import UnitError
-from tvimdesign.catalog.categories import SHELVES, Columns
-from tvimdesign.catalog.record import STATUSES, Entry, Record, Sheet
+from tvimdesign.catalog.categories import CATEGORIES, Columns
+from tvimdesign.catalog.record import STATUSES, Entry, Record, RecordTable
 from tvimdesign.catalog.yaml_file import Tree
 
 _ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")
@@ -21,9 +21,9 @@ _LONGEST_UNIT = 40
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,60}")
 
 
-def build_record(shelf: str, name: str, file: str, tree: dict[str, Tree]) -> tuple[Record, list[str]]:
+def build_record(category: str, name: str, file: str, tree: dict[str, Tree]) -> tuple[Record, list[str]]:
     """Build the record; the list names every problem, and the record is only to be used where there is none."""
-    check = _Check(shelf, file)
+    check = _Check(category, file)
     check.unknown("", tree, _SECTIONS)
     title = check.text("title", tree, "a line that says what this is")
     entries = {key: entry for key, item in check.section(tree, "values") if (entry := check.entry(key, item))}
@@ -31,14 +31,14 @@ def build_record(shelf: str, name: str, file: str, tree: dict[str, Tree]) -> tup
     words = {key: item for key, item in check.section(tree, "words") if check.word(key, item) and isinstance(item, str)}
     check.required(tree, entries)
     check.paired(sheets)
-    return Record(shelf, name, title, entries, sheets, words, file), check.problems
+    return Record(category, name, title, entries, sheets, words, file), check.problems
 
 
 class _Check:
     """Gathers the problems of one file."""
 
-    def __init__(self, shelf: str, file: str) -> None:
-        self.shelf = SHELVES[shelf]
+    def __init__(self, category: str, file: str) -> None:
+        self.category = CATEGORIES[category]
         self.file = file
         self.problems: list[str] = []
 
@@ -111,14 +111,14 @@ class _Check:
         self.unknown(field, item, _ENTRY_FIELDS)
         source, status = self.provenance(field, item)
         unit = self.text(f"{field}.unit", item, 'a unit such as MPa, or "1" for a plain number')
-        wanted = self.shelf.values.get(name, unit)
+        wanted = self.category.values.get(name, unit)
         numbers: dict[str, float | None] = {"low": None, "high": None}
         for part in ("value", "low", "high"):
             if unit and (part == "value" or part in item):
                 numbers[part] = self.number(f"{field}.{part}", item.get(part, ""), unit, wanted)
         value, low, high = (numbers.get(part) for part in ("value", "low", "high"))
-        is_too_small = value is not None and (value < 0.0 or (value == 0.0 and name not in self.shelf.may_be_zero))
-        if is_too_small and name in self.shelf.values:
+        is_too_small = value is not None and (value < 0.0 or (value == 0.0 and name not in self.category.may_be_zero))
+        if is_too_small and name in self.category.values:
             self.no(f"{field}.value", "must be greater than zero")
         if status == "assumed" and not {"low", "high"} <= set(item):
             self.no(field, "an assumed value needs its plausible range, low and high")
@@ -128,7 +128,7 @@ class _Check:
             return None
         return Entry(value, unit, source, status, low, high)
 
-    def sheet(self, name: str, item: Tree) -> Sheet | None:
+    def sheet(self, name: str, item: Tree) -> RecordTable | None:
         field = f"tables.{name}"
         if not isinstance(item, dict):
             self.no(field, "expected {columns: , rows: , source: , status: }")
@@ -137,14 +137,14 @@ class _Check:
         self.unknown(field, item, _TABLE_FIELDS)
         source, status = self.provenance(field, item)
         bound = self.text(f"{field}.range", item, "how far an assumed table may be off") if status == "assumed" else ""
-        needed = self.shelf.tables.get(name, Columns({}))
+        needed = self.category.tables.get(name, Columns({}))
         before_columns = len(self.problems)
         columns = self.columns(field, item.get("columns"), needed)
         # With a column wrong, every row would be wrong in the same way: say it once.
         rows = self.rows(field, item.get("rows"), columns, needed) if len(self.problems) == before_columns else []
         if len(self.problems) > before:
             return None
-        return Sheet(columns, tuple(rows), source, status, bound)
+        return RecordTable(columns, tuple(rows), source, status, bound)
 
     def columns(self, field: str, item: Tree | None, needed: Columns) -> dict[str, str]:
         field = f"{field}.columns"
@@ -198,24 +198,24 @@ class _Check:
         return rows
 
     def word(self, name: str, item: Tree) -> bool:
-        allowed = self.shelf.words.get(name)
+        allowed = self.category.words.get(name)
         if not isinstance(item, str) or not item or (allowed and item not in allowed):
             self.no(f"words.{name}", f"expected {' or '.join(allowed) if allowed else 'a word'}")
             return False
         return True
 
-    def paired(self, sheets: dict[str, Sheet]) -> None:
-        counts = {name: len(sheets[name].rows) for name in self.shelf.paired if name in sheets}
+    def paired(self, sheets: dict[str, RecordTable]) -> None:
+        counts = {name: len(sheets[name].rows) for name in self.category.paired if name in sheets}
         if len(set(counts.values())) > 1:
             found = ", ".join(f"{name} has {count}" for name, count in counts.items())
             self.no("tables", f"{found} rows; they belong together, first to first, and must be as many")
 
     def required(self, tree: dict[str, Tree], entries: dict[str, Entry]) -> None:
-        """Name what the shelf wants and the file does not have at all; what is there but wrong is named already."""
+        """Name what the category wants and the file does not have at all; what is there but wrong is named already."""
         wanted: dict[str, dict[str, Any]] = {
-            "values": dict(self.shelf.values),
-            "tables": dict.fromkeys(self.shelf.tables, "see the shipped records"),
-            "words": {name: " or ".join(allowed) for name, allowed in self.shelf.words.items()},
+            "values": dict(self.category.values),
+            "tables": dict.fromkeys(self.category.tables, "see the shipped records"),
+            "words": {name: " or ".join(allowed) for name, allowed in self.category.words.items()},
         }
         for section, names in wanted.items():
             part = tree.get(section)
@@ -225,7 +225,7 @@ class _Check:
                     close = get_close_matches(name, set(present) - set(names), n=1)
                     hint = f"; is {close[0]} meant to be it?" if close else ""
                     self.no(f"{section}.{name}", f"missing; expected {expected}{hint}")
-        for order in self.shelf.rising:
+        for order in self.category.rising:
             found = [(name, entries[name].value) for name in order if name in entries]
             for (one, low), (other, high) in pairwise(found):
                 if low >= high:

@@ -1,4 +1,4 @@
-"""The rooms whose rows all modes share; what differs between modes stands in a folder for each."""
+"""The rooms whose quantities all modes share; what differs between modes stands in a folder for each."""
 
 from __future__ import annotations
 
@@ -32,17 +32,17 @@ ROOMS = (
     process,
 )
 BOOKS = (
-    materials.book,
+    materials.quantities,
     process.limits,
-    *(room.book for room in ROOMS[1:]),
-    *screws.books,
-    *bearing.books,
-    *preload_adjuster.books,
-    *cover.books,
-    *sensor_flange.books,
-    motor_choice.book,
-    motor_layout.book,
-    motor_mass_properties.book,
-    *motor_clearances.books,
-    driven_inertia.book,
+    *(room.quantities for room in ROOMS[1:]),
+    *screws.groups,
+    *bearing.groups,
+    *preload_adjuster.groups,
+    *cover.groups,
+    *sensor_flange.groups,
+    motor_choice.quantities,
+    motor_layout.quantities,
+    motor_mass_properties.quantities,
+    *motor_clearances.groups,
+    driven_inertia.quantities,
 )

@@ -74,7 +74,7 @@ class Stack(NamedTuple):
     conductivity_solid: Any
     conductivity_melt: Any
     melting: polymer.Melting
-    peltier: peltier.Module
+    peltier: peltier.PeltierModule
     cold_capacity: Any
     """Heat capacity of the cold side [J/K]."""
     hot_capacity: Any

@@ -12,14 +12,14 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, table_for
-from tvimdesign.device.table.quantity import Row
+from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.progress import wide_console
 from tvimdesign.report.output.tables import number
 
 
 def print_rows(mode: str, match: str, as_json: bool) -> None:
     """Print the rows whose name or description has `match` in it. Raises InputError where none has."""
-    rows = [row for row in table_for(mode).rows if not _internal(row)]
+    rows = [row for row in table_for(mode).quantities if not _internal(row)]
     found = [row for row in rows if match.lower() in f"{row.name} {row.description}".lower()]
     if not found:
         raise InputError(f"no row of {mode} mode has {match!r} in its name or description")
@@ -43,13 +43,13 @@ def print_rows(mode: str, match: str, as_json: bool) -> None:
     console.print(grid)
 
 
-def _internal(row: Row) -> bool:
+def _internal(row: Quantity) -> bool:
     return isinstance(row, Output) and (row.hidden or row.instant)
 
 
-def _plain(row: Row) -> dict[str, Any]:
+def _plain(row: Quantity) -> dict[str, Any]:
     if isinstance(row, Choice):
-        allowed = ", ".join([*row.options, *(Catalog().names(row.shelf) if row.shelf else [])])
+        allowed = ", ".join([*row.options, *(Catalog().names(row.category) if row.category else [])])
         return _entry(row, "choice", "", f"from {row.record[0]}" if row.record else row.default, allowed)
     name = f"{row.name}@point" if row.per_point else row.name
     if isinstance(row, Input):
@@ -66,13 +66,13 @@ def _plain(row: Row) -> dict[str, Any]:
     return _entry(row, "output", row.unit, "", rules, name)
 
 
-def _only_with(row: Row) -> str:
+def _only_with(row: Quantity) -> str:
     """What an input or a choice counts for nothing without; an output's description says what it is then."""
-    idle = () if isinstance(row, Output) else row.extras
-    return "".join(f"; of no effect while {extra.choice} is {extra.without}" for extra in idle)
+    idle = () if isinstance(row, Output) else row.requires
+    return "".join(f"; of no effect while {feature.choice} is {feature.without}" for feature in idle)
 
 
-def _entry(row: Row, kind: str, unit: str, default: str, allowed: str, name: str = "") -> dict[str, Any]:
+def _entry(row: Quantity, kind: str, unit: str, default: str, allowed: str, name: str = "") -> dict[str, Any]:
     return {
         "name": name or row.name,
         "kind": kind,

@@ -17,44 +17,44 @@ from rich.table import Table as Grid
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import table_for
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.progress import talk, wide_console
+from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, number
 from tvimdesign.report.run.run_study import catalog_of
-from tvimdesign.simulation.resolved_module import Rig, rig_for, rig_of_design
+from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import Study, read_study
 from tvimdesign.study.design import read_design
 from tvimdesign.virtual_tests.registry import find_test
-from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 
 def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json: bool) -> None:
     """Put a study's module to a test and write its folder. Raises InputError, and TvimError where drawing fails."""
     do = find_test(test)
     source = path / "design.json" if path.is_dir() else path
-    rig, module = _rig(source)
-    study = rig.study
+    resolved, module = _rig(source)
+    study = resolved.study
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite))
-        progress = stack.enter_context(talk())
+        progress = stack.enter_context(progress_output())
         drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
         progress(f"{test}: testing {study.name}")
-        trial = do(rig)
+        trial = do(resolved)
         trial = replace(trial, notes=(module, *trial.notes))
         if drawing:
             drawing.begin(folder.path, [Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))])
-        told = findings(trial)
+        reported = findings(trial)
         folder.write(f"tested{source.suffix}", source.read_bytes())
-        folder.write_json("findings.json", told)
+        folder.write_json("findings.json", reported)
         for sheet in trial.sheets:
             folder.write(f"{sheet.name}.csv", sheet_csv(sheet))
         if drawing:
             progress("drawing the figure")
             drawing.finish()
         progress("")
-        folder.finish("tested", {"tested": source, **_records(rig)}, study.model_dump(mode="json"))
+        folder.finish("tested", {"tested": source, **_records(resolved)}, study.model_dump(mode="json"))
         if as_json:
-            print(json.dumps({**told, "folder": str(out)}, indent=2, allow_nan=False))
+            print(json.dumps({**reported, "folder": str(out)}, indent=2, allow_nan=False))
         else:
             _print_trial(trial, wide_console())
             wide_console().print(
@@ -62,29 +62,33 @@ def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json
             )
 
 
-def _rig(source: Path) -> tuple[Rig, str]:
+def _rig(source: Path) -> tuple[ResolvedModule, str]:
     """The module of a study or of a design, and which one that is, in a sentence."""
     if source.suffix == ".json":
         design = read_design(source)
         study = Study.model_validate(design.study)
-        return rig_of_design(design, catalog_of(study), table_for(study.mode)), f"Module: the design {source}."
+        return resolve_design(design, catalog_of(study), table_for(study.mode)), f"Module: the design {source}."
     study = read_study(source)
-    rig = rig_for(study, catalog_of(study), table_for(study.mode))
+    resolved = resolve_study(study, catalog_of(study), table_for(study.mode))
     if not study.vary:
-        return rig, f"Module: {source}."
-    return rig, (f"Module: the start of {source}, not its optimum; run it and give the run's design.json to test that.")
+        return resolved, f"Module: {source}."
+    return resolved, (
+        f"Module: the start of {source}, not its optimum; run it and give the run's design.json to test that."
+    )
 
 
-def _records(rig: Rig) -> dict[str, Path]:
+def _records(resolved: ResolvedModule) -> dict[str, Path]:
     """Files of the catalogue records the module is made of."""
     return {
-        f"{row.shelf}/{rig.values[row.name].name}": rig.catalog.path(row.shelf, rig.values[row.name].name)
-        for row in rig.table.choices
-        if row.shelf and rig.values[row.name] not in row.options
+        f"{row.category}/{resolved.values[row.name].name}": resolved.catalog.path(
+            row.category, resolved.values[row.name].name
+        )
+        for row in resolved.table.choices
+        if row.category and resolved.values[row.name] not in row.options
     }
 
 
-def sheet_csv(sheet: Sheet) -> str:
+def sheet_csv(sheet: CurveTable) -> str:
     """A sheet as CSV, each column headed by its name and unit."""
     curves = {column.name: _shown(column) for column in sheet.columns}
     return curves_csv(curves, {column.name: column.unit for column in sheet.columns}, "1")
@@ -132,7 +136,7 @@ def figure_data(trial: Trial) -> dict[str, Any]:
     return {"title": trial.title, "panels": [_panel(panel, sheets) for panel in trial.panels]}
 
 
-def _panel(panel: Panel, sheets: dict[str, Sheet]) -> dict[str, Any]:
+def _panel(panel: Panel, sheets: dict[str, CurveTable]) -> dict[str, Any]:
     return {
         "title": panel.title,
         "x_label": panel.x_label,
@@ -143,7 +147,7 @@ def _panel(panel: Panel, sheets: dict[str, Sheet]) -> dict[str, Any]:
     }
 
 
-def _line(line: Line, sheet: Sheet) -> dict[str, Any]:
+def _line(line: PlottedLine, sheet: CurveTable) -> dict[str, Any]:
     return {
         "x": _shown(sheet.column(line.x)),
         "y": _shown(sheet.column(line.y)),

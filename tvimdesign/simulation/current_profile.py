@@ -1,4 +1,4 @@
-"""The current through the pads over one stage: constant, or straight between given moments."""
+"""The current through the pads over one phase: constant, or straight between given moments."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Drive:
-    """Current [A] at some moments [s] from the stage's start, straight between them; the last one lasts."""
+class CurrentProfile:
+    """Current [A] at some moments [s] from the phase's start, straight between them; the last one lasts."""
 
     moments: tuple[float, ...]
     """Rising from zero."""
     currents: tuple[float, ...]
 
     @classmethod
-    def constant(cls, current: float) -> Drive:
+    def constant(cls, current: float) -> CurrentProfile:
         """One current for good."""
         return cls((0.0,), (current,))
 
     @classmethod
-    def in_pieces(cls, ramp: float, duration: float, currents: Sequence[float]) -> Drive:
+    def in_pieces(cls, ramp: float, duration: float, currents: Sequence[float]) -> CurrentProfile:
         """From zero in a ramp of some seconds to the first of `currents`, which follow evenly spaced over `duration`
         seconds; without a ramp that is there from the start."""
         evenly = ramp + np.linspace(0.0, duration, len(currents))
@@ -35,7 +35,7 @@ class Drive:
         return cls((0.0, *evenly.tolist()), (0.0, *currents))
 
     @classmethod
-    def from_plain(cls, data: Mapping[str, Any]) -> Drive:
+    def from_plain(cls, data: Mapping[str, Any]) -> CurrentProfile:
         """The drive that `plain` describes."""
         return cls(*(tuple(float(number) for number in data[name]) for name in ("moments", "currents")))
 
@@ -68,6 +68,6 @@ class Drive:
 def ramp_time(size: Any, slew: Any) -> Any:
     """Time [s] a supply needs to a current of some size [A]; floats and symbols.
 
-    A current is cut at once, and its direction changed while there is none: every stage begins at zero.
+    A current is cut at once, and its direction changed while there is none: every phase begins at zero.
     """
     return size / slew

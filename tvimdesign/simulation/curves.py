@@ -1,4 +1,4 @@
-"""What is drawn: the layer's temperatures over each stage, and stiffness and damping against temperature."""
+"""What is drawn: the layer's temperatures over each phase, and stiffness and damping against temperature."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from numpy.typing import NDArray
 
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.cycle import Trajectory
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.simulation.melt_history import HISTORIES, fractions_at
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 
 Array = NDArray[np.float64]
 Curves = dict[str, list[float]]
 SAMPLES = 161
 
 
-def stage_history(model: Model, inputs: Array, trajectory: Trajectory, stage: str) -> Curves:
-    """Temperatures [degC] through the stack over a stage, current [A], impedance [N*m/rad], frozen share, by column."""
+def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory, phase: str) -> Curves:
+    """Temperatures [degC] through the stack over a phase, current [A], impedance [N*m/rad], frozen share, by column."""
     states, times = trajectory.states, trajectory.times
     currents = trajectory.currents[None, :]
     columns = np.repeat(inputs[:, None], len(times), axis=1)
-    compiled = model.stages[stage]
+    compiled = model.phases[phase]
     temperatures = np.asarray(compiled.temperatures.map(len(times))(states, currents, columns)) - ZERO_CELSIUS
     impedance = np.asarray(compiled.impedance_now.map(len(times))(states, currents, columns)).ravel()
     frozen = np.mean(np.asarray(compiled.fractions.map(len(times))(states, currents, columns)), axis=0)
@@ -34,7 +34,7 @@ def stage_history(model: Model, inputs: Array, trajectory: Trajectory, stage: st
     return {"time": times.tolist(), **history, **more}
 
 
-def impedance_sweep(rig: Rig) -> Curves:
+def impedance_sweep(resolved: ResolvedModule) -> Curves:
     """Stiffness and damping of layer and joint against the layer's temperature [degC], at the hot point's frequency.
 
     Each with its least and largest value over what history allows, `..._low` and `..._high`; the middle one is the
@@ -42,11 +42,11 @@ def impedance_sweep(rig: Rig) -> Curves:
     """
     celsius = np.linspace(0.0, 120.0, SAMPLES)
     names = ["pcl_stiffness", "pcl_damping", "joint_stiffness", "joint_damping", "solid_fraction"]
-    low, nominal, high = np.array([fractions_at(rig, float(at)) for at in celsius + ZERO_CELSIUS]).T
+    low, nominal, high = np.array([fractions_at(resolved, float(at)) for at in celsius + ZERO_CELSIUS]).T
     shares = np.array([nominal, *(low + part * (high - low) for part in np.linspace(0.0, 1.0, HISTORIES))])
     # Every sample at once; the solid fraction at the hot point is given.
-    swept = {**rig.values, "temperature@hot": celsius + ZERO_CELSIUS, "solid_fraction@hot": shares}
-    found = rig.table.evaluate(swept, [f"{name}@hot" for name in names])
+    swept = {**resolved.values, "temperature@hot": celsius + ZERO_CELSIUS, "solid_fraction@hot": shares}
+    found = resolved.table.evaluate(swept, [f"{name}@hot" for name in names])
     curves: Curves = {"temperature": celsius.tolist()}
     for name in names:
         every = found[f"{name}@hot"]

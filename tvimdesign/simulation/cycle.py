@@ -1,4 +1,4 @@
-"""The working cycle simulated, stage after stage: the heat equation through CVODES until every event is found."""
+"""The working cycle simulated, phase after phase: the heat equation through CVODES until every event is found."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.current_profile import Drive
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.phase_model import StageModel
+from tvimdesign.simulation.current_profile import CurrentProfile
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.phase_model import PhaseFunctions
 
 STEPS = 50  # samples of one stretch of time
 TOLERANCE = 1e-6  # with these, values are within 2e-4 of what they converge to (test)
 FIRST_STRETCH = 120.0  # s; each after it is twice as long
 MOST_STEPS = 50  # of Newton; a steady state takes less than ten
-SHOWN_STRETCHES = 4  # of a stage that is to be drawn
+SHOWN_STRETCHES = 4  # of a phase that is to be drawn
 STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Trajectory:
-    """A stage over time, sampled: `times` [s], `states` one column a time, `currents` [A]."""
+    """A phase over time, sampled: `times` [s], `states` one column a time, `currents` [A]."""
 
     times: Array
     states: Array
@@ -42,143 +42,146 @@ class Trajectory:
 
 
 @dataclass(frozen=True)
-class Switch:
+class Cycle:
     """What the cycle came to: event, path and steady values by name (infinite where something never happens)."""
 
     values: dict[str, float]
     trajectories: dict[str, Trajectory]
-    """By stage, each from its start to the event that ends it, or as far as it goes if that never happens."""
+    """By phase, each from its start to the event that ends it, or as far as it goes if that never happens."""
     balances: dict[str, Array]
-    """By stage, state and current that stay where the stage ended; none where there is no such state."""
+    """By phase, state and current that stay where the phase ended; none where there is no such state."""
 
     @property
     def trajectory(self) -> Trajectory:
-        """The first stage."""
+        """The first phase."""
         return next(iter(self.trajectories.values()))
 
 
 class Simulator:
-    """Simulates the working cycle of one model; each stage's integrator is built once, when it is first needed."""
+    """Simulates the working cycle of one model; each phase's integrator is built once, when it is first needed."""
 
-    def __init__(self, model: Model, tolerance: float = TOLERANCE, steps: int = STEPS) -> None:
+    def __init__(self, model: DeviceFunctions, tolerance: float = TOLERANCE, steps: int = STEPS) -> None:
         """Nothing is built yet. `tolerance` is CVODES's, `steps` divides each stretch of time."""
         self.model = model
         self.tolerance, self.steps = tolerance, steps
-        self._stages: dict[str, _StageSimulator] = {}
+        self._phases: dict[str, _PhaseSimulator] = {}
 
     def run_to_show(
-        self, inputs: Array, drives: Mapping[str, Drive] | None = None, ends: Mapping[str, float] | None = None
-    ) -> Switch:
-        """Simulate all stages with samples enough to draw each, however short it is.
+        self,
+        inputs: Array,
+        current_profiles: Mapping[str, CurrentProfile] | None = None,
+        ends: Mapping[str, float] | None = None,
+    ) -> Cycle:
+        """Simulate all phases with samples enough to draw each, however short it is.
 
-        `ends` are about how long [s] stages take, by name; where they are not known, a first simulation finds out.
+        `ends` are about how long [s] phases take, by name; where they are not known, a first simulation finds out.
         """
         if ends is None:
-            found = self.run(inputs, drives)
-            ends = {name: found.values[stage.stage.ends] for name, stage in self.model.stages.items()}
+            found = self.run(inputs, current_profiles)
+            ends = {name: found.values[phase.phase.ends] for name, phase in self.model.phases.items()}
         lengths = {
-            name: ends.get(name, ends.get(stage.stage.like or name, 0.0)) for name, stage in self.model.stages.items()
+            name: ends.get(name, ends.get(phase.phase.like or name, 0.0)) for name, phase in self.model.phases.items()
         }
         stretches = {name: length / SHOWN_STRETCHES for name, length in lengths.items() if 0.0 < length < np.inf}
-        return self.run(inputs, drives, stretches=stretches)
+        return self.run(inputs, current_profiles, stretches=stretches)
 
     def run(
         self,
         inputs: Array,
-        drives: Mapping[str, Drive] | None = None,
-        stages: Collection[str] | None = None,
+        current_profiles: Mapping[str, CurrentProfile] | None = None,
+        phases: Collection[str] | None = None,
         stretches: Mapping[str, float] | None = None,
         wanted: Collection[str] | None = None,
-    ) -> Switch:
-        """Simulate the named stages (all unless given) and those they start from; the rest has infinite values.
+    ) -> Cycle:
+        """Simulate the named phases (all unless given) and those they start from; the rest has infinite values.
 
-        `drives` are currents by stage where they are not the constant ones of the inputs; `stretches` the lengths [s]
-        of time, by stage, that are sampled at a time at first. Of the stages' rows only those that are
+        `drives` are currents by phase where they are not the constant ones of the inputs; `stretches` the lengths [s]
+        of time, by phase, that are sampled at a time at first. Of the phases' quantities only those that are
         `wanted` need be sought (all unless given), as steady states and each event take time of their own.
         """
         values = dict.fromkeys(self.model.switch_names, np.inf)
         trajectories: dict[str, Trajectory] = {}
         balances: dict[str, Array] = {}
-        for name, stage_model in self.model.stages.items():
-            stage = stage_model.stage
-            if stages is not None and name not in self._with_earlier(stages):
+        for name, phase_functions in self.model.phases.items():
+            phase = phase_functions.phase
+            if phases is not None and name not in self._with_earlier(phases):
                 continue
-            before = trajectories.get(stage.after) if stage.after else None
-            if stage.after and (before is None or not np.isfinite(values[self.model.stages[stage.after].stage.ends])):
+            before = trajectories.get(phase.after) if phase.after else None
+            if phase.after and (before is None or not np.isfinite(values[self.model.phases[phase.after].phase.ends])):
                 continue
-            drive = (drives or {}).get(stage.like or name) or self.constant_drive(name, inputs)
-            simulator = self._stage(name)
+            profile = (current_profiles or {}).get(phase.like or name) or self.constant_drive(name, inputs)
+            simulator = self._phase(name)
             stretch = (stretches or {}).get(name, FIRST_STRETCH)
             state = before.states[:, -1] if before else None
-            found, trajectories[name] = simulator.run(inputs, drive, state, stretch, wanted)
+            found, trajectories[name] = simulator.run(inputs, profile, state, stretch, wanted)
             values |= found
-            settles = np.isfinite(found[stage.ends]) and simulator.stays(wanted)
+            settles = np.isfinite(found[phase.ends]) and simulator.stays(wanted)
             balance = simulator.balance(inputs, trajectories[name]) if settles else None
             if balance is not None:
                 balances[name] = balance
                 values |= simulator.steady_values(inputs, balance)
-        return Switch(values, trajectories, balances)
+        return Cycle(values, trajectories, balances)
 
     def trace(self, name: str, inputs: Array, before: Array | None, end: float) -> Trajectory:
-        """A stage at its constant current for `end` seconds, on beyond what ends it if that is longer."""
-        return self._stage(name).trace(inputs, self.constant_drive(name, inputs), before, end)
+        """A phase at its constant current for `end` seconds, on beyond what ends it if that is longer."""
+        return self._phase(name).trace(inputs, self.constant_drive(name, inputs), before, end)
 
-    def constant_drive(self, stage: str, inputs: Array) -> Drive:
-        """The constant current the inputs ask for in a stage."""
-        row = self.model.stages[stage].stage
-        return Drive.constant(row.sign * float(inputs[self.model.index[row.drive]]))
+    def constant_drive(self, phase: str, inputs: Array) -> CurrentProfile:
+        """The constant current the inputs ask for in a phase."""
+        row = self.model.phases[phase].phase
+        return CurrentProfile.constant(row.sign * float(inputs[self.model.index[row.current_input]]))
 
-    def _with_earlier(self, stages: Collection[str]) -> set[str]:
-        wanted = set(stages)
-        for name in reversed(self.model.stages):
-            after = self.model.stages[name].stage.after
+    def _with_earlier(self, phases: Collection[str]) -> set[str]:
+        wanted = set(phases)
+        for name in reversed(self.model.phases):
+            after = self.model.phases[name].phase.after
             if name in wanted and after:
                 wanted.add(after)
         return wanted
 
-    def _stage(self, name: str) -> _StageSimulator:
-        if name not in self._stages:
-            self._stages[name] = _StageSimulator(self.model, self.model.stages[name], self.tolerance, self.steps)
-        return self._stages[name]
+    def _phase(self, name: str) -> _PhaseSimulator:
+        if name not in self._phases:
+            self._phases[name] = _PhaseSimulator(self.model, self.model.phases[name], self.tolerance, self.steps)
+        return self._phases[name]
 
 
 @dataclass
 class _Found:
-    """What the simulation of a stage has come to so far."""
+    """What the simulation of a phase has come to so far."""
 
     times: dict[str, float]
     """Of every event; infinite where it has not happened."""
     end: Array | None = None
-    """State, integrals last, at the event that ends the stage."""
+    """State, integrals last, at the event that ends the phase."""
 
 
-class _StageSimulator:
-    """Simulates one stage. Time is scaled by the length of a stretch; integrals ride along as states."""
+class _PhaseSimulator:
+    """Simulates one phase. Time is scaled by the length of a stretch; integrals ride along as states."""
 
-    def __init__(self, model: Model, stage: StageModel, tolerance: float, steps: int) -> None:
+    def __init__(self, model: DeviceFunctions, phase: PhaseFunctions, tolerance: float, steps: int) -> None:
         self.model = model
-        self.stage = stage
+        self.phase = phase
         self._shares = np.linspace(0.0, 1.0, steps + 1)
-        self._integrals = [row.name for row in stage.paths if row.reduce == "integral"]
-        self._events = [row.name for row in stage.events]
-        state, current = ca.SX.sym("state", stage.state_size), ca.SX.sym("current")
-        extra = ca.SX.sym("integrals", len(self._integrals))
+        self._integrals = [row.name for row in phase.paths if row.reduce == "integral"]
+        self._events = [row.name for row in phase.events]
+        state, current = ca.SX.sym("state", phase.state_size), ca.SX.sym("current")
+        integrals = ca.SX.sym("integrals", len(self._integrals))
         length, first, last, time = (ca.SX.sym(name) for name in ("length", "first", "last", "time"))
-        drive = first + (last - first) * time
-        self._constants, varying = stage.per_stage(self._everything)
+        profile = first + (last - first) * time
+        self._constants, varying = phase.per_phase(self._everything)
         constants = ca.SX.sym("constants", self._constants.size1_out(0))
-        size = stage.state_size + len(self._integrals)
+        size = phase.state_size + len(self._integrals)
         watched = varying(state, current, constants)[size:]
         self._watched = ca.Function("watched", [state, current, constants], [watched])
         self._of_stretch = self._watched.map(steps + 1)
         self._integrator = ca.integrator(
-            stage.stage.name,
+            phase.phase.name,
             "cvodes",
             {
-                "x": ca.vertcat(state, extra),
+                "x": ca.vertcat(state, integrals),
                 "p": ca.vertcat(constants, length, first, last),
                 "t": time,
-                "ode": length * varying(state, drive, constants)[:size],
+                "ode": length * varying(state, profile, constants)[:size],
             },
             0.0,
             self._shares[1:],
@@ -186,22 +189,27 @@ class _StageSimulator:
                 "reltol": tolerance,
                 "abstol": tolerance * 1e-2,
                 "max_num_steps": 100_000,
-                # A stage that cannot be simulated raises; what CVODES and CasADi say meanwhile is not for people.
+                # A phase that cannot be simulated raises; what CVODES and CasADi say meanwhile is not for people.
                 "show_eval_warnings": False,
                 "disable_internal_warnings": True,
             },
         )
 
-    def _everything(self, state: Any, drive: Any, inputs: Any) -> Any:
+    def _everything(self, state: Any, profile: Any, inputs: Any) -> Any:
         """Rates of the state and of the integrals, then what is watched: events and paths."""
-        watched = [*self._integrals, *self._events, *(row.name for row in self.stage.paths)]
-        return ca.vertcat(self.stage.rates(state, drive, inputs), self.stage.watch(watched)(state, drive, inputs))
+        watched = [*self._integrals, *self._events, *(row.name for row in self.phase.paths)]
+        return ca.vertcat(self.phase.rates(state, profile, inputs), self.phase.watch(watched)(state, profile, inputs))
 
     def run(
-        self, inputs: Array, drive: Drive, before: Array | None, stretch: float, wanted: Collection[str] | None
+        self,
+        inputs: Array,
+        profile: CurrentProfile,
+        before: Array | None,
+        stretch: float,
+        wanted: Collection[str] | None,
     ) -> tuple[dict[str, float], Trajectory]:
         """Simulate until every event that is wanted has happened, nothing changes any more, or the horizon is over."""
-        ends = self.stage.stage.ends
+        ends = self.phase.phase.ends
         sought = [name for name in self._events if wanted is None or name in wanted or name == ends]
         found = _Found(dict.fromkeys(sought, np.inf))
         horizon = float(inputs[self.model.index["horizon"]])
@@ -209,31 +217,31 @@ class _StageSimulator:
         time, length = 0.0, stretch
         pieces: list[tuple[Array, Array, Array]] = []
         while time < horizon and not all(np.isfinite(moment) for moment in found.times.values()):
-            length = min(length, drive.next_corner(time) - time, horizon - time)
-            currents = drive.at(time + length * self._shares)
+            length = min(length, profile.next_corner(time) - time, horizon - time)
+            currents = profile.at(time + length * self._shares)
             states = self._stretch(begin, constants, length, currents)
             watched = self._watch(states, constants, currents)
             self._look(found, (time, length, currents), states, watched, constants)
             pieces.append((time + length * self._shares, states, watched))
             begin, time = states[:, -1], time + length
-            rate = np.asarray(self.stage.rates(begin[: self.stage.state_size], currents[-1], inputs)).ravel()
-            constant = np.isinf(drive.next_corner(time))
+            rate = np.asarray(self.phase.rates(begin[: self.phase.state_size], currents[-1], inputs)).ravel()
+            constant = np.isinf(profile.next_corner(time))
             if constant and np.max(np.abs(rate)) * (horizon - time) < STALLED:
                 break
             length = 2.0 * length if length >= FIRST_STRETCH else stretch
-        return self._summary(found, pieces, constants, drive)
+        return self._summary(found, pieces, constants, profile)
 
-    def trace(self, inputs: Array, drive: Drive, before: Array | None, end: float) -> Trajectory:
+    def trace(self, inputs: Array, profile: CurrentProfile, before: Array | None, end: float) -> Trajectory:
         """Simulate one stretch of a constant current, whatever happens in it."""
         times = end * self._shares
         begin, constants = self._begin(inputs, before)
-        currents = drive.at(times)
+        currents = profile.at(times)
         states = self._stretch(begin, constants, end, currents)
-        return Trajectory(times, states[: self.stage.state_size], currents)
+        return Trajectory(times, states[: self.phase.state_size], currents)
 
     def _begin(self, inputs: Array, before: Array | None) -> tuple[Array, Array]:
-        """State at the start, integrals last, and what stays the same all through the stage."""
-        start = self.stage.initial(inputs) if before is None else self.stage.begin(before, inputs)
+        """State at the start, integrals last, and what stays the same all through the phase."""
+        start = self.phase.initial(inputs) if before is None else self.phase.begin(before, inputs)
         begin = np.append(np.asarray(start).ravel(), np.zeros(len(self._integrals)))
         return begin, np.asarray(self._constants(inputs)).ravel()
 
@@ -245,13 +253,13 @@ class _StageSimulator:
         except RuntimeError as error:
             reason = str(error).strip().splitlines()[-1]
             raise SimulationError(
-                f"the {self.stage.stage.name} of this design cannot be simulated; check its inputs ({reason})"
+                f"the {self.phase.phase.name} of this design cannot be simulated; check its inputs ({reason})"
             ) from error
         return np.column_stack([begin, after])
 
     def _watch(self, stretch: Array, constants: Array, currents: Array) -> Array:
         columns = np.repeat(constants[:, None], stretch.shape[1], axis=1)
-        return np.asarray(self._of_stretch(stretch[: self.stage.state_size], currents[None, :], columns))
+        return np.asarray(self._of_stretch(stretch[: self.phase.state_size], currents[None, :], columns))
 
     def _look(
         self, found: _Found, when: tuple[float, float, Array], stretch: Array, watched: Array, constants: Array
@@ -266,7 +274,7 @@ class _StageSimulator:
             share, state = same[0] if same else self._crossing(stretch, constants, when, i, watched[i])
             seen.append((watched[i], share, state))
             found.times[name] = time + share
-            if name == self.stage.stage.ends:
+            if name == self.phase.phase.ends:
                 found.end = state
 
     def _crossing(
@@ -282,7 +290,7 @@ class _StageSimulator:
         close = self._stretch(stretch[:, first - 1], constants, length / steps, within)
 
         def near(place: int) -> float:
-            return float(self._watched(close[: self.stage.state_size, place], within[place], constants)[event])
+            return float(self._watched(close[: self.phase.state_size, place], within[place], constants)[event])
 
         # Looking at a sample costs as much as integrating up to it, so few are looked at: by halves.
         low, high = (0, near(0)), (steps, near(steps))
@@ -295,39 +303,39 @@ class _StageSimulator:
         return float(share * length), close[:, low[0]] + part * (close[:, high[0]] - close[:, low[0]])
 
     def _summary(
-        self, found: _Found, pieces: list[tuple[Array, Array, Array]], constants: Array, drive: Drive
+        self, found: _Found, pieces: list[tuple[Array, Array, Array]], constants: Array, profile: CurrentProfile
     ) -> tuple[dict[str, float], Trajectory]:
-        """Values of the stage's events and paths, and its trajectory up to the event that ends it."""
+        """Values of the phase's events and paths, and its trajectory up to the event that ends it."""
         # The last sample of a stretch is the first of the next.
         times = np.concatenate([pieces[0][0][:1], *(piece[0][1:] for piece in pieces)])
         states, watched = (
             np.concatenate([pieces[0][k][:, :1], *(piece[k][:, 1:] for piece in pieces)], axis=1) for k in (1, 2)
         )
         if found.end is not None:
-            end = found.times[self.stage.stage.ends]
+            end = found.times[self.phase.phase.ends]
             keep = times < end
-            now = self._watched(found.end[: self.stage.state_size], drive.at(np.array([end])), constants)
+            now = self._watched(found.end[: self.phase.state_size], profile.at(np.array([end])), constants)
             times = np.append(times[keep], end)
             states = np.column_stack([states[:, keep], found.end])
             watched = np.column_stack([watched[:, keep], np.asarray(now).ravel()])
-        size = self.stage.state_size
+        size = self.phase.state_size
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
         values = dict.fromkeys(self._events, np.inf) | found.times
-        for row, sampled in zip(self.stage.paths, watched[len(self._events) :], strict=True):
-            # What a stage that never ends adds up to has no end either.
+        for row, sampled in zip(self.phase.paths, watched[len(self._events) :], strict=True):
+            # What a phase that never ends adds up to has no end either.
             whole = integrals.get(row.name, np.max(sampled))
             values[row.name] = np.inf if row.name in integrals and found.end is None else float(whole)
-        return values, Trajectory(times=times, states=states[:size], currents=drive.at(times))
+        return values, Trajectory(times=times, states=states[:size], currents=profile.at(times))
 
     @cached_property
     def _standing(self) -> Any:
         """The function (state and current, inputs) that is zero where everything stays and the ending event is due."""
-        size = self.stage.state_size
+        size = self.phase.state_size
         unknowns = ca.SX.sym("unknowns", size + 1)
         inputs = ca.SX.sym("inputs", len(self.model.names))
-        state, drive = unknowns[:size], unknowns[size]
-        gap = self.stage.watch([self.stage.stage.ends])(state, drive, inputs)
-        equations = ca.vertcat(self.stage.rates(state, drive, inputs), gap)
+        state, profile = unknowns[:size], unknowns[size]
+        gap = self.phase.watch([self.phase.phase.ends])(state, profile, inputs)
+        equations = ca.vertcat(self.phase.rates(state, profile, inputs), gap)
         return ca.Function("standing", [unknowns, inputs], [equations])
 
     @cached_property
@@ -341,11 +349,11 @@ class _StageSimulator:
         return ca.rootfinder("balance", "newton", self._standing)
 
     def stays(self, wanted: Collection[str] | None) -> bool:
-        """Whether a steady state at the stage's end is of use."""
-        return any(wanted is None or row.name in wanted for row in self.stage.steadies)
+        """Whether a steady state at the phase's end is of use."""
+        return any(wanted is None or row.name in wanted for row in self.phase.steadies)
 
     def balance(self, inputs: Array, trajectory: Trajectory) -> Array | None:
-        """State and current that stay where the stage ended; None where none exists."""
+        """State and current that stay where the phase ended; None where none exists."""
         begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
         with suppress(RuntimeError):
             return np.asarray(self._by_full_steps(begin, inputs)).ravel()
@@ -354,7 +362,7 @@ class _StageSimulator:
         return None
 
     def steady_values(self, inputs: Array, balance: Array) -> dict[str, float]:
-        """Values of the steady rows."""
-        names = [row.name for row in self.stage.steadies]
-        numbers = np.asarray(self.stage.watch(names)(balance[:-1], balance[-1], inputs)).ravel()
+        """Values of the steady quantities."""
+        names = [row.name for row in self.phase.steadies]
+        numbers = np.asarray(self.phase.watch(names)(balance[:-1], balance[-1], inputs)).ravel()
         return dict(zip(names, (float(number) for number in numbers), strict=True))

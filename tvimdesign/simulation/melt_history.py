@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Table
 from tvimdesign.physics import crystallization, polymer
-from tvimdesign.simulation.current_profile import Drive
+from tvimdesign.simulation.current_profile import CurrentProfile
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.resolved_module import ResolvedModule
 
 Array = NDArray[np.float64]
 HISTORIES = 5
@@ -35,28 +35,28 @@ class Fractions(NamedTuple):
     """Heated, melting as late as the record allows."""
 
 
-def melting_range(rig: Rig) -> tuple[float, float]:
+def melting_range(resolved: ResolvedModule) -> tuple[float, float]:
     """Temperatures [K] between which the solid fraction depends on history: earliest start and latest end."""
-    melting: polymer.Melting = rig.row("pcl_melting")
-    return melting.start + _off(rig, "melting_start")[0], melting.end + _off(rig, "melting_end")[1]
+    melting: polymer.Melting = resolved.quantity("pcl_melting")
+    return melting.start + _off(resolved, "melting_start")[0], melting.end + _off(resolved, "melting_end")[1]
 
 
-def fractions_at(rig: Rig, temperature: float) -> Fractions:
+def fractions_at(resolved: ResolvedModule, temperature: float) -> Fractions:
     """Least, nominal and largest solid fraction at a temperature [K]; outside the melting range all are the same."""
-    melting: polymer.Melting = rig.row("pcl_melting")
+    melting: polymer.Melting = resolved.quantity("pcl_melting")
     nominal = _on_heating(temperature, melting)
-    first, last = melting_range(rig)
+    first, last = melting_range(resolved)
     if not first <= temperature <= last:
         return Fractions(nominal, nominal, nominal)
     late = melting._replace(
-        start=melting.start + _off(rig, "melting_start")[1], end=melting.end + _off(rig, "melting_end")[1]
+        start=melting.start + _off(resolved, "melting_start")[1], end=melting.end + _off(resolved, "melting_end")[1]
     )
     return Fractions(0.0, nominal, max(nominal, _on_heating(temperature, late)))
 
 
-def frozen_on_cooling(rig: Rig, rate: float) -> Callable[[float], float]:
+def frozen_on_cooling(resolved: ResolvedModule, rate: float) -> Callable[[float], float]:
     """Solid fraction [1] at a temperature [K] that a melt comes down to at a steady rate [K/s]: Nakamura's integral."""
-    kinetics: crystallization.Kinetics = rig.row("pcl_kinetics")
+    kinetics: crystallization.Kinetics = resolved.quantity("pcl_kinetics")
     temperatures = np.linspace(kinetics.equilibrium_melting + 20.0, 240.0, 4001)
     slowness = crystallization.rate_constant(temperatures, kinetics) / rate
     steps = 0.5 * (slowness[1:] + slowness[:-1]) * -np.diff(temperatures)
@@ -70,7 +70,11 @@ def frozen_on_cooling(rig: Rig, rate: float) -> Callable[[float], float]:
 
 
 def intervals(
-    rig: Rig, model: Model, inputs: Array, switch: Mapping[str, float], drives: Mapping[str, Drive] | None = None
+    resolved: ResolvedModule,
+    model: DeviceFunctions,
+    inputs: Array,
+    cycle: Mapping[str, float],
+    current_profiles: Mapping[str, CurrentProfile] | None = None,
 ) -> dict[str, tuple[float, float]]:
     """Least and largest value (SI) of every output that a point inside the melting range leaves open, by full name.
 
@@ -78,13 +82,17 @@ def intervals(
     says what soft or stiff means, the cycle is simulated for each of them.
     """
     found: dict[str, tuple[float, float]] = {}
-    for point in rig.points:
-        low, nominal, high = fractions_at(rig, float(inputs[model.index[f"temperature@{point}"]]))
+    for point in resolved.points:
+        low, nominal, high = fractions_at(resolved, float(inputs[model.index[f"temperature@{point}"]]))
         if low == high:
             continue
         runs = []
         for share in (nominal, *np.linspace(low, high, HISTORIES)):
-            seen = _as_left(rig, model, point, float(share), drives) if _sets_a_target(model.table, point) else switch
+            seen = (
+                _as_left(resolved, model, point, float(share), current_profiles)
+                if _sets_a_target(model.table, point)
+                else cycle
+            )
             outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
             runs.append(np.asarray(outputs(inputs, [seen[name] for name in model.switch_names])).ravel())
         least, most = np.min(runs, axis=0), np.max(runs, axis=0)
@@ -102,20 +110,26 @@ def _sets_a_target(table: Table, point: str) -> bool:
 
 
 def _as_left(
-    rig: Rig, model: Model, point: str, share: float, drives: Mapping[str, Drive] | None
+    resolved: ResolvedModule,
+    model: DeviceFunctions,
+    point: str,
+    share: float,
+    current_profiles: Mapping[str, CurrentProfile] | None,
 ) -> Mapping[str, float]:
     """The cycle's values where a point has a given solid fraction."""
-    other = Model(rig.table, {**rig.values, f"solid_fraction@{point}": share}, rig.points, model.cells)
-    return Simulator(other).run(other.start, drives).values
+    other = DeviceFunctions(
+        resolved.table, {**resolved.values, f"solid_fraction@{point}": share}, resolved.points, model.cells
+    )
+    return Simulator(other).run(other.start, current_profiles).values
 
 
 def _on_heating(temperature: float, melting: polymer.Melting) -> float:
     return float(polymer.solid_fraction(polymer.enthalpy(temperature, melting), melting))
 
 
-def _off(rig: Rig, field: str) -> tuple[float, float]:
+def _off(resolved: ResolvedModule, field: str) -> tuple[float, float]:
     """How far [K] the record's range reaches below and above its value; a study's own value is taken to be as sure."""
-    entry = rig.values["pcl_grade"].entry(field)
+    entry = resolved.values["pcl_grade"].entry(field)
     low = entry.value if entry.low is None else entry.low
     high = entry.value if entry.high is None else entry.high
     return low - entry.value, high - entry.value

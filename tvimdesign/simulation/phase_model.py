@@ -1,4 +1,4 @@
-"""One stage of the working cycle, compiled: heat equation and instants as functions of (state, current, inputs)."""
+"""One phase of the working cycle, compiled: heat equation and instants as functions of (state, current, inputs)."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from typing import Any
 
-from tvimdesign.device import Event, Path, Stage, Steady, Table
-from tvimdesign.device.table.quantity import DRIVE, STAGE, STATE
+from tvimdesign.device import Event, Path, Phase, Steady, Table
+from tvimdesign.device.table.quantity import DRIVE, PHASE, STATE
 from tvimdesign.physics import heat
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.simulation.symbols import symbols
@@ -17,19 +17,20 @@ _BY_JACOBIAN = {"enable_forward": False}
 directions."""
 
 
-class StageModel:
-    """One stage of a device with its records chosen. Functions are built when first asked for and kept."""
+class PhaseFunctions:
+    """One phase of a device with its records chosen. Functions are built when first asked for and kept."""
 
-    def __init__(self, table: Table, stage: Stage, inputs: Any, known: dict[str, Any], cells: int) -> None:
-        """`known` holds every given row, numbers as entries of the symbol `inputs`; `cells` divides the polymer."""
+    def __init__(self, table: Table, phase: Phase, inputs: Any, known: dict[str, Any], cells: int) -> None:
+        """`known` holds every given quantity, numbers as entries of the symbol `inputs`; `cells` divides the
+        polymer."""
         self.table = table
-        self.stage = stage
-        self.events = tuple(row for row in table.supplied if isinstance(row, Event) and row.stage == stage.name)
-        self.paths = tuple(row for row in table.supplied if isinstance(row, Path) and row.stage == stage.name)
-        self.steadies = tuple(row for row in table.supplied if isinstance(row, Steady) and row.stage == stage.name)
+        self.phase = phase
+        self.events = tuple(row for row in table.supplied if isinstance(row, Event) and row.phase == phase.name)
+        self.paths = tuple(row for row in table.supplied if isinstance(row, Path) and row.phase == phase.name)
+        self.steadies = tuple(row for row in table.supplied if isinstance(row, Steady) and row.phase == phase.name)
         self._inputs = inputs
         self._drive = ca.SX.sym("drive_current")
-        self._known = {**known, STAGE: stage, DRIVE: symbols(self._drive)[0]}
+        self._known = {**known, PHASE: phase, DRIVE: symbols(self._drive)[0]}
         self._cells = cells
 
     @cached_property
@@ -64,7 +65,7 @@ class StageModel:
 
     @cached_property
     def begin(self) -> Any:
-        """The function (state at the end of the stage before, inputs) -> state this one starts from."""
+        """The function (state at the end of the phase before, inputs) -> state this one starts from."""
         before = ca.SX.sym("before", len(self._initial(self._stack._replace(freezing=None))))
         state = heat.with_history(symbols(before), self._stack) if self._stack.freezing else before
         return ca.Function("begin", [before, self._inputs], [ca.vertcat(state)])
@@ -75,7 +76,8 @@ class StageModel:
         return self._function("rates", [self._instant["state_rates"]])
 
     def watch(self, wanted: Sequence[str]) -> Any:
-        """Return the function (state, current, inputs) -> what the wanted rows of this stage are at an instant."""
+        """Return the function (state, current, inputs) -> what the wanted quantities of this phase are at an
+        instant."""
         return self._function("watch", [self._instant[name] for name in wanted])
 
     @cached_property
@@ -95,14 +97,14 @@ class StageModel:
         """The function -> magnitude of the joint's dynamic stiffness [N*m/rad]."""
         return self._function("impedance_now", [self._instant["impedance_now"]])
 
-    def per_stage(self, function: Callable[..., Any]) -> tuple[Any, Any]:
-        """Split a function (state, current, inputs) in what is the same all through the stage, and what is not.
+    def per_phase(self, function: Callable[..., Any]) -> tuple[Any, Any]:
+        """Split a function (state, current, inputs) in what is the same all through the phase, and what is not.
 
         Returns inputs -> constants, and (state, current, constants) -> the function's value. A collocation evaluates
         the first once and the second at every point.
         """
-        state, drive = self._instant["state"], self._drive
-        expression = function(state, drive, self._inputs)
+        state, profile = self._instant["state"], self._drive
+        expression = function(state, profile, self._inputs)
         value, symbols, constants = ca.extract_parametric(expression, self._inputs)
         # Inputs that meet the state as they are stay in the expression; they are constants too.
         left = ca.symvar(value)
@@ -110,5 +112,5 @@ class StageModel:
         bare = [symbol for symbol, depends in zip(left, moved, strict=True) if depends]
         return (
             ca.Function("constants", [self._inputs], [ca.vertcat(*constants, *bare)]),
-            ca.Function("varying", [state, drive, ca.vertcat(*symbols, *bare)], [value], _BY_JACOBIAN),
+            ca.Function("varying", [state, profile, ca.vertcat(*symbols, *bare)], [value], _BY_JACOBIAN),
         )

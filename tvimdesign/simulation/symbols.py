@@ -26,7 +26,7 @@ _BINARY = {
 
 
 class Symbols(ca.ArrayInterfaceSX):
-    """A scalar or a one-dimensional array of SX, which CasADi keeps as a row in `_v`."""
+    """A scalar or a one-dimensional array of SX, which CasADi keeps as a quantity in `_v`."""
 
     _v: Any
     _ndim: int
@@ -83,7 +83,7 @@ def _binary(code: int, *operands: Any) -> Any:
 
 
 def _of(matrix: Any, dimensions: int) -> Symbols:
-    """Symbols of what CasADi computed: a row where there is a dimension."""
+    """Symbols of what CasADi computed: a quantity where there is a dimension."""
     found: Symbols = object.__new__(Symbols)
     found._v, found._ndim = matrix, dimensions
     return found

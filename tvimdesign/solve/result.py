@@ -12,16 +12,23 @@ from numpy.typing import NDArray
 from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
-from tvimdesign.simulation.curves import Curves, impedance_sweep, stage_history
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.curves import Curves, impedance_sweep, phase_history
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.simulation.melt_history import intervals
-from tvimdesign.simulation.resolved_module import Rig
-from tvimdesign.solve.nlp.constraints import Limit, advice_of, in_words, limits_of, on_switch, refuse_impossible
+from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.solve.nlp.constraints import (
+    Constraint,
+    advice_of,
+    constraints_of,
+    in_words,
+    on_cycle,
+    refuse_impossible,
+)
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE
-from tvimdesign.solve.optimizer.verify_optimum import SWITCH_TOLERANCE
+from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
@@ -29,7 +36,7 @@ from tvimdesign.virtual_tests.joint_tests.release import contact_seen
 
 
 @dataclass(frozen=True)
-class Check:
+class ConstraintCheck:
     """One limit held against the design."""
 
     text: str
@@ -49,16 +56,16 @@ class Check:
 
 
 @dataclass(frozen=True)
-class Answer:
+class StudyResult:
     """What a study came to."""
 
     design: Design
-    checks: tuple[Check, ...]
+    checks: tuple[ConstraintCheck, ...]
     """Requirements and rules."""
-    warnings: tuple[Check, ...]
+    warnings: tuple[ConstraintCheck, ...]
     """Advice that the design does not follow."""
     histories: dict[str, Curves]
-    """By stage."""
+    """By phase."""
     sweep: Curves
     solution: Solution | None
     intervals: dict[str, tuple[float, float]]
@@ -77,9 +84,9 @@ class Answer:
         return self.solution.seconds if self.solution else {}
 
     @property
-    def undecided(self) -> tuple[Check, ...]:
+    def undecided(self) -> tuple[ConstraintCheck, ...]:
         """The requirements and rules that are kept as nominally heated, and broken with another history."""
-        return tuple(check for check in self.checks if check.kept and check.worst < -SWITCH_TOLERANCE)
+        return tuple(check for check in self.checks if check.kept and check.worst < -CYCLE_TOLERANCE)
 
     @property
     def feasible(self) -> bool:
@@ -94,8 +101,8 @@ def answer(
     progress: Progress = lambda _: None,
     reference: dict[str, float] | None = None,
     keep: Keep = lambda *_: None,
-    traded: Sequence[str] = (),
-) -> Answer:
+    objectives: Sequence[str] = (),
+) -> StudyResult:
     """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError.
 
     What found the optimum is handed to `keep`, able to trade some outputs afterwards.
@@ -103,45 +110,51 @@ def answer(
     solution = None
     refuse_impossible(study, catalog, table)
     if study.task == "optimize":
-        solution = optimize(study, catalog, table, progress, reference, keep, traded)
-        model, inputs, switch, values = solution.model, solution.inputs, solution.switch, solution.values
-        status, drives = solution.status, solution.drives
+        solution = optimize(study, catalog, table, progress, reference, keep, objectives)
+        model, inputs, cycle, values = solution.model, solution.inputs, solution.cycle, solution.values
+        status, current_profiles = solution.status, solution.current_profiles
     else:
         progress("simulating one working cycle")
-        model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
-        switch = Simulator(model).run_to_show(inputs)
-        values = model.values(inputs, switch.values)
-        status, drives = "evaluated", {}
+        cycle = Simulator(model).run_to_show(inputs)
+        values = model.values(inputs, cycle.values)
+        status, current_profiles = "evaluated", {}
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
-    rig = Rig(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
-    open_values = intervals(rig, model, inputs, switch.values, drives)
-    seen = _seen(rig, exists=solution is None or status == "optimal")
+    resolved = ResolvedModule(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
+    open_values = intervals(resolved, model, inputs, cycle.values, current_profiles)
+    seen = _seen(resolved, exists=solution is None or status == "optimal")
     open_values |= {name: (low, high) for name, (_, low, high) in seen.items() if low < high}
     values = values | {name: nominal for name, (nominal, _, _) in seen.items()}
     design = Design(
-        tvimdesign=__version__, name=study.name, mode=study.mode, status=status,
-        choices=_choices(model, table), values={**numbers, **values},
-        intervals=open_values, study=study.model_dump(mode="json"),
-        drives={stage: drive.plain() for stage, drive in drives.items()}, solution=_plain(solution),
-    )  # fmt: skip
-    checks = tuple(_check(limit, values, table, open_values) for limit in limits_of(study, table, rig.values))
+        tvimdesign=__version__,
+        name=study.name,
+        mode=study.mode,
+        status=status,
+        choices=_choices(model, table),
+        values={**numbers, **values},
+        intervals=open_values,
+        study=study.model_dump(mode="json"),
+        current_profiles={phase: profile.plain() for phase, profile in current_profiles.items()},
+        solution=_plain(solution),
+    )
+    checks = tuple(_check(limit, values, table, open_values) for limit in constraints_of(study, table, resolved.values))
     happened = (limit for limit in advice_of(table) if _happened(limit.output, values, table))
     advice = (_check(limit, values, table, open_values) for limit in happened)
     warnings = tuple(check for check in advice if not check.kept)
-    return Answer(
-        design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, switch),
-        sweep=impedance_sweep(rig), solution=solution,
+    return StudyResult(
+        design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, cycle),
+        sweep=impedance_sweep(resolved), solution=solution,
         intervals=open_values,
-        constant_current=_at_constant_current(model, inputs, set(drives)),
+        constant_current=_at_constant_current(model, inputs, set(current_profiles)),
     )  # fmt: skip
 
 
-def _seen(rig: Rig, *, exists: bool) -> dict[str, tuple[float, float, float]]:
+def _seen(resolved: ResolvedModule, *, exists: bool) -> dict[str, tuple[float, float, float]]:
     """What a released link shows; nothing is known of where a solver ended that found no design."""
     if exists:
-        return contact_seen(rig)
-    names = [f"{row.name}@{point}" for row in rig.table.swings for point in rig.points]
+        return contact_seen(resolved)
+    names = [f"{row.name}@{point}" for row in resolved.table.first_oscillations for point in resolved.points]
     return dict.fromkeys(names, (np.nan, np.nan, np.nan))
 
 
@@ -152,34 +165,34 @@ _COMPARED = {
 }  # fmt: skip
 
 
-def _at_constant_current(model: Model, inputs: NDArray[np.float64], stages: set[str]) -> dict[str, float]:
-    if not stages:
+def _at_constant_current(model: DeviceFunctions, inputs: NDArray[np.float64], phases: set[str]) -> dict[str, float]:
+    if not phases:
         return {}
     changed = inputs.copy()
-    for stage in stages:
-        row = model.table.row(model.table.stage(stage).drive)
+    for phase in phases:
+        row = model.table.quantity(model.table.phase(phase).current_input)
         assert isinstance(row, Input)
         changed[model.index[row.name]] = row.default
     values = Simulator(model).run(changed).values
-    return {name: values[name] for stage in _COMPARED if stage in stages for name in _COMPARED[stage]}
+    return {name: values[name] for phase in _COMPARED if phase in phases for name in _COMPARED[phase]}
 
 
-def _histories(model: Model, inputs: NDArray[np.float64], switch: Switch) -> dict[str, Curves]:
-    return {stage: stage_history(model, inputs, line, stage) for stage, line in switch.trajectories.items()}
+def _histories(model: DeviceFunctions, inputs: NDArray[np.float64], cycle: Cycle) -> dict[str, Curves]:
+    return {phase: phase_history(model, inputs, line, phase) for phase, line in cycle.trajectories.items()}
 
 
-def _choices(model: Model, table: Table) -> dict[str, str]:
+def _choices(model: DeviceFunctions, table: Table) -> dict[str, str]:
     return {row.name: getattr(model.words[row.name], "name", model.words[row.name]) for row in table.choices}
 
 
 def _check(
-    limit: Limit, values: dict[str, float], table: Table, open_values: Mapping[str, tuple[float, float]]
-) -> Check:
+    limit: Constraint, values: dict[str, float], table: Table, open_values: Mapping[str, tuple[float, float]]
+) -> ConstraintCheck:
     value = values[limit.output]
     ends = open_values.get(limit.output, (value, value))
     residual = limit.residual(value)
-    tolerance = SWITCH_TOLERANCE if on_switch(table, limit.output) else ALGEBRAIC_TOLERANCE
-    return Check(
+    tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
+    return ConstraintCheck(
         text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
         scale=limit.scale, absolute=limit.absolute, kept=bool(residual <= tolerance),
         worst=-max(float(limit.residual(end)) for end in ends), origin=limit.origin,
@@ -187,8 +200,8 @@ def _check(
 
 
 def _happened(name: str, values: dict[str, float], table: Table) -> bool:
-    """Whether there is anything to say of an output: the peak of a stage that never began is none."""
-    peaks = (need for need in table.output(name).needs if isinstance(table.row(need), Path))
+    """Whether there is anything to say of an output: the peak of a phase that never began is none."""
+    peaks = (need for need in table.output(name).needs if isinstance(table.quantity(need), Path))
     return not np.isnan(values[name]) and all(np.isfinite(values[peak]) for peak in peaks)
 
 

@@ -10,16 +10,16 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, listed_records, listed_sizes, with_records
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_records, discrete_sizes, with_records
 from tvimdesign.solve.discrete.enumeration import account_for_all
-from tvimdesign.solve.discrete.relaxation import Tree, order
-from tvimdesign.solve.infeasibility.conflict_set import make_peace
-from tvimdesign.solve.infeasibility.infeasibility_proof import at_a_glance, refuse_contradiction
+from tvimdesign.solve.discrete.relaxation import Relaxation, order
+from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
+from tvimdesign.solve.infeasibility.infeasibility_proof import at_a_glance, refuse_infeasible
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
-from tvimdesign.solve.nlp.solution import Choosing, Quarrel, Solution, Standard, Work, YieldReached
+from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, SolverEffort, Standard, YieldReached
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.verify_optimum import account
+from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
 
 Keep = Callable[[Optimizer, list[Run]], None]
@@ -37,7 +37,7 @@ def optimize(
     progress: Progress = lambda _: None,
     reference: dict[str, float] | None = None,
     keep: Keep = lambda *_: None,
-    traded: Sequence[str] = (),
+    objectives: Sequence[str] = (),
 ) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
 
@@ -46,47 +46,55 @@ def optimize(
     that are `traded` can be weighed and bounded with it afterwards.
     """
     refuse_unreachable(study, catalog, table)
-    sizes, records = listed_sizes(study, table), listed_records(study, table)
+    sizes, records = discrete_sizes(study, table), discrete_records(study, table)
     _refuse_too_many(sizes, len(records))
-    trees = _trees(study, catalog, table, sizes, records, reference, progress, traded)
+    trees = _trees(study, catalog, table, sizes, records, reference, progress, objectives)
     if all(at_a_glance(t.optimizer.model, t.optimizer.study, table, t.optimizer.problem.limits) for t in trees):
-        refuse_contradiction(study, catalog, table)
-    free = [(tree, run) for tree in trees for run in tree.starts()]
+        refuse_infeasible(study, catalog, table)
+    free = [(relaxation, run) for relaxation in trees for run in relaxation.starts()]
     if not any(run.start.converged for _, run in free):
-        refuse_contradiction(study, catalog, table)
+        refuse_infeasible(study, catalog, table)
     choosing: Choosing | None = None
     if sizes.names:
         choosing, found = _choose(trees, len(records), study.solver)
     else:
         found = free
         choosing = _chosen(free, len(records), study.solver) if len(records) > 1 else None
-    tree, run = min(found, key=lambda one: order(one[1]))
+    relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if sizes.names else [])]
     if study.robust:
-        run, begun = _robust(tree, run), run
+        run, begun = _robust(relaxation, run), run
         recorded = [(one[0], run) if one[1] is begun else one for one in recorded]
-    run, quarrel = _reconciled(tree, run, [one for other, one in recorded if other is tree], progress)
+    run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
     if run.start.converged and all(run is not one for _, one in recorded):
-        recorded.append((tree, run))
+        recorded.append((relaxation, run))
     for number, (_, one) in enumerate(recorded):
         one.start = replace(one.start, number=number)
-    keep(tree.optimizer, [one for other, one in recorded if other is tree])
+    keep(relaxation.optimizer, [one for other, one in recorded if other is relaxation])
     starts = tuple(one.start for _, one in recorded)
-    seconds = {key: sum(tree.optimizer.seconds[key] for tree in trees) for key in trees[0].optimizer.seconds}
-    passed_over = sum((Counter(tree.optimizer.beginnings.passed_over) for tree in trees), Counter[str]())
+    seconds = {
+        key: sum(relaxation.optimizer.seconds[key] for relaxation in trees) for key in trees[0].optimizer.seconds
+    }
+    passed_over = sum((Counter(relaxation.optimizer.multistart.passed_over) for relaxation in trees), Counter[str]())
     solution = replace(
-        account(tree.optimizer, run, starts, seconds), constant=tree.stepping_stone.found(), choosing=choosing,
-        quarrel=quarrel, passed_over=dict(passed_over), yield_reached=_yield_reached(tree.optimizer, run),
-    )  # fmt: skip
-    return replace(solution, status="infeasible: this design breaks its limits least") if quarrel else solution
+        verify_optimum(relaxation.optimizer, run, starts, seconds),
+        constant=relaxation.constant_current_optimum.found(),
+        choosing=choosing,
+        conflict_set=conflict_set,
+        passed_over=dict(passed_over),
+        yield_reached=_yield_reached(relaxation.optimizer, run),
+    )
+    return replace(solution, status="infeasible: this design breaks its limits least") if conflict_set else solution
 
 
-def _robust(tree: Tree, run: Run) -> Run:
+def _robust(relaxation: Relaxation, run: Run) -> Run:
     """The best run, sought again so that limits on times, too, are kept by modules that spread; told as its start."""
     from tvimdesign.solve.uncertainty.robust import settle
 
-    sizes = {name: (float(size), float(size)) for name, size in run.start.choices.items() if name in tree.sizes.names}
-    found = settle(tree.optimizer, run, sizes)
+    sizes = {
+        name: (float(size), float(size)) for name, size in run.start.choices.items() if name in relaxation.sizes.names
+    }
+    found = settle(relaxation.optimizer, run, sizes)
     begun = run.start
     found.start = replace(found.start, choices=begun.choices, begin=begun.begin)
     return found
@@ -103,16 +111,20 @@ def _yield_reached(optimizer: Optimizer, run: Run) -> YieldReached | None:
     return YieldReached(drawn.residuals.shape[1], drawn.shares, drawn.together.share)
 
 
-def _reconciled(tree: Tree, best: Run, tried: list[Run], progress: Progress) -> tuple[Run, Quarrel | None]:
-    """The best run; where none converged, one that does after all, or the one that breaks least with the quarrel."""
+def _reconciled(
+    relaxation: Relaxation, best: Run, tried: list[Run], progress: Progress
+) -> tuple[Run, ConflictSet | None]:
+    """The best run; where none converged, one that does after all, or the one that breaks least with the conflict."""
     if best.start.converged:
         return best, None
-    peace = make_peace(tree.optimizer, tried, progress)
+    conflict_search = find_conflicts(relaxation.optimizer, tried, progress)
     listed = any(isinstance(value, float) for value in best.start.choices.values())
-    if peace is None or (peace.quarrel is None and listed):  # between the listed sizes there is one, at none of them
+    if conflict_search is None or (
+        conflict_search.conflict_set is None and listed
+    ):  # between the listed sizes there is one, at none of them
         return best, None
-    peace.run.start = replace(peace.run.start, choices=best.start.choices)
-    return peace.run, peace.quarrel
+    conflict_search.run.start = replace(conflict_search.run.start, choices=best.start.choices)
+    return conflict_search.run, conflict_search.conflict_set
 
 
 def _refuse_too_many(sizes: Sizes, records: int) -> None:
@@ -130,31 +142,33 @@ def _refuse_too_many(sizes: Sizes, records: int) -> None:
 
 def _trees(
     study: Study, catalog: Catalog, table: Table, sizes: Sizes, records: Sequence[Mapping[str, str]],
-    reference: dict[str, float] | None, progress: Progress, traded: Sequence[str],
-) -> list[Tree]:  # fmt: skip
+    reference: dict[str, float] | None, progress: Progress, objectives: Sequence[str],
+) -> list[Relaxation]:  # fmt: skip
     """The problem of each combination of records, built once for all whose numbers alone differ."""
-    trees: list[Tree] = []
+    trees: list[Relaxation] = []
     refused: list[InfeasibleError] = []
     for choice in records:
         asked = with_records(study, choice)
         try:
-            optimizer = next(filter(None, (tree.optimizer.with_records(asked) for tree in trees)), None)
-            optimizer = optimizer or Optimizer(asked, catalog, table, reference, progress, traded=traded)
+            optimizer = next(filter(None, (relaxation.optimizer.with_records(asked) for relaxation in trees)), None)
+            optimizer = optimizer or Optimizer(asked, catalog, table, reference, progress, objectives=objectives)
         except InfeasibleError as error:  # a limit that nothing free can mend, with these records
             refused.append(error)
             continue
         reference = optimizer.reference
-        trees.append(Tree(len(trees), optimizer, dict(choice), sizes, Work()))
+        trees.append(Relaxation(len(trees), optimizer, dict(choice), sizes, SolverEffort()))
     if not trees:
         raise refused[0]
     return trees
 
 
-def _choose(trees: Sequence[Tree], records: int, asked: SolverOptions) -> tuple[Choosing, list[tuple[Tree, Run]]]:
+def _choose(
+    trees: Sequence[Relaxation], records: int, asked: SolverOptions
+) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
     """The best combinations by branch and bound, and where that is asked for by solving all."""
     search = BranchAndBound(trees, asked.alternatives)
     search.run()
-    found, proof = dict(search.found), Work()
+    found, proof = dict(search.found), SolverEffort()
     pruned, improved = search.pruned, 0.0
     if asked.prove:
         found, pruned = _proven(trees, search.found, asked.alternatives, proof)
@@ -162,43 +176,43 @@ def _choose(trees: Sequence[Tree], records: int, asked: SolverOptions) -> tuple[
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
     shown = ranked[: asked.alternatives]
     combinations = trees[0].sizes.count * records
-    optima = [(tree, tree.optima[0]) for tree in trees if tree.optima]
+    optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
     between = min(optima, key=lambda one: order(one[1]), default=None)
     choosing = Choosing(
         combinations=combinations, solved=len(found), pruned=pruned, without_design=combinations - len(found) - pruned,
         best=tuple(_standard(trees[key[0]], found[key]) for key in shown),
         between=_standard(*between) if between else None,
         proven=asked.prove, improved=improved, inside=search.inside,
-        work=Work.total(tree.work for tree in trees), proof=proof,
+        work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
-    told = [(trees[key[0]], found[key]) for key in ranked if key in search.found or key in shown]
-    return choosing, told or [_closest(trees[0])]
+    reported = [(trees[key[0]], found[key]) for key in ranked if key in search.found or key in shown]
+    return choosing, reported or [_closest(trees[0])]
 
 
-def _chosen(runs: Sequence[tuple[Tree, Run]], records: int, asked: SolverOptions) -> Choosing:
+def _chosen(runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverOptions) -> Choosing:
     """The account where records alone are listed: each has been searched from every start."""
-    best: dict[int, tuple[Tree, Run]] = {}
-    for tree, run in sorted(runs, key=lambda one: order(one[1])):
+    best: dict[int, tuple[Relaxation, Run]] = {}
+    for relaxation, run in sorted(runs, key=lambda one: order(one[1])):
         if run.start.converged:
-            best.setdefault(tree.place, (tree, run))
+            best.setdefault(relaxation.place, (relaxation, run))
     return Choosing(
         combinations=records, solved=len(best), pruned=0, without_design=records - len(best),
         best=tuple(_standard(*one) for one in list(best.values())[: asked.alternatives]), between=None,
-        proven=True, improved=0.0, work=Work(), proof=Work(), inside=0.0,
+        proven=True, improved=0.0, work=SolverEffort(), proof=SolverEffort(), inside=0.0,
     )  # fmt: skip
 
 
-def _proven(trees: Sequence[Tree], found: _Found, keep: int, work: Work) -> tuple[_Found, int]:
+def _proven(trees: Sequence[Relaxation], found: _Found, keep: int, work: SolverEffort) -> tuple[_Found, int]:
     """All combinations accounted for: designs, those that were found included, and how many are ruled out by bounds."""
     every, bounded = dict(found), 0
-    for tree in trees:
-        own, tree.work = tree.work, work
-        known = {box: run for (place, box), run in every.items() if place == tree.place}
-        accounted = account_for_all(tree, keep, known)
-        every |= {(tree.place, box): run for box, run in accounted.found.items()}
+    for relaxation in trees:
+        own, relaxation.work = relaxation.work, work
+        known = {box: run for (place, box), run in every.items() if place == relaxation.place}
+        accounted = account_for_all(relaxation, keep, known)
+        every |= {(relaxation.place, box): run for box, run in accounted.found.items()}
         bounded += accounted.bounded
         work.screened += accounted.broken
-        tree.work = own
+        relaxation.work = own
     return every, bounded
 
 
@@ -210,19 +224,19 @@ def _improvement(found: _Found, every: _Found) -> float:
     return max(best - least, 0.0) / abs(best)
 
 
-def _closest(tree: Tree) -> tuple[Tree, Run]:
+def _closest(relaxation: Relaxation) -> tuple[Relaxation, Run]:
     """Where the solver ended at the sizes nearest to the best design between them, as no combination has a design."""
-    whole = tree.sizes.whole
-    optimum = tree.optima[0] if tree.optima else None
-    values = tree.values(optimum) if optimum else tree.start_values
-    return tree, tree.closest(tree.sizes.nearest(values, whole))
+    whole = relaxation.sizes.whole
+    optimum = relaxation.optima[0] if relaxation.optima else None
+    values = relaxation.values(optimum) if optimum else relaxation.start_values
+    return relaxation, relaxation.closest(relaxation.sizes.nearest(values, whole))
 
 
-def _standard(tree: Tree, run: Run) -> Standard:
+def _standard(relaxation: Relaxation, run: Run) -> Standard:
     """A design simulated, for what is told of it."""
-    optimizer = tree.optimizer
-    switch = optimizer.simulator.run(run.inputs, run.drives)
-    values = optimizer.model.values(run.inputs, switch.values)
-    numbers: dict[str, str | float] = dict(tree.values(run))
-    told = {name: values[name] for name in optimizer.study.minimize}
-    return Standard({**tree.records, **numbers}, run.start.objective, told)
+    optimizer = relaxation.optimizer
+    cycle = optimizer.simulator.run(run.inputs, run.current_profiles)
+    values = optimizer.model.values(run.inputs, cycle.values)
+    numbers: dict[str, str | float] = dict(relaxation.values(run))
+    reported = {name: values[name] for name in optimizer.study.minimize}
+    return Standard({**relaxation.records, **numbers}, run.start.objective, reported)

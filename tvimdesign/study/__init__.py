@@ -16,11 +16,11 @@ from tvimdesign.study.study import (
     WriteOptions,
 )
 from tvimdesign.study.template import template_text
-from tvimdesign.study.text.mistakes import Problem, StudyError
+from tvimdesign.study.text.mistakes import Mistake, StudyError
 
 __all__ = [
+    "Mistake",
     "Options",
-    "Problem",
     "ProfileOptions",
     "Range",
     "Requirement",

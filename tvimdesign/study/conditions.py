@@ -19,7 +19,7 @@ from tvimdesign.catalog import Catalog, Record
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.resolve import given
 from tvimdesign.study.study import Range, Requirement, Study, Vary
-from tvimdesign.study.text.mistakes import Problem, StudyError
+from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.places import Places
 from tvimdesign.study.text.values import ROUNDING
 
@@ -70,21 +70,21 @@ def refuse_unequal(entrants: Sequence[Entrant]) -> None:
         raise StudyError(problems)
 
 
-def _problem(of: Entrant, path: str, message: str, expected: str, hint: str = "") -> Problem:
+def _problem(of: Entrant, path: str, message: str, expected: str, hint: str = "") -> Mistake:
     at = of.places.at(path)
-    return Problem(of.places.file, at.line, at.column, path, message, expected, hint)
+    return Mistake(of.places.file, at.line, at.column, path, message, expected, hint)
 
 
-def _given_twice(entrants: Sequence[Entrant]) -> Iterator[Problem]:
+def _given_twice(entrants: Sequence[Entrant]) -> Iterator[Mistake]:
     seen: set[Path] = set()
     for entrant in entrants:
         real = entrant.path.resolve()
         if real in seen:
-            yield Problem(entrant.places.file, 0, 0, "", "given twice", "different studies")
+            yield Mistake(entrant.places.file, 0, 0, "", "given twice", "different studies")
         seen.add(real)
 
 
-def _evaluated_only(entrants: Sequence[Entrant]) -> Iterator[Problem]:
+def _evaluated_only(entrants: Sequence[Entrant]) -> Iterator[Mistake]:
     """Of studies some of which are optimised: those that are not."""
     optimised = [entrant for entrant in entrants if entrant.study.vary]
     for entrant in entrants:
@@ -96,7 +96,7 @@ def _evaluated_only(entrants: Sequence[Entrant]) -> Iterator[Problem]:
             )  # fmt: skip
 
 
-def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Problem]:
+def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Mistake]:
     theirs, mine = ({condition.name: condition for condition in _conditions(one)} for one in (first, other))
     differing = {name for name in theirs.keys() & mine.keys() if not _same(theirs[name].value, mine[name].value)}
     for name in (name for name in mine if name in differing):
@@ -117,7 +117,7 @@ def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Problem]:
 def _conditions(of: Entrant) -> Iterator[_Condition]:
     """Everything that must be the same; requirements apart."""
     study = of.study
-    for row in of.table.rows:
+    for row in of.table.quantities:
         if isinstance(row, Input | Choice) and _is_condition(row):
             vary, value = study.vary.get(row.name), of.values[row.name]
             path = f"vary.{row.name}" if vary else f"module.{row.name}"
@@ -126,8 +126,8 @@ def _conditions(of: Entrant) -> Iterator[_Condition]:
         for name, value in values.items():
             words = format_quantity(value, of.table.unit(name))
             yield _Condition(f"{point}.{name}", f"operating_points.{point}.{name}", value, words)
-    for stage, pieces in study.profile.model_dump().items():
-        yield _Condition(f"profile of {stage}", f"profile.{stage}", pieces, f"{pieces} pieces")
+    for phase, pieces in study.profile.model_dump().items():
+        yield _Condition(f"profile of {phase}", f"profile.{phase}", pieces, f"{pieces} pieces")
     for name in ("cells", "elements"):
         value = getattr(study.solver, name)
         yield _Condition(name, f"solver.{name}", value, str(value))
@@ -179,12 +179,12 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def _unequal_requirements(entrants: Sequence[Entrant], other: Entrant) -> Iterator[Problem]:
+def _unequal_requirements(entrants: Sequence[Entrant], other: Entrant) -> Iterator[Mistake]:
     """Limits of `other` against those of the first study whose mode has the output."""
-    told: set[str] = set()
+    reported: set[str] = set()
     for entrant in entrants[: entrants.index(other)]:
-        common = (entrant.table.by_name.keys() & other.table.by_name.keys()) - told
-        told |= common
+        common = (entrant.table.by_name.keys() & other.table.by_name.keys()) - reported
+        reported |= common
         theirs, mine = (_limits_on(common, one) for one in (entrant, other))
         for key in dict.fromkeys([*mine, *theirs]):
             if key not in mine:

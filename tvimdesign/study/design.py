@@ -6,12 +6,13 @@ import math
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.device import table_for
 from tvimdesign.study.text.named_file import ordinary_bytes, printable
+from tvimdesign.study.text.renamed import renamed_plain
 
 MAX_BYTES = 10_000_000
 
@@ -35,10 +36,17 @@ class Design(BaseModel):
     """Least and largest value of what a point in the melting range leaves open; `values` has it as heated, nominal."""
     study: dict[str, Any]
     """The study it answers, resolved."""
-    drives: dict[str, Any] = Field(default_factory=dict)
-    """Currents that are not constant, by stage: `duration` [s] and `currents` [A] at evenly spaced moments."""
+    current_profiles: dict[str, Any] = Field(default_factory=dict)
+    """Currents that are not constant, by phase: `duration` [s] and `currents` [A] at evenly spaced moments."""
     solution: dict[str, Any] = Field(default_factory=dict)
     """How it was found: starts, iterations, constraints with multipliers. Empty for an evaluation."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_new_names(cls, data: Any) -> Any:
+        """What an earlier release wrote, by the names of today."""
+        kept = {"name": data["name"]} if isinstance(data, dict) and "name" in data else {}
+        return {**renamed_plain(data), **kept} if isinstance(data, dict) else data
 
     def value(self, name: str) -> float:
         """SI value of a row; raises InputError for a name the design does not have."""

@@ -18,8 +18,9 @@ from tvimdesign.study.sections.settings import read_module, read_points
 from tvimdesign.study.sections.tolerances import read_robust, read_tolerances
 from tvimdesign.study.sections.vary import check_against_module, read_vary, with_start
 from tvimdesign.study.study import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions
-from tvimdesign.study.text.mistakes import Problems, one_of, quoted, step
+from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted, step
 from tvimdesign.study.text.named_file import printable
+from tvimdesign.study.text.renamed import renamed
 from tvimdesign.study.text.source import check_characters, read_text
 from tvimdesign.study.text.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
 from tvimdesign.study.text.yaml_text import Mapping, Node, Text, compose
@@ -55,7 +56,7 @@ def read_study(path: Path, table: TableOf = table_for, catalog: CatalogOf = Cata
     `table` gives the table of a mode and `catalog` the catalogue with a folder of the user's records. Raises StudyError
     with every problem found, and InputError where there is no such file or it cannot be opened.
     """
-    problems = Problems(printable(path))
+    problems = Mistakes(printable(path))
     source = read_text(path, problems)
     return _Reader(problems, path.stem, path.parent, table, catalog).read(source)
 
@@ -64,7 +65,7 @@ def read_study_text(
     source: str, name: str = "study", folder: Path = Path(), table: TableOf = table_for, catalog: CatalogOf = Catalog
 ) -> Study:
     """Read a study from its text; `name` stands for the file in messages, `folder` is where its catalogue is."""
-    problems = Problems(name)
+    problems = Mistakes(name)
     return _Reader(problems, name, folder, table, catalog).read(check_characters(source, problems))
 
 
@@ -72,7 +73,7 @@ def read_study_text(
 class _Reader:
     """Reads one study; each method takes one section."""
 
-    problems: Problems
+    problems: Mistakes
     name: str
     folder: Path
     table: TableOf
@@ -86,6 +87,8 @@ class _Reader:
         if not isinstance(self.root, Mapping):
             misfit(self.problems, self.root, "", "a study: lines such as 'mode: shear'")
             self.problems.stop()
+        assert isinstance(self.root, Mapping)  # else the problems have stopped it
+        self.root = renamed(self.root, self.problems.file)
         found = entries(self.problems, self.root, "", "")
         self.sections = unknown_keys(self.problems, found, "", "section", list(SECTIONS))
         plain = self._plain()
@@ -153,16 +156,16 @@ class _Reader:
     def _profile_has_a_range(self, table: Table, vary: dict[str, Vary]) -> None:
         """A current may only follow a profile between the ends of a range."""
         section = self.sections.get("profile")
-        for stage, (_, node) in entries(Problems(self.name), section, "profile", "").items():
-            if stage not in ProfileOptions.model_fields:
+        for phase, (_, node) in entries(Mistakes(self.name), section, "profile", "").items():
+            if phase not in ProfileOptions.model_fields:
                 continue  # told already
-            row = table.stage(stage).drive
+            row = table.phase(phase).current_input
             asked = self.sections.get("vary")
             if row not in vary and isinstance(asked, Mapping) and row in asked.entries:
                 continue  # what is wrong with that range has been told
             if not isinstance(vary.get(row), Range) and not (isinstance(node, Text) and node.value.strip() == "0"):
-                found = f"the current of this stage has no range: `vary.{row}` is missing"
-                self.problems.add(node, step("profile", stage), found, f"{row}: [0.1 A, 3 A] under `vary`, for one")
+                found = f"the current of this phase has no range: `vary.{row}` is missing"
+                self.problems.add(node, step("profile", phase), found, f"{row}: [0.1 A, 3 A] under `vary`, for one")
 
     def _format(self) -> None:
         node = self.sections.get("tvimdesign")
@@ -217,7 +220,7 @@ class _Reader:
         fields = model.model_fields
         found = entries(self.problems, self.sections.get(key), key, f"settings: {', '.join(fields)}")
         known = unknown_keys(self.problems, found, key, "setting", list(fields))
-        readers: dict[Any, Callable[[Problems, Node, str], Any]] = {int: whole, float: number, bool: flag}
+        readers: dict[Any, Callable[[Mistakes, Node, str], Any]] = {int: whole, float: number, bool: flag}
         read = {
             name: readers[fields[name].annotation](self.problems, node, step(key, name)) for name, node in known.items()
         }

@@ -44,7 +44,7 @@ def _chosen(row: Choice, study: Study, catalog: Catalog, chosen: dict[str, Any])
         word = chosen[row.record[0]].word(row.record[1]) if row.record else row.default
     if isinstance(allowed, Options) and word not in allowed.values:
         word = allowed.values[0]
-    return catalog.record(row.shelf, str(word)) if row.shelf and word not in row.options else word
+    return catalog.record(row.category, str(word)) if row.category and word not in row.options else word
 
 
 def _started(row: Input, study: Study, chosen: dict[str, Any]) -> float:

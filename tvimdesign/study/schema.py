@@ -9,8 +9,8 @@ from typing import Any, TypeAlias
 
 from pydantic import BaseModel
 
-from tvimdesign.device import MODES, Choice, Input, Output, Swing, Table, table_for
-from tvimdesign.study.sections.sizes import SIZES_SHELF
+from tvimdesign.device import MODES, Choice, FirstOscillation, Input, Output, Table, table_for
+from tvimdesign.study.sections.sizes import SIZES_CATEGORY
 from tvimdesign.study.sections.tolerances import STANDARD, tolerance_rows
 from tvimdesign.study.study import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
 
@@ -103,7 +103,9 @@ def _section(description: str, properties: _Schema, patterns: _Schema | None = N
 
 
 def _settable(table: Table) -> list[Input | Choice]:
-    return [row for row in table.rows if isinstance(row, Choice) or (isinstance(row, Input) and not row.per_point)]
+    return [
+        row for row in table.quantities if isinstance(row, Choice) or (isinstance(row, Input) and not row.per_point)
+    ]
 
 
 def _varies(row: Input | Choice) -> bool:
@@ -120,13 +122,13 @@ def _about(row: Input | Choice | Output) -> str:
 
 
 def _word(row: Choice) -> _Schema:
-    return {"type": "string"} if row.shelf else {"enum": list(row.options)}
+    return {"type": "string"} if row.category else {"enum": list(row.options)}
 
 
 def _set(row: Input | Choice) -> _Schema:
     value = _value(row) if isinstance(row, Input) else _word(row)
-    shelf = f" (a record of the shelf {row.shelf})" if isinstance(row, Choice) and row.shelf else ""
-    return {"description": _about(row) + shelf, "allOf": [value]}
+    category = f" (a record of the category {row.category})" if isinstance(row, Choice) and row.category else ""
+    return {"description": _about(row) + category, "allOf": [value]}
 
 
 def _shape(properties: _Schema, required: list[str]) -> _Schema:
@@ -137,7 +139,10 @@ def _vary(row: Input | Choice) -> _Schema:
     value = _value(row) if isinstance(row, Input) else _word(row)
     forms = [_shape({"choose": {"type": "array", "minItems": 1, "items": value}}, ["choose"])]
     if isinstance(row, Input):
-        record = {"type": "string", "description": f"a record of the shelf {SIZES_SHELF}, such as music_wire_gauge"}
+        record = {
+            "type": "string",
+            "description": f"a record of the category {SIZES_CATEGORY}, such as music_wire_gauge",
+        }
         forms.append(_shape({"catalog": record, "from": value, "to": value}, ["catalog"]))
     if isinstance(row, Input):
         spaced = {"from": value, "to": value, "step": value}
@@ -149,7 +154,7 @@ def _vary(row: Input | Choice) -> _Schema:
 
 
 def _by_output(table: Table, schema: Any) -> _Schema:
-    named = [row for row in table.outputs if not (row.instant or row.hidden or isinstance(row, Swing))]
+    named = [row for row in table.outputs if not (row.instant or row.hidden or isinstance(row, FirstOscillation))]
     return {f"^{row.name}{'@' + _POINT if row.per_point else ''}$": schema(row) for row in named}
 
 

@@ -92,14 +92,14 @@ class SolverOptions(_Part):
 
 
 class ProfileOptions(_Part):
-    """In how many straight pieces the current of a stage may change with time; 0 keeps it constant."""
+    """In how many straight pieces the current of a phase may change with time; 0 keeps it constant."""
 
     softening: int = Field(0, ge=0, le=64, description="straight pieces of the heating current over the switch")
     stiffening: int = Field(0, ge=0, le=64, description="straight pieces of the cooling current while it stiffens")
 
     def pieces(self) -> dict[str, int]:
-        """Count of pieces by stage, of the stages whose current is free."""
-        return {stage: count for stage, count in self.model_dump().items() if count}
+        """Count of pieces by phase, of the phases whose current is free."""
+        return {phase: count for phase, count in self.model_dump().items() if count}
 
 
 class FrontOptions(_Part):

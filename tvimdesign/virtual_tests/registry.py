@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from tvimdesign.base.errors import InputError
 
 if TYPE_CHECKING:  # the command line lists the tests, and must not load numpy for that
-    from tvimdesign.simulation.resolved_module import Rig
+    from tvimdesign.simulation.resolved_module import ResolvedModule
     from tvimdesign.virtual_tests.trial import Trial
 
 TESTS: dict[str, str] = {
@@ -26,12 +26,12 @@ TESTS: dict[str, str] = {
 """`module:function` by name; the function takes a `Rig` and returns a `Trial`."""
 
 
-def find_test(name: str) -> Callable[[Rig], Trial]:
+def find_test(name: str) -> Callable[[ResolvedModule], Trial]:
     """The function of a test; raises InputError with the nearest name where there is none."""
     if name not in TESTS:
         close = get_close_matches(name.lower(), TESTS, n=1)
         hint = f"did you mean {close[0]}? " if close else ""
         raise InputError(f"no test is named {name[:60]!r}; {hint}there are: {', '.join(TESTS)}")
     module, _, function = TESTS[name].partition(":")
-    found: Callable[[Rig], Trial] = getattr(import_module(module), function)
+    found: Callable[[ResolvedModule], Trial] = getattr(import_module(module), function)
     return found

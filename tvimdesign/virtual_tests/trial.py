@@ -24,7 +24,7 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Sheet:
+class CurveTable:
     """Columns of one length; becomes one CSV file."""
 
     name: str
@@ -36,7 +36,7 @@ class Sheet:
 
 
 @dataclass(frozen=True)
-class Line:
+class PlottedLine:
     """One line of a panel: two columns of a sheet. `band` names two columns between which the panel is shaded.
 
     Lines whose labels are the same up to a comma have one colour.
@@ -57,7 +57,7 @@ class Panel:
     title: str
     x_label: str
     y_label: str
-    lines: tuple[Line, ...]
+    lines: tuple[PlottedLine, ...]
     log_x: bool = False
     log_y: bool = False
 
@@ -80,7 +80,7 @@ class Trial:
 
     test: str
     title: str
-    sheets: tuple[Sheet, ...]
+    sheets: tuple[CurveTable, ...]
     panels: tuple[Panel, ...]
     findings: tuple[Finding, ...]
     notes: tuple[str, ...] = ()

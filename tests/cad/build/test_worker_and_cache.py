@@ -14,11 +14,11 @@ from cad_designs import design_of
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
-from tvimdesign.cad.build.build_plan import works
-from tvimdesign.cad.build.cache import Store, user_folder
-from tvimdesign.cad.build.read_tracking import Subject
-from tvimdesign.cad.build.worker import Done, Job, Work, Workshop
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.build.build_plan import build_plan
+from tvimdesign.cad.build.cache import Cache, user_folder
+from tvimdesign.cad.build.read_tracking import TrackedDesign
+from tvimdesign.cad.build.worker import Done, Job, Work, WorkerPool
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.study.design import Design, write_design
 
@@ -26,29 +26,29 @@ Run = Callable[..., Done]
 TITLES = {"structure_material": "PETG"}
 
 
-def plate(job: Job) -> list[Check]:
+def plate(job: Job) -> list[SolidCheck]:
     (job.folder / "out/plate.txt").write_text(f"{job.dims.link_thickness:.3f}")
     (job.folder / "kept/thickness").write_text(f"{round(job.dims.link_thickness)}")
-    return [Check("plate", 0.0, 1.0, True, "plate")]
+    return [SolidCheck("plate", 0.0, 1.0, True, "plate")]
 
 
-def stack(job: Job) -> list[Check]:
+def stack(job: Job) -> list[SolidCheck]:
     (job.folder / "out/stack.txt").write_text((job.needs["plate"] / "thickness").read_text() + job.design.name)
     return []
 
 
-def never_ends(job: Job) -> list[Check]:
+def never_ends(job: Job) -> list[SolidCheck]:
     job.progress("cutting the bore")
     while True:
         time.sleep(0.01)
 
 
-def crashes(_: Job) -> list[Check]:
+def crashes(_: Job) -> list[SolidCheck]:
     os.kill(os.getpid(), signal.SIGKILL)
     return []
 
 
-def refuses(_: Job) -> list[Check]:
+def refuses(_: Job) -> list[SolidCheck]:
     raise GeometryError("bore is -1 mm; it must be above zero")
 
 
@@ -59,8 +59,8 @@ PLATE, STACK = Work(name="plate", do=plate), Work(name="stack", do=stack, needs=
 def run(tmp_path: Path) -> Run:
     def do(*wanted: Work, design: Design | None = None, timeout_s: float = 20.0, **changed: float) -> Done:
         base = design or design_of("toy", {})
-        subject = Subject(base.model_copy(update={"values": base.values | changed}), TITLES)
-        return Workshop(subject, Store(tmp_path / "kept"), lambda _: None, timeout_s, hands=2).do(wanted)
+        subject = TrackedDesign(base.model_copy(update={"values": base.values | changed}), TITLES)
+        return WorkerPool(subject, Cache(tmp_path / "kept"), lambda _: None, timeout_s, hands=2).do(wanted)
 
     return do
 
@@ -144,7 +144,7 @@ def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, mon
 
 
 def test_a_thicker_layer_leaves_the_pads_as_they_were(run: Run) -> None:
-    wanted = [work for work in works(dimensions(design_of("toy", {}))) if work.name in {"pcl_arc", "peltier_pad"}]
+    wanted = [work for work in build_plan(dimensions(design_of("toy", {}))) if work.name in {"pcl_arc", "peltier_pad"}]
     # Without keys, which are cut: the kernel's threads, which other tests may have started, do not survive a fork.
     run(*wanted, key_count=0.0)
     again = run(*wanted, key_count=0.0, pcl_thickness=1.1e-3)
@@ -206,6 +206,6 @@ def test_a_second_making_takes_over_everything_and_gives_the_same_files(
     made = {name: (tmp_path / "cad" / name).read_bytes() for name in first.files}
     shutil.rmtree(tmp_path / "cad")
     second = make_cad(tmp_path / "design.json", tmp_path / "cad")
-    assert len(second.reused) == len(works(dimensions(design_of("paper", {}))))
+    assert len(second.reused) == len(build_plan(dimensions(design_of("paper", {}))))
     assert second.checks == first.checks
     assert {name: (tmp_path / "cad" / name).read_bytes() for name in second.files} == made

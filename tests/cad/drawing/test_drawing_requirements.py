@@ -14,11 +14,11 @@ from test_drawings import no_text_lies_on_another, sheet_of, texts
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.drawing.drawing_requirements import workmanship
+from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.iso_286 import limit_deviations, standard_tolerance
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import upright_cylinders
-from tvimdesign.cad.geometry.production import MAKING
+from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.study.design import Design
 
 MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_ratio": 40.0}
@@ -67,7 +67,7 @@ def test_what_is_milled_to_the_file_is_within_every_fit(
 ) -> None:
     design = milled(case, mode)
     for kind in kinds:
-        seats = workmanship(kind, dimensions(design), design.choices).seats
+        seats = drawing_requirements(kind, dimensions(design), design.choices).seats
         assert seats[0].letter == "B"
         for seat in seats:
             assert seat.fit, f"{kind}: {seat.about} is drawn outside its class"
@@ -76,7 +76,7 @@ def test_what_is_milled_to_the_file_is_within_every_fit(
 
 def test_a_seat_that_is_drawn_outside_its_class_is_told_as_drawn() -> None:
     design = milled(BEARING_BLOCKS | {"seat_clearance": 0.05e-3}, "compression")
-    seat = workmanship("housing", dimensions(design), design.choices).seats[0]
+    seat = drawing_requirements("housing", dimensions(design), design.choices).seats[0]
     assert (seat.fit, seat.size) == ("", seat.drawn)
     assert seat.drawn == pytest.approx(24.1)  # 6802 has 24 mm, and the study a gap of 0.05 mm to each side
 
@@ -84,7 +84,7 @@ def test_a_seat_that_is_drawn_outside_its_class_is_told_as_drawn() -> None:
 def test_a_printed_module_has_no_fits_and_its_screws_cut_their_threads() -> None:
     mode, overrides = CASES["paper"]
     design = design_of("paper", overrides, mode)
-    asked = workmanship("rotor", dimensions(design), design.choices)
+    asked = drawing_requirements("rotor", dimensions(design), design.choices)
     assert not asked.seats
     assert [(one.screw, one.made) for one in asked.threads] == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
 
@@ -111,14 +111,14 @@ def test_a_hole_of_a_thread_s_diameter_and_another_depth_has_no_thread() -> None
     mode, overrides = CASES["wrist"]
     design = design_of("wrist", overrides, mode)  # its keys' pockets are 2.5 mm wide, as the hole for the retainer's M3
     found = upright_cylinders(drawn_part(dimensions(design), "rotor"))
-    asked = workmanship("rotor", dimensions(design), design.choices)
+    asked = drawing_requirements("rotor", dimensions(design), design.choices)
     wide = [one for one in found if one.concave and one.radius == pytest.approx(1.25)]
     assert {one.is_central for one in wide} == {True, False}
     assert all((asked.thread(one) is not None) == one.is_central for one in wide)
 
 
 def test_every_seat_and_thread_is_of_a_part_that_is_drawn() -> None:
-    told = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
-    words = [one["about"] for part in ("seats", "threads") for group in told[part].values() for one in group]
+    reported = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
+    words = [one["about"] for part in ("seats", "threads") for group in reported[part].values() for one in group]
     assert max(map(len, words)) <= 21  # what the table has room for
-    assert {*told["seats"], *told["threads"]} <= {kind for kind, making in MAKING.items() if making.drawn}
+    assert {*reported["seats"], *reported["threads"]} <= {kind for kind, making in PRODUCTION.items() if making.drawn}

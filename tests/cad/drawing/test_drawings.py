@@ -23,13 +23,13 @@ from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import Item, bill, bill_csv
 from tvimdesign.cad.assembly.product_data import product
-from tvimdesign.cad.drawing.drawing_requirements import workmanship
-from tvimdesign.cad.drawing.drawing_sheet import Sheet
+from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
+from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.number_text import around
 from tvimdesign.cad.drawing.placed_view import apart
 from tvimdesign.cad.drawing.projection import from_above, section
-from tvimdesign.cad.drawing.spring_sheet import Line, spring_csv, spring_lines, spring_sheet
+from tvimdesign.cad.drawing.spring_sheet import SpringLine, spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import KINDS
 from tvimdesign.study.design import Design
@@ -39,8 +39,8 @@ TITLES = {"spring_material": "Music wire, ASTM A228", "structure_material": "PET
 Solids = dict[str, cq.Solid]
 
 
-def sheet_of(design: Design, kind: str, solid: cq.Solid) -> Sheet:
-    asked = workmanship(kind, dimensions(design), design.choices)
+def sheet_of(design: Design, kind: str, solid: cq.Solid) -> DrawingSheet:
+    asked = drawing_requirements(kind, dimensions(design), design.choices)
     return part_sheet(kind, solid, product(design, kind), design.name, asked)
 
 
@@ -169,7 +169,7 @@ def _area(points: tuple[tuple[float, float], ...]) -> float:
     return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
 
 
-def by_name(lines: list[Line]) -> dict[str, Line]:
+def by_name(lines: list[SpringLine]) -> dict[str, SpringLine]:
     return {line.name: line for line in lines}
 
 
@@ -189,8 +189,8 @@ def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
     modulus, bending = 196.5e3, float(lines["coils that bend"].value)
     assert rate == pytest.approx(modulus * 2.413**4 / (64 * 24.4094 * bending) * pi / 180, rel=1e-3)
     assert float(lines["torque M1 at 8.59 deg"].value) == pytest.approx(rate * 8.594, rel=1e-3)
-    told = list(csv.DictReader(io.StringIO(spring_csv(list(lines.values())).decode())))
-    assert {row["name"]: row["value"] for row in told} == {line.name: line.value for line in lines.values()}
+    reported = list(csv.DictReader(io.StringIO(spring_csv(list(lines.values())).decode())))
+    assert {row["name"]: row["value"] for row in reported} == {line.name: line.value for line in lines.values()}
 
 
 def test_the_spring_s_sheet_is_drawn_at_true_size() -> None:
@@ -282,13 +282,13 @@ sheet.text("A", (50.0, 50.0))
 print(hashlib.sha256(sheet.dxf()).hexdigest())
 """
     # Under 1 and 4 ezdxf took the classes of a drawing in two orders.
-    told = [
+    reported = [
         subprocess.run(
             [sys.executable, "-c", code], env=os.environ | {"PYTHONHASHSEED": seed}, capture_output=True, check=True
         )
         for seed in ("1", "4")
     ]
-    assert told[0].stdout == told[1].stdout
+    assert reported[0].stdout == reported[1].stdout
 
 
 @pytest.mark.parametrize(

@@ -22,10 +22,10 @@ from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, 
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import holes, levels, upright_cylinders
 from tvimdesign.cad.geometry.kinds import KINDS
-from tvimdesign.cad.geometry.production import MAKING, Making
+from tvimdesign.cad.geometry.production import PRODUCTION, Production
 
-UP = Making(down="bottom", why="")
-OVER = Making(down="top", why="")
+UP = Production(down="bottom", why="")
+OVER = Production(down="top", why="")
 PRODUCT = Product(name="bracket & <foot>", colour=(1.0, 0.5, 0.0), material="PETG", density=1270.0)
 
 
@@ -82,8 +82,8 @@ def test_every_kind_says_how_it_is_come_by() -> None:
     cases = (("all", BEARINGS | DRIVEN), ("blocks", BLOCKS, "compression"))
     dims = [dimensions(design_of(*case)) for case in cases]
     kinds = {kind for one in dims for kind in MODULES[one.mode].kinds(one)}
-    assert kinds == set(MAKING) == set(KINDS)
-    assert all(making.why for making in MAKING.values())
+    assert kinds == set(PRODUCTION) == set(KINDS)
+    assert all(making.why for making in PRODUCTION.values())
 
 
 def test_the_mesh_error_is_the_sagitta_of_its_chords() -> None:
@@ -138,12 +138,12 @@ def test_a_step_part_says_its_volume_area_and_centroid(tmp_path: Path) -> None:
     # A block of 10 x 20 x 30 mm with a hole of 6 mm at (5, 5).
     part = cq.Solid.makeBox(10, 20, 30).cut(cq.Solid.makeCylinder(3, 30, cq.Vector(5, 5, 0))).Solids()[0]
     write_part(tmp_path / "part.step", part, PRODUCT)
-    solid, told = read_part(tmp_path / "part.step")
+    solid, reported = read_part(tmp_path / "part.step")
     bore = 9.0 * pi
-    assert told.volume == pytest.approx(30.0 * (200.0 - bore), rel=1e-9)
-    assert told.area == pytest.approx(2.0 * (200.0 - bore) + 60.0 * 30.0 + 6.0 * pi * 30.0, rel=1e-9)
-    assert told.centroid == pytest.approx((5.0, (200.0 * 10.0 - bore * 5.0) / (200.0 - bore), 15.0), rel=1e-9)
-    assert solid.Volume() == pytest.approx(told.volume, rel=1e-9)
+    assert reported.volume == pytest.approx(30.0 * (200.0 - bore), rel=1e-9)
+    assert reported.area == pytest.approx(2.0 * (200.0 - bore) + 60.0 * 30.0 + 6.0 * pi * 30.0, rel=1e-9)
+    assert reported.centroid == pytest.approx((5.0, (200.0 * 10.0 - bore * 5.0) / (200.0 - bore), 15.0), rel=1e-9)
+    assert solid.Volume() == pytest.approx(reported.volume, rel=1e-9)
     text = (tmp_path / "part.step").read_text()
     for words in ("AP242", "geometric validation property", "VOLUME_MEASURE", "AREA_MEASURE", "centre point"):
         assert words in text

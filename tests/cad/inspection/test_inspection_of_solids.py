@@ -12,7 +12,7 @@ from cad_designs import BLOCKS, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.product_data import instances
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.features import holes
@@ -42,27 +42,27 @@ def one_solid(work: cq.Workplane) -> cq.Solid:
     return solid.Solids()[0]
 
 
-def of(checks: list[Check]) -> dict[str, Check]:
+def of(checks: list[SolidCheck]) -> dict[str, SolidCheck]:
     """The checks by what they are about."""
     return {check.name.split(": ")[1]: check for check in checks}
 
 
-def walls(work: cq.Workplane) -> dict[str, Check]:
+def walls(work: cq.Workplane) -> dict[str, SolidCheck]:
     return of(wall_checks("part", Triangles(solid_mesh(one_solid(work))), 1.2, 0.8))
 
 
-def printed(work: cq.Workplane, down: str = "bottom") -> dict[str, Check]:
+def printed(work: cq.Workplane, down: str = "bottom") -> dict[str, SolidCheck]:
     return of(printing_checks("part", solid_mesh(one_solid(work)), down, radians(45.0), 10.0, BED))
 
 
-def milled(work: cq.Workplane) -> dict[str, Check]:
+def milled(work: cq.Workplane) -> dict[str, SolidCheck]:
     solid = one_solid(work)
     return of(milling_checks("part", Triangles(solid_mesh(solid)), holes(solid), 4.0)) | of(
         corner_checks("part", solid, 1.5, 3.0)
     )
 
 
-def place_of(check: Check) -> Any:
+def place_of(check: SolidCheck) -> Any:
     assert check.place is not None
     return np.array(check.place)
 
@@ -241,10 +241,10 @@ def test_a_coil_clears_its_post_until_the_post_is_too_thick(paper: Design, dims:
 
 def test_a_rule_that_is_broken_is_a_warning_with_its_reason() -> None:
     broken = design_of("thin wall", {"wall_thickness": 1.0e-3})
-    told = [check for check in rule_checks(broken) if check.level != "pass"]
-    assert [check.name for check in told] == ["module: rule housing_wall_reserve"]
-    assert told[0].value == pytest.approx(-0.2)
-    assert "thinner than the process" in told[0].text
+    reported = [check for check in rule_checks(broken) if check.level != "pass"]
+    assert [check.name for check in reported] == ["module: rule housing_wall_reserve"]
+    assert reported[0].value == pytest.approx(-0.2)
+    assert "thinner than the process" in reported[0].text
 
 
 def test_threads_are_as_long_as_the_screws_reach_into_the_core(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:

@@ -10,7 +10,7 @@ from cad_designs import CASES, DRIVEN, FLANGE, ON_SENSOR, design_of
 from tvimdesign.cad.assembly.assembly import build, drawn_part, drawn_parts
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import Item
-from tvimdesign.cad.drawing.drawing_requirements import workmanship
+from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.kinds import KINDS, TURNING, kind_of
@@ -87,7 +87,7 @@ def test_a_sensor_below_the_motor_has_its_pattern_in_the_base_and_its_recess_bel
     assert {round(one.top - bottom, 6) for one in pattern} == {6.0, 11.0}
     board = drawn_part(dims, "encoder_board").BoundingBox()
     assert board.zmin == pytest.approx(bottom + 6.4)
-    asked = workmanship("motor_housing", dims, {"making_method": "milled"})
+    asked = drawing_requirements("motor_housing", dims, {"making_method": "milled"})
     assert [one.about for one in asked.threads] == ["sensor's screws"]
     assert {"sensor's spigot", "sensor's pin"} <= {one.about for one in asked.seats}
 

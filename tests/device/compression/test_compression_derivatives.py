@@ -6,20 +6,20 @@ from test_derivatives import differences, event_gradient
 
 from tvimdesign.device import table_for
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 TABLE = table_for("compression")
 EVENTS = ("far_face_time", "softening_time")
 
 
 def test_every_output_has_the_derivatives_by_every_input_that_differences_show(
-    squeezed_model: Model, squeezed_switch: Switch
+    squeezed_model: DeviceFunctions, squeezed_switch: Cycle
 ) -> None:
     model = squeezed_model
-    inputs, switch = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("switch", len(model.switch_names))
+    inputs, cycle = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("cycle", len(model.switch_names))
     supplied = np.array([squeezed_switch.values[name] for name in model.switch_names])
-    jacobian = ca.Function("jacobian", [inputs, switch], [ca.jacobian(model.every_output(inputs, switch), inputs)])
+    jacobian = ca.Function("jacobian", [inputs, cycle], [ca.jacobian(model.every_output(inputs, cycle), inputs)])
     exact = np.asarray(ca.DM(jacobian(model.start, supplied)).full())
     which = [i for i, name in enumerate(model.names) if name != "rotor_cells"]  # a shape, not a number
     shown = differences(lambda x: model.every_output(x, supplied), model.start, which, 1e-4)
@@ -33,12 +33,12 @@ def test_every_output_has_the_derivatives_by_every_input_that_differences_show(
 
 @pytest.mark.parametrize("event", EVENTS)
 def test_response_times_have_the_derivatives_that_simulations_show(
-    event: str, squeezed_model: Model, squeezed_simulator: Simulator, squeezed_switch: Switch
+    event: str, squeezed_model: DeviceFunctions, squeezed_simulator: Simulator, squeezed_switch: Cycle
 ) -> None:
     model, names = squeezed_model, ["block_depth", "block_height", "vane_thickness", "pcl_outer_radius", "current"]
 
     def times(inputs: np.ndarray) -> np.ndarray:
-        return np.array([squeezed_simulator.run(inputs, stages=["softening"]).values[event]])
+        return np.array([squeezed_simulator.run(inputs, phases=["softening"]).values[event]])
 
     (shown,) = differences(times, model.start, [model.index[name] for name in names], 1e-3)
     time, gradient = event_gradient(model, squeezed_switch, event)

@@ -8,7 +8,7 @@ from support import ROOT, fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study
 
@@ -23,8 +23,8 @@ ALONE: dict[str, Any] = {
 
 
 def far_face_time(module: dict[str, Any], **changed: Any) -> float:
-    model = Model(TABLE, {**module, **ALONE, **changed}, ("cold", "hot"), 24)
-    return float(fine(model).run(model.start, stages=["softening"]).values["far_face_time"])
+    model = DeviceFunctions(TABLE, {**module, **ALONE, **changed}, ("cold", "hot"), 24)
+    return float(fine(model).run(model.start, phases=["softening"]).values["far_face_time"])
 
 
 def conducting(factor: float) -> dict[str, Any]:
@@ -70,8 +70,8 @@ def test_twice_the_depth_of_a_whole_module_tends_from_flux_to_diffusion_and_hard
         found = []
         for times in (1.0, 2.0):
             given = {**module, "block_depth": times * depth, "current": current}
-            model = Model(TABLE, given, ("cold", "hot"), 24)
-            values = fine(model).run(model.start, stages=["softening"]).values
+            model = DeviceFunctions(TABLE, given, ("cold", "hot"), 24)
+            values = fine(model).run(model.start, phases=["softening"]).values
             found.append((values["far_face_time"], values["softening_time"]))
         return found[1][0] / found[0][0], found[1][1] / found[0][1]
 

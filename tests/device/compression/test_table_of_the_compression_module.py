@@ -8,11 +8,11 @@ from support import USED_BY_PARTS, digits
 
 from tvimdesign.base.units import to_si
 from tvimdesign.device import Choice, Input, Output, Supplied, table_for
-from tvimdesign.simulation.cycle import Switch
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.cycle import Cycle
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 TABLE = table_for("compression")
-OWN = [row for row in TABLE.rows if row.name not in table_for("shear").by_name and not isinstance(row, Choice)]
+OWN = [row for row in TABLE.quantities if row.name not in table_for("shear").by_name and not isinstance(row, Choice)]
 
 
 @pytest.mark.parametrize("row", OWN, ids=lambda row: row.name)
@@ -29,16 +29,16 @@ def test_row_is_described_and_has_a_unit_that_can_be_read(row: Input | Output) -
 
 def test_every_input_and_intermediate_result_is_used() -> None:
     used = {name for row in TABLE.outputs for name in TABLE.ancestors(row.name)}
-    used |= {"horizon", "current_slew", "state_rates", *(stage.drive for stage in TABLE.stages)}
+    used |= {"horizon", "current_slew", "state_rates", *(phase.current_input for phase in TABLE.phases)}
     used |= {row.record[0] for row in TABLE.inputs if row.record} | USED_BY_PARTS
-    assert {row.name for row in TABLE.rows if not isinstance(row, Output) or row.hidden} <= used
+    assert {row.name for row in TABLE.quantities if not isinstance(row, Output) or row.hidden} <= used
 
 
 def test_nothing_of_the_shear_module_is_left_in_it() -> None:
     assert not {"pcl_thickness", "arc_span", "arc_count", "layer_strain", "arc_width"} & TABLE.by_name.keys()
 
 
-def test_the_default_module_keeps_every_rule(squeezed_model: Model, squeezed_switch: Switch) -> None:
+def test_the_default_module_keeps_every_rule(squeezed_model: DeviceFunctions, squeezed_switch: Cycle) -> None:
     values = squeezed_model.values(squeezed_model.start, squeezed_switch.values)
     for row in TABLE.outputs:
         for rule in row.rules:
@@ -47,9 +47,9 @@ def test_the_default_module_keeps_every_rule(squeezed_model: Model, squeezed_swi
 
 
 def test_floats_and_symbols_give_the_same_outputs(
-    squeezed: dict[str, Any], squeezed_model: Model, squeezed_switch: Switch
+    squeezed: dict[str, Any], squeezed_model: DeviceFunctions, squeezed_switch: Cycle
 ) -> None:
-    wanted = [name for name in TABLE.names(("cold", "hot")) if not isinstance(TABLE.row(name), Supplied)]
+    wanted = [name for name in TABLE.names(("cold", "hot")) if not isinstance(TABLE.quantity(name), Supplied)]
     floats = TABLE.evaluate({**squeezed, **squeezed_switch.values}, wanted)
     symbols = squeezed_model.values(squeezed_model.start, squeezed_switch.values)
     for name, value in floats.items():

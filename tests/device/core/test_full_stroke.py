@@ -11,10 +11,10 @@ from tvimdesign.device import table_for
 TABLE = table_for("shear")
 ROWS = [
     "spring_rate", "spring_torque_full_stroke", "spring_stiffness_full_stroke", "stiffness_over_stroke",
-    "spring_stiffness", "leg_offset", "leg_arm", "leg_length", "leg_core_gap", "leg_overhang_reserve", "tang_reserve",
+    "spring_stiffness", "leg_offset", "leg_arm", "leg_length", "leg_core_gap", "leg_overhang_margin", "tang_margin",
     "pin_radius", "pin_safety", "spring_assembly_safety", "spring_tensile_strength", "coil_end_level", "helix_slope",
     "rotor_top_level", "spring_winding", "spring_unwinding", "free_angle_over_preload", "free_angle_tolerance",
-    "preload_reserve", "coil_diameter_tolerance", "stress_per_angle", "spring_index",
+    "preload_margin", "coil_diameter_tolerance", "stress_per_angle", "spring_index",
 ]  # fmt: skip
 
 
@@ -80,7 +80,7 @@ def test_overhang_is_what_the_pin_s_way_along_the_leg_leaves(bent: dict[str, Any
     along = direction(bent, bent["stroke"])
     pin = bent["pin_radius"] * np.array([np.cos(bent["stroke"]), np.sin(bent["stroke"])])
     reached = (pin - [bent["placement_radius"], 0.0]) @ [np.cos(along), np.sin(along)]
-    assert bent["leg_overhang_reserve"] == pytest.approx(bent["leg_length"] - reached, rel=1e-9)
+    assert bent["leg_overhang_margin"] == pytest.approx(bent["leg_length"] - reached, rel=1e-9)
 
 
 def test_tang_keeps_the_play_that_the_growing_coil_leaves(bent: dict[str, Any]) -> None:
@@ -88,7 +88,7 @@ def test_tang_keeps_the_play_that_the_growing_coil_leaves(bent: dict[str, Any]) 
     turns = max(bent["spring_winding"] - bent["preload_angle"], bent["spring_unwinding"]) / (2.0 * np.pi)
     radius = 0.5 * bent["coil_diameter"]
     change = radius - radius * bent["coil_count"] / (bent["coil_count"] + turns)
-    assert bent["tang_reserve"] == pytest.approx(bent["tang_clearance"] - change, abs=0.02 * change)
+    assert bent["tang_margin"] == pytest.approx(bent["tang_clearance"] - change, abs=0.02 * change)
 
 
 def test_pins_bend_under_the_leg_like_a_round_cantilever(bent: dict[str, Any]) -> None:
@@ -122,7 +122,7 @@ def test_bought_springs_spread_as_din_2194_says(bent: dict[str, Any]) -> None:
     # Grade 2: 18.7 degrees of free angle, and 0.025 * 24.4094 * 2.413^-0.17 = 0.525 mm of diameter.
     assert np.degrees(bent["free_angle_tolerance"]) == pytest.approx(18.7, rel=2e-3)
     assert bent["coil_diameter_tolerance"] == pytest.approx(0.5253e-3, rel=1e-3)
-    assert bent["free_angle_over_preload"] == pytest.approx(np.radians(18.7) / bent["preload_reserve"], rel=2e-3)
+    assert bent["free_angle_over_preload"] == pytest.approx(np.radians(18.7) / bent["preload_margin"], rel=2e-3)
 
 
 @pytest.mark.parametrize("point", ["cold", "hot"])

@@ -66,8 +66,8 @@ def test_bonded_layer_relaxes_as_much_and_loses_nothing_because_it_cannot_part(
 def test_same_spectrum_and_support_leave_the_same_set_in_either_mode(
     inputs: dict[str, Any], squeezed: dict[str, Any]
 ) -> None:
-    alike = {"pcl_modes@hot": [(3.0, 200.0), (0.1, 900.0)], "elastic_support": 700.0, "spring_stiffness": 5.6}
-    one, other = at(SHEAR, {**inputs, **alike}, "hot"), at(COMPRESSION, {**squeezed, **alike}, "hot")
+    from_template = {"pcl_modes@hot": [(3.0, 200.0), (0.1, 900.0)], "elastic_support": 700.0, "spring_stiffness": 5.6}
+    one, other = at(SHEAR, {**inputs, **from_template}, "hot"), at(COMPRESSION, {**squeezed, **from_template}, "hot")
     for name in ("hold_angle", "pcl_relaxation", "set_angle"):
         assert one[name] == pytest.approx(other[name], rel=1e-9), name
 

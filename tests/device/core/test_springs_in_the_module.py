@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from tvimdesign.device import table_for
 
 TABLE = table_for("shear")
-WANTED = ("spring_stiffness", "spring_winding", "spring_unwinding", "preload_reserve", "spring_rate", "spring_stress",
+WANTED = ("spring_stiffness", "spring_winding", "spring_unwinding", "preload_margin", "spring_rate", "spring_stress",
           "spring_fatigue_safety", "spring_static_safety", "pin_radius", "leg_offset", "leg_arm", "spring_count",
           "spring_tensile_strength")  # fmt: skip
 PAPER = {"spring_youngs_modulus": 210e9, "leg_model": "ignored"}
@@ -86,7 +86,7 @@ def test_windings_are_the_extremes_over_the_stroke(
     windings = [winding_of(a, base["placement_radius"], found) for a in np.linspace(-stroke, stroke, 21)]
     assert found["spring_winding"] == pytest.approx(preload + max(windings), rel=1e-9)
     assert found["spring_unwinding"] == pytest.approx(-min(windings), rel=1e-9)
-    assert found["preload_reserve"] == pytest.approx(preload + min(windings), abs=1e-9)
+    assert found["preload_margin"] == pytest.approx(preload + min(windings), abs=1e-9)
 
 
 @pytest.mark.parametrize("transmission", ["unity", "geometry"])

@@ -11,18 +11,18 @@ import pytest
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, table_for
-from tvimdesign.solve.nlp.constraints import limits_of, refuse_impossible
+from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 RULES = {
-    "motor_retainer_gap", "motor_foot_gap", "motor_spoke_gap", "motor_spoke_wall_reserve", "mount_thread_reserve",
-    "mount_tip_reserve",
-    "motor_tube_gap", "motor_hub_wall_reserve", "motor_wall_reserve", "motor_barrel_gap", "motor_lip_reserve",
-    "motor_journal_wall_reserve", "motor_thread_reserve", "motor_disc_reserve", "motor_retainer_wall_reserve",
-    "motor_base_thread_reserve", "motor_base_hole_gap",
+    "motor_retainer_gap", "motor_foot_gap", "motor_spoke_gap", "motor_spoke_wall_margin", "mount_thread_margin",
+    "mount_tip_margin",
+    "motor_tube_gap", "motor_hub_wall_margin", "motor_wall_margin", "motor_barrel_gap", "motor_lip_margin",
+    "motor_journal_wall_margin", "motor_thread_margin", "motor_disc_margin", "motor_retainer_wall_margin",
+    "motor_base_thread_margin", "motor_base_hole_gap",
 }  # fmt: skip
-ENCODER_RULES = {"encoder_ledge_reserve", "encoder_floor_reserve"}
+ENCODER_RULES = {"encoder_ledge_margin", "encoder_floor_margin"}
 DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
 
 
@@ -118,24 +118,24 @@ def test_the_motor_turns_the_whole_housing_with_what_it_carries() -> None:
 
 
 def test_a_motor_s_torque_is_held_against_the_springs() -> None:
-    rows = "motor_torque_reserve motor_hold_current encoder_torque_step spring_stiffness hold_torque"
+    rows = "motor_torque_margin motor_hold_current encoder_torque_step spring_stiffness hold_torque"
     found = values_of(rows, **DRIVEN)
-    assert found["motor_torque_reserve"] == pytest.approx(0.7 - 0.104 * found["spring_stiffness"])
+    assert found["motor_torque_margin"] == pytest.approx(0.7 - 0.104 * found["spring_stiffness"])
     assert found["motor_hold_current"] == pytest.approx(found["hold_torque"] / 0.109)
     assert found["encoder_torque_step"] == pytest.approx(found["spring_stiffness"] * 2.0 * np.pi / 16384)
-    weak = values_of("motor_torque_reserve", **DRIVEN | {"motor": "frameless_50x08", "motor_bearing": "ball_6700"})
-    assert weak["motor_torque_reserve"] < 0.0  # 0.3 N m against the paper's springs
+    weak = values_of("motor_torque_margin", **DRIVEN | {"motor": "frameless_50x08", "motor_bearing": "ball_6700"})
+    assert weak["motor_torque_margin"] < 0.0  # 0.3 N m against the paper's springs
 
 
 def test_the_upper_bearing_of_the_motor_bears_the_tilt_of_a_force_at_the_link() -> None:
-    rows = "motor_bearing_load motor_bearing_reserve holding_torque link_length link_bottom_level motor_retainer_level"
+    rows = "motor_bearing_load motor_bearing_margin holding_torque link_length link_bottom_level motor_retainer_level"
     found = values_of(rows, **DRIVEN)
     # Moments about the lower bearing, 5 mm wide above the retainer; the upper one is below -17 mm, the link 4 mm thick.
     lower, upper = found["motor_retainer_level"] + 2.5 * MM, (-17.0 - 2.5) * MM
     middle = found["link_bottom_level"] + 2.0 * MM
     force = found["holding_torque"] / found["link_length"]
     assert found["motor_bearing_load"] == pytest.approx(force * (middle - lower) / (upper - lower))
-    assert found["motor_bearing_reserve"] == pytest.approx(1260.0 - found["motor_bearing_load"])
+    assert found["motor_bearing_margin"] == pytest.approx(1260.0 - found["motor_bearing_load"])
 
 
 def test_a_good_motor_mount_keeps_its_rules_and_each_is_broken_by_what_its_name_says() -> None:
@@ -144,21 +144,21 @@ def test_a_good_motor_mount_keeps_its_rules_and_each_is_broken_by_what_its_name_
         "motor_retainer_gap": {"foot_height": "5.4 mm"},
         "motor_foot_gap": {"placement_radius": "20.9 mm", "pin_radius_ratio": "0.2"},
         "motor_spoke_gap": {"mount_boss_radius": "15 mm"},
-        "motor_spoke_wall_reserve": {"mount_boss_radius": "2.4 mm"},
-        "mount_thread_reserve": {"mount_screw_length": "15 mm"},
-        "mount_tip_reserve": {"mount_screw_length": "16.1 mm"},
+        "motor_spoke_wall_margin": {"mount_boss_radius": "2.4 mm"},
+        "mount_thread_margin": {"mount_screw_length": "15 mm"},
+        "mount_tip_margin": {"mount_screw_length": "16.1 mm"},
         "motor_tube_gap": {"motor_bearing": "ball_6804"},
-        "motor_hub_wall_reserve": {"motor_hub_wall": "1.1 mm"},
-        "motor_wall_reserve": {"motor_wall": "1.1 mm"},
-        "motor_lip_reserve": {"minimum_wall": "10 mm"},
-        "motor_journal_wall_reserve": {"minimum_wall": "6.3 mm"},
-        "motor_thread_reserve": {"motor_screw_length": "7.6 mm"},
-        "motor_disc_reserve": {"motor_screw_length": "28 mm"},
-        "motor_retainer_wall_reserve": {"motor_sink_clearance": "4.5 mm"},
-        "motor_base_thread_reserve": {"motor_base_thickness": "6.9 mm"},
+        "motor_hub_wall_margin": {"motor_hub_wall": "1.1 mm"},
+        "motor_wall_margin": {"motor_wall": "1.1 mm"},
+        "motor_lip_margin": {"minimum_wall": "10 mm"},
+        "motor_journal_wall_margin": {"minimum_wall": "6.3 mm"},
+        "motor_thread_margin": {"motor_screw_length": "7.6 mm"},
+        "motor_disc_margin": {"motor_screw_length": "28 mm"},
+        "motor_retainer_wall_margin": {"motor_sink_clearance": "4.5 mm"},
+        "motor_base_thread_margin": {"motor_base_thickness": "6.9 mm"},
         "motor_base_hole_gap": {"minimum_wall": "14.5 mm"},
-        "encoder_ledge_reserve": {"encoder": "on_axis_22"},
-        "encoder_floor_reserve": {"motor_base_thickness": "4.1 mm"},
+        "encoder_ledge_margin": {"encoder": "on_axis_22"},
+        "encoder_floor_margin": {"motor_base_thickness": "4.1 mm"},
     }.items():
         assert values_of(rule, **DRIVEN | module)[rule] < 0.0, rule
     # The base begins at -39.6 mm: a rotor as long as that reaches into the clearance of 0.4 mm.
@@ -174,7 +174,7 @@ def test_there_is_no_motor_and_no_rule_of_one_unless_it_is_chosen(mode: str) -> 
 
     def ruled(module: str) -> set[str]:
         study = read_study_text(f"mode: {mode}\nmodule: {{{module}}}\n", "a test")
-        return {limit.output for limit in limits_of(study, table)} & (RULES | ENCODER_RULES)
+        return {limit.output for limit in constraints_of(study, table)} & (RULES | ENCODER_RULES)
 
     assert ruled("stroke: 0.1 rad") == set()
     assert ruled("motor: frameless_70x10") == RULES
@@ -219,15 +219,15 @@ def test_a_torque_sensor_bears_the_motor_and_its_spigot_keeps_below_the_board() 
 def test_a_motor_on_a_sensor_keeps_its_rules_and_each_is_broken_by_what_its_name_says() -> None:
     flange = {
         "flange_bore_gap": {"sensor_flange": "iso_9409_40_4_m6"},  # 25 mm are too narrow for the board of 28
-        "flange_seat_reserve": {"motor_base_thickness": "12.1 mm"},
-        "flange_thread_reserve": {"flange_screw_reach": "10.4 mm"},
-        "flange_wall_reserve": {"flange_wall": "9.3 mm"},
-        "flange_bore_wall_reserve": {"minimum_wall": "6.3 mm"},
-        "flange_pin_wall_reserve": {"minimum_wall": "13.7 mm"},
+        "flange_seat_margin": {"motor_base_thickness": "12.1 mm"},
+        "flange_thread_margin": {"flange_screw_reach": "10.4 mm"},
+        "flange_wall_margin": {"flange_wall": "9.3 mm"},
+        "flange_bore_wall_margin": {"minimum_wall": "6.3 mm"},
+        "flange_pin_wall_margin": {"minimum_wall": "13.7 mm"},
         "flange_groove_gap": {"flange_azimuth": "15 deg"},
-        "encoder_floor_reserve": {"motor_base_thickness": "10.5 mm"},
+        "encoder_floor_margin": {"motor_base_thickness": "10.5 mm"},
     }
-    kept = [*flange, "flange_channel_gap", "flange_spring_gap", "flange_spigot_reserve", *RULES, *ENCODER_RULES]
+    kept = [*flange, "flange_channel_gap", "flange_spring_gap", "flange_spigot_margin", *RULES, *ENCODER_RULES]
     assert min(values_of(" ".join(kept), **ON_SENSOR).values()) > -1e-12
     for rule, module in flange.items():
         assert values_of(rule, **ON_SENSOR | module)[rule] < 0.0, rule
@@ -241,7 +241,7 @@ def test_numbers_and_symbols_give_the_same_motor_mount(case: dict[str, str]) -> 
     rows = [
         *sorted(RULES | ENCODER_RULES),
         "flange_groove_gap",
-        "flange_wall_reserve",
+        "flange_wall_margin",
         "drive_mass",
         "drive_inertia",
         "envelope_volume",

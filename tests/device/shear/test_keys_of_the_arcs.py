@@ -9,12 +9,12 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.nlp.constraints import limits_of
+from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 TABLE = table_for("shear")
-RULES = ("key_reserve", "key_depth_reserve", "key_width_reserve", "key_pitch_reserve")
+RULES = ("key_margin", "key_depth_margin", "key_width_margin", "key_pitch_margin")
 
 
 def inputs_of(**module: Any) -> dict[str, Any]:
@@ -67,10 +67,10 @@ def test_no_keys_weigh_hold_and_forbid_nothing() -> None:
 @pytest.mark.parametrize(
     ("rule", "module"),
     [
-        ("key_reserve", {"key_diameter": 1.9 * MM}),
-        ("key_depth_reserve", {"rotor_thickness": 1.8 * MM}),
-        ("key_width_reserve", {"key_diameter": 12.9 * MM, "key_count": 1, "rotor_thickness": 6 * MM}),
-        ("key_pitch_reserve", {"key_count": 8}),
+        ("key_margin", {"key_diameter": 1.9 * MM}),
+        ("key_depth_margin", {"rotor_thickness": 1.8 * MM}),
+        ("key_width_margin", {"key_diameter": 12.9 * MM, "key_count": 1, "rotor_thickness": 6 * MM}),
+        ("key_pitch_margin", {"key_count": 8}),
     ],
 )
 def test_keys_that_do_not_fit_are_refused(rule: str, module: dict[str, Any]) -> None:
@@ -81,4 +81,4 @@ def test_keys_that_do_not_fit_are_refused(rule: str, module: dict[str, Any]) -> 
 def test_the_rules_of_keys_are_limits_of_every_shear_study_and_of_no_compression_study() -> None:
     for mode, held in (("shear", set(RULES)), ("compression", set())):
         study = read_study_text(f"mode: {mode}\n", "a test")
-        assert {limit.output for limit in limits_of(study, table_for(mode))} & set(RULES) == held
+        assert {limit.output for limit in constraints_of(study, table_for(mode))} & set(RULES) == held

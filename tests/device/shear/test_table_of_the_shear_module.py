@@ -13,12 +13,12 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import to_si
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, Supplied, Table, table_for
-from tvimdesign.device.table.quantity import Extra
+from tvimdesign.device.table.quantity import Feature
 from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")
-NUMBERS = [row for row in TABLE.rows if not isinstance(row, Choice)]
+NUMBERS = [row for row in TABLE.quantities if not isinstance(row, Choice)]
 
 
 @pytest.mark.parametrize("row", NUMBERS, ids=lambda row: row.name)
@@ -31,8 +31,8 @@ def test_row_is_described_and_has_a_unit_that_can_be_read(row: Input | Output) -
 @pytest.mark.parametrize("row", TABLE.choices, ids=lambda row: row.name)
 def test_choice_is_described_and_its_default_exists(row: Choice, inputs: dict[str, Any]) -> None:
     assert len(row.description) >= 8
-    if row.shelf and inputs[row.name] not in row.options:
-        assert Catalog().record(row.shelf, inputs[row.name].name) == inputs[row.name]
+    if row.category and inputs[row.name] not in row.options:
+        assert Catalog().record(row.category, inputs[row.name].name) == inputs[row.name]
     else:
         assert (inputs[row.name] if row.record else row.default) in row.options
 
@@ -46,32 +46,32 @@ def test_default_of_an_input_lies_within_its_limits(row: Input, inputs: dict[str
 
 
 def test_every_extra_is_a_choice_that_has_the_word_for_none() -> None:
-    extras = {extra for row in TABLE.rows for extra in row.extras}
+    requires = {feature for row in TABLE.quantities for feature in row.requires}
     wanted = {"cover", "preload_adjuster", "sensor_flange", "motor", "encoder", "cold_side", "impedance_targets"}
-    assert {extra.choice for extra in extras} >= wanted
+    assert {feature.choice for feature in requires} >= wanted
     words = {row.name: row.options for row in TABLE.choices}
-    assert [extra for extra in extras if extra.without not in words[extra.choice]] == []
+    assert [feature for feature in requires if feature.without not in words[feature.choice]] == []
     # What is zero in a module without an extra is no geometry that does not exist.
-    assert not any(rule.exists_above is not None for row in TABLE.outputs if row.extras for rule in row.rules)
+    assert not any(rule.exists_above is not None for row in TABLE.outputs if row.requires for rule in row.rules)
 
 
-OF_EXTRAS = [row.name for row in (*TABLE.choices, *TABLE.inputs) if row.extras]
+OF_EXTRAS = [row.name for row in (*TABLE.choices, *TABLE.inputs) if row.requires]
 
 
 @pytest.mark.parametrize("name", OF_EXTRAS)
 def test_what_is_of_an_extra_is_refused_in_a_study_of_a_module_without_it(name: str) -> None:
-    row, study = TABLE.row(name), read_study_text("mode: shear\n", "a test")
-    value = Catalog().names(row.shelf)[0] if isinstance(row, Choice) and row.shelf else row.default
-    lacking = row.extras[0]
+    row, study = TABLE.quantity(name), read_study_text("mode: shear\n", "a test")
+    value = Catalog().names(row.category)[0] if isinstance(row, Choice) and row.category else row.default
+    lacking = row.requires[0]
     with pytest.raises(InputError, match=f"{name}: no effect, as {lacking.choice} is {lacking.without}"):
         refuse_impossible(study.model_copy(update={"module": {name: value}}), Catalog(), TABLE)
 
 
 def test_a_row_of_an_extra_is_computed_and_held_only_where_the_module_has_it() -> None:
-    extras = (Extra("cover", "none"), Extra("motor", "none"))
+    requires = (Feature("cover", "none"), Feature("motor", "none"))
     row = Output(
         name="gap", unit="mm", description="", group="", function=lambda width: 2.0 * width,
-        extras=extras, otherwise=7.0,
+        requires=requires, default=7.0,
     )  # fmt: skip
     assert row.needs == ("cover", "motor", "width")
     assert row.call(["plate", "a record", 3.0]) == 6.0
@@ -84,9 +84,9 @@ def test_every_input_and_choice_is_used() -> None:
     used = {name for row in TABLE.outputs for name in TABLE.ancestors(row.name)}
     used |= {"horizon", "current_slew"}  # the solver's own: how long a stage is waited for, how fast currents change
     used |= USED_BY_PARTS
-    used |= {stage.drive for stage in TABLE.stages}
+    used |= {phase.current_input for phase in TABLE.phases}
     used |= {row.record[0] for row in TABLE.inputs if row.record}  # a record is used through its values
-    assert {row.name for row in TABLE.rows if not isinstance(row, Output)} <= used
+    assert {row.name for row in TABLE.quantities if not isinstance(row, Output)} <= used
 
 
 def test_every_intermediate_result_is_used() -> None:
@@ -132,19 +132,19 @@ _BUILT: dict[str, Any] = {}
 
 
 def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
-    from tvimdesign.simulation.device_functions import Model
+    from tvimdesign.simulation.device_functions import DeviceFunctions
     from tvimdesign.study import given as resolve
 
     if not _BUILT:
         start = resolve(read_study_text("mode: shear\n", "a test"), Catalog(), TABLE)
-        _BUILT["model"] = Model(TABLE, {**start, "transmission": "geometry"}, ("cold", "hot"), 4)
+        _BUILT["model"] = DeviceFunctions(TABLE, {**start, "transmission": "geometry"}, ("cold", "hot"), 4)
     model = _BUILT["model"]
     factors = random.uniform(0.97, 1.03, (len(model.names), 3))
     factors[model.index["rotor_cells"]] = 1.0
     columns = model.start[:, None] * factors
     known = {**model.words, **{name: columns[i] for name, i in model.index.items()}}
     supplied = {name: random.uniform(50.0, 300.0, 3) for name in model.switch_names}
-    wanted = [name for name in TABLE.names(model.points) if not isinstance(TABLE.row(name), Supplied)]
+    wanted = [name for name in TABLE.names(model.points) if not isinstance(TABLE.quantity(name), Supplied)]
     arrays = TABLE.evaluate({**known, **supplied}, wanted)
     for j in range(3):
         symbols = model.values(columns[:, j], {name: float(value[j]) for name, value in supplied.items()})

@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 
 from tvimdesign.device import table_for
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 TABLE = table_for("shear")
 Change = Callable[[dict[str, Any]], dict[str, Any]]
 # (input, output, which way): mechanics and rheology say so whatever the rest of the module.
 GROWS = [
     ("wire_diameter", "spring_stiffness"), ("wire_diameter", "springs_mass"), ("coil_count", "springs_mass"),
-    ("preload_angle", "spring_stress"), ("preload_angle", "preload_reserve"), ("stroke", "spring_stress"),
+    ("preload_angle", "spring_stress"), ("preload_angle", "preload_margin"), ("stroke", "spring_stress"),
     ("stroke", "layer_strain"), ("pcl_outer_radius", "pcl_stiffness@cold"), ("arc_span", "layer_holding_torque"),
     ("core_radius", "core_holding_torque"),
     ("arc_span", "pcl_damping@hot"), ("core_radius", "structure_stiffness"), ("rotor_thickness", "structure_stiffness"),
@@ -77,7 +77,7 @@ def base(inputs: dict[str, Any]) -> dict[str, Any]:
     shares=st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 1.0)).filter(lambda pair: abs(pair[0] - pair[1]) > 0.05),
 )
 def test_response_time_follows_its_input(
-    change: tuple[str, float, float], shares: tuple[float, float], unity: Model, simulator: Simulator
+    change: tuple[str, float, float], shares: tuple[float, float], unity: DeviceFunctions, simulator: Simulator
 ) -> None:
     name, lowest, sign = change
     span = 15.0 if name.endswith("temperature") else 0.6 * lowest

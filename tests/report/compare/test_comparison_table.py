@@ -82,8 +82,8 @@ def test_the_sentence_has_times_for_much_and_percent_for_little() -> None:
 
 
 def test_the_csv_has_a_column_for_each_study_and_says_never() -> None:
-    told = list(csv.DictReader(io.StringIO(compare_csv({"drawn": [row(70.0, math.inf)]}, {}))))
-    assert [(line["a"], line["b"], line["ratio b"], line["verdict b"]) for line in told] == [
+    reported = list(csv.DictReader(io.StringIO(compare_csv({"drawn": [row(70.0, math.inf)]}, {}))))
+    assert [(line["a"], line["b"], line["ratio b"], line["verdict b"]) for line in reported] == [
         ("70.0", "never", "", "worse")
     ]
 
@@ -91,7 +91,7 @@ def test_the_csv_has_a_column_for_each_study_and_says_never() -> None:
 def test_every_direction_belongs_to_an_output() -> None:
     outputs = {row.name for mode in MODES for row in table_for(mode).outputs}
     assert directions().keys() <= outputs
-    mass = table_for("compression").row("module_mass")
+    mass = table_for("compression").quantity("module_mass")
     assert isinstance(mass, Output)
     assert mass.better == "less"
     times = [row for row in table_for("shear").outputs if row.name in {"response_time", "cycle_time", "switch_energy"}]

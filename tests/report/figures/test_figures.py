@@ -15,7 +15,7 @@ from tvimdesign.device import table_for
 from tvimdesign.report.figures import run_figures
 from tvimdesign.report.figures.canvas import png
 from tvimdesign.report.run.run_plot_data import plot_data
-from tvimdesign.solve.result import Answer, answer
+from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
 STUDIES = {
@@ -31,13 +31,13 @@ NAMES = ("cycle", "impedance", "mass", "bounds")
 
 
 @pytest.fixture(scope="module", params=STUDIES)
-def found(request: pytest.FixtureRequest) -> Answer:
+def found(request: pytest.FixtureRequest) -> StudyResult:
     study = read_study_text(STUDIES[request.param], "a test")
     return answer(study, Catalog(), table_for(study.mode))
 
 
 @pytest.fixture(scope="module")
-def data(found: Answer) -> dict[str, Any]:
+def data(found: StudyResult) -> dict[str, Any]:
     return plot_data(found, table_for(found.design.mode))
 
 
@@ -71,7 +71,7 @@ def test_a_file_has_the_pixels_of_its_size_and_no_transparent_ones(data: dict[st
     assert picture.mode == "RGB"
 
 
-def test_profiles_run_from_face_to_face_at_moments_of_the_stage(found: Answer, data: dict[str, Any]) -> None:
+def test_profiles_run_from_face_to_face_at_moments_of_the_stage(found: StudyResult, data: dict[str, Any]) -> None:
     history, depths = data["cycle"]["softening"], data["cycle"]["depths"]
     curves = found.histories["softening"]
     assert len(depths) == 10  # eight cells between two faces
@@ -85,7 +85,7 @@ def test_profiles_run_from_face_to_face_at_moments_of_the_stage(found: Answer, d
         assert profile["temperatures"][-1] == curves["far_face"][at]
 
 
-def test_bars_are_the_parts_the_module_has_and_add_up_to_its_mass(found: Answer, data: dict[str, Any]) -> None:
+def test_bars_are_the_parts_the_module_has_and_add_up_to_its_mass(found: StudyResult, data: dict[str, Any]) -> None:
     (axes,) = drawn("mass", data).axes
     bars = [bar.get_width() for bar in axes.patches]
     assert min(bars) > 0.0

@@ -14,7 +14,7 @@ from tvimdesign.device import table_for
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.paper_claims import claims
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.solve.nlp.constraints import limits_of
+from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import Study, given, read_study, read_study_text
 
 MODES = ("shear", "compression")
@@ -34,7 +34,7 @@ def resolved(study: Study) -> dict[str, Any]:
 @pytest.mark.parametrize("mode", MODES)
 def test_the_study_takes_the_paper_s_time_in_the_product_s_own_simulation(mode: str) -> None:
     model = paper_case._model(mode)
-    values = Simulator(model).run(model.start, stages=["softening"]).values
+    values = Simulator(model).run(model.start, phases=["softening"]).values
     assert values["response_time"] == pytest.approx(STATED[mode], rel=0.01)
     assert values["response_time"] == values[paper_case.case()["event"]]
 
@@ -80,7 +80,7 @@ def test_the_ranges_are_those_that_the_studies_state() -> None:
 @pytest.mark.parametrize("mode", MODES)
 def test_the_machine_s_rules_hold_at_both_ends_of_every_dimension(mode: str) -> None:
     model = paper_case._model(mode)
-    limits = [limit for limit in limits_of(shipped(mode), model.table) if limit.origin != "require"]
+    limits = [limit for limit in constraints_of(shipped(mode), model.table) if limit.origin != "require"]
     lengths = [
         name for name, said in paper_case.case()["ranges"].items() if said["unit"] == "mm" and name in model.index
     ]
@@ -105,7 +105,7 @@ def test_what_has_no_range_hardly_moves_the_ratio() -> None:
     }
     by_area = {"arc_span"}  # with the radii, stated: the paper's 1579.2 mm2
     for name in assumed - set(paper_case.ranges()) - OF_ONE_MODE - by_area:
-        shear, compression = pair.elasticities(event, name)
+        shear, compression = pair.output_sensitivities(event, name)
         assert abs(compression - shear) < 0.05, name
 
 
@@ -161,6 +161,6 @@ def test_the_documents_tell_these_numbers() -> None:
     thickness = next(one for one in paper_case.influences() if one.span.name == "pcl_thickness")
     high, low = thickness.ratios
     assert f"the layer's thickness alone takes the ratio from {low:.2f} to {high:.2f}" in text
-    peaks = [switch["peak_peltier_temperature"] - 273.15 for switch in paper_case.pair().switches()]
+    peaks = [cycle["peak_peltier_temperature"] - 273.15 for cycle in paper_case.pair().switches()]
     conventions = " ".join((ROOT / "docs/conventions.md").read_text().split())
     assert f"the pads reach {peaks[0]:.0f} °C in shear and {peaks[1]:.0f} °C in compression" in conventions

@@ -44,14 +44,14 @@ def test_the_table_has_every_variable_and_every_minimised_output(run: Path) -> N
     times = [float(point["response_time [s]"]) for point in points]
     assert times == sorted(times)
     assert points[0]["status"].startswith("least response_time")
-    told = json.loads((run / "front.json").read_text())
-    assert [point["values"]["response_time"] for point in told["points"]] == pytest.approx(times, rel=1e-6)
-    assert told["failures"] == []
+    reported = json.loads((run / "front.json").read_text())
+    assert [point["values"]["response_time"] for point in reported["points"]] == pytest.approx(times, rel=1e-6)
+    assert reported["failures"] == []
 
 
 def test_every_point_is_a_design_that_can_be_read_and_evaluated_to_the_same(run: Path) -> None:
-    told = json.loads((run / "front.json").read_text())
-    for point in told["points"]:
+    reported = json.loads((run / "front.json").read_text())
+    for point in reported["points"]:
         design = read_design(run / point["design"])
         assert design.status == "optimal"
         again = table_for(design.mode).evaluate(design.values, ["module_mass"])["module_mass"]
@@ -127,9 +127,9 @@ def test_a_front_without_points_says_why_and_is_written_all_the_same() -> None:
     table, words = table_for("shear"), "converged, but simulated it breaks response_time <= 100 s: 100.6 s"
     front = Front(("response_time", "module_mass"), (), failures=(Failure("least response_time", words),), sought=2)
     assert front.knee is None
-    told = plain(front, list(front.outputs), table)
-    assert told["points"] == []
-    assert told["in_words"] == [f"No design at least response_time: {words}."]
+    reported = plain(front, list(front.outputs), table)
+    assert reported["points"] == []
+    assert reported["in_words"] == [f"No design at least response_time: {words}."]
     assert front_csv(front, list(front.outputs), table).splitlines() == [
         "point,status,response_time [s],module_mass [g]"
     ]

@@ -8,7 +8,7 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report.run.record_checks import doubts
+from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.report.run.run_study import describe
 from tvimdesign.study import Study, read_study
 
@@ -28,7 +28,7 @@ def _study(folder: Path, record: str) -> Study:
 
 
 def _doubts(study: Study, folder: Path) -> list[str]:
-    return doubts(study, Catalog(folder / "records"), table_for("shear"))
+    return record_checks(study, Catalog(folder / "records"), table_for("shear"))
 
 
 def test_a_sheet_whose_cooling_power_does_not_follow_from_its_other_ratings_is_named(
@@ -49,4 +49,4 @@ def test_a_sheet_that_agrees_is_not(shipped: Path, tmp_path: Path) -> None:
 
 def test_a_record_without_that_rating_is_not() -> None:
     study = read_study(Path(__file__).parents[3] / "studies" / "paper_shear.yaml")
-    assert doubts(study, Catalog(), table_for("shear")) == []
+    assert record_checks(study, Catalog(), table_for("shear")) == []

@@ -12,9 +12,9 @@ from support import Command
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.solve.result import answer
-from tvimdesign.solve.sensitivity.output_sensitivity import Elasticities
+from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities
 from tvimdesign.study import read_study_text
 
 STUDY = """
@@ -22,19 +22,21 @@ mode: shear
 vary:
   wire_diameter: [1.5 mm, 3 mm]
   current: [0.5 A, 2 A]
-require: {spring_stiffness: ">= 5 N.m/rad", peltier_temperature_reserve: ">= 0 K"}
+require: {spring_stiffness: ">= 5 N.m/rad", peltier_temperature_margin: ">= 0 K"}
 minimize: {module_mass: 1, response_time: 1}
 solver: {starts: 1, cells: 8, elements: 2}
 """
 
 
 @pytest.fixture(scope="module")
-def found() -> tuple[Elasticities, Rig]:
+def found() -> tuple[OutputSensitivities, ResolvedModule]:
     table, catalog = table_for("shear"), Catalog()
     return sensitivities(answer(read_study_text(STUDY, "a test"), catalog, table), catalog, table)
 
 
-def test_a_derivative_in_reading_units_adds_what_one_percent_more_does(found: tuple[Elasticities, Rig]) -> None:
+def test_a_derivative_in_reading_units_adds_what_one_percent_more_does(
+    found: tuple[OutputSensitivities, ResolvedModule],
+) -> None:
     lines = list(csv.DictReader(io.StringIO(sensitivities_csv(*found))))
     by = {(line["output"], line["variable"]): line for line in lines}
     line = by["envelope_diameter", "placement_radius"]  # 1 mm farther out is 2 mm more across
@@ -42,15 +44,15 @@ def test_a_derivative_in_reading_units_adds_what_one_percent_more_does(found: tu
     assert line["derivative_unit"] == "mm / mm"
     assert float(line["per_percent"]) == pytest.approx(0.02 * 57.0, rel=1e-5)
     assert line["unit"] == "mm"
-    reserve = by["peltier_temperature_reserve", "current"]
+    reserve = by["peltier_temperature_margin", "current"]
     assert reserve["log_derivative"] == ""
     assert float(reserve["derivative"]) < 0.0
     assert reserve["derivative_unit"] == "K / A"
 
 
-def test_the_heat_map_has_no_empty_rows_and_columns(found: tuple[Elasticities, Rig]) -> None:
+def test_the_heat_map_has_no_empty_rows_and_columns(found: tuple[OutputSensitivities, ResolvedModule]) -> None:
     data = heat_map(*found)
-    assert "peltier_temperature_reserve" not in data["outputs"]
+    assert "peltier_temperature_margin" not in data["outputs"]
     assert {"module_mass", "response_time", "spring_stiffness"} <= set(data["outputs"])
     assert all(any(abs(value) >= 5e-3 for value in row) for row in data["values"])
     assert all(any(abs(value) >= 5e-3 for value in column) for column in zip(*data["values"], strict=True))

@@ -10,7 +10,7 @@ import pytest
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.why import binding, sentences, slack, slack_in_words, why_csv, why_rows
-from tvimdesign.solve.result import Answer, answer
+from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")
@@ -30,25 +30,25 @@ solver: {starts: 1}
 
 
 @pytest.fixture(scope="module")
-def found() -> Answer:
+def found() -> StudyResult:
     return answer(read_study_text(STUDY, "a test"), Catalog(), TABLE)
 
 
-def test_more_stiffness_costs_mass(found: Answer) -> None:
+def test_more_stiffness_costs_mass(found: StudyResult) -> None:
     held = next(held for held in binding(found) if held.name == "spring_stiffness >=")
-    cost = held.savings["module_mass"]
+    cost = held.sensitivity["module_mass"]
     assert 0.0 < cost < 1.0
     said = next(one for one in sentences(found) if one.startswith("1 % more spring_stiffness (now >= 5 N·m/rad) costs"))
     assert f"{cost:.2g} % module_mass" in said
 
 
-def test_less_power_costs_time(found: Answer) -> None:
+def test_less_power_costs_time(found: StudyResult) -> None:
     said = next(one for one in sentences(found) if "peak_power" in one)
     assert said.startswith("1 % less peak_power (now <= 9 W) costs")
     assert "response_time" in said
 
 
-def test_a_limit_either_binds_or_touches_or_has_room(found: Answer) -> None:
+def test_a_limit_either_binds_or_touches_or_has_room(found: StudyResult) -> None:
     rows = why_rows(found, TABLE)
     assert found.solution is not None
     assert len(rows) == len(found.solution.held)
@@ -63,15 +63,15 @@ def test_a_limit_either_binds_or_touches_or_has_room(found: Answer) -> None:
         ] == "touches"
 
 
-def test_slack_limits_stand_in_the_order_of_their_room(found: Answer) -> None:
+def test_slack_limits_stand_in_the_order_of_their_room(found: StudyResult) -> None:
     rooms = [held.margin for held in slack(found)]
     assert rooms == sorted(rooms)
     assert "spring_stiffness <= 8 N·m/rad (room 37.5%)" in slack_in_words(found, TABLE)
 
 
-def test_the_table_on_file_has_a_column_for_each_output(found: Answer) -> None:
+def test_the_table_on_file_has_a_column_for_each_output(found: StudyResult) -> None:
     rows = list(csv.DictReader(io.StringIO(why_csv(found, TABLE))))
     first = binding(found)[0]
     assert rows[0]["limit"] == first.text
-    for name, saving in first.savings.items():
+    for name, saving in first.sensitivity.items():
         assert float(rows[0][f"{name} [%]"]) == pytest.approx(saving, rel=1e-5, abs=1e-12)

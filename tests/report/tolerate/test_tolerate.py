@@ -28,12 +28,12 @@ def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tu
 
 
 def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
-    folder, told, _ = results
+    folder, reported, _ = results
     expected = {"contributors.csv", "limits.csv", "manifest.json", "outputs.csv", "spread.png", "tolerances.json",
                 "tolerated.yaml"}  # fmt: skip
     assert {path.name for path in folder.iterdir()} == expected
     kept = json.loads((folder / "tolerances.json").read_text())
-    assert kept == {name: value for name, value in told.items() if name != "folder"}
+    assert kept == {name: value for name, value in reported.items() if name != "folder"}
     assert kept["samples"] == 4096
     rows = list(csv.DictReader((folder / "outputs.csv").read_text().splitlines()))
     (stiffness,) = [row for row in rows if row["output"] == "spring_stiffness"]
@@ -65,7 +65,7 @@ def test_a_design_and_its_tables_are_printed(
 ) -> None:
     done = tvimdesign("tolerate", results[0].parents[1] / "arm.yaml", "--samples", 300, "--out", tmp_path / "again")
     assert done.returncode == 0, done.stderr
-    for words in ("What spreads", "worst case", "Limits that too many modules break", "preload_reserve >= 0 rad"):
+    for words in ("What spreads", "worst case", "Limits that too many modules break", "preload_margin >= 0 rad"):
         assert words in done.stdout
 
 

@@ -10,24 +10,24 @@ from support import ROOT, fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Switch
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.solve.batch.cycle_kernel import Pace, SwitchKernel
+from tvimdesign.simulation.cycle import Cycle
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.study import given, read_study
 
-Build = Callable[..., Model]
+Build = Callable[..., DeviceFunctions]
 WITHIN = 2e-3  # the accuracy that is asked for
 MOVING = ["current", "ambient_temperature", "peltier_seebeck", "peltier_resistance", "pcl_latent_heat"]
 SOFTENING = ["near_face_time", "far_face_time", "softening_time", "response_time", "switch_energy", "peak_power"]
 BACK = ["stiffening_time", "frozen_time", "stiffening_energy", "peak_cold_side_temperature", "hold_power"]
 
 
-def _pace(model: Model, switch: Switch) -> Pace:
-    ends = {name: switch.values[stage.stage.ends] for name, stage in model.stages.items()}
-    return Pace({name: end if np.isfinite(end) else 100.0 for name, end in ends.items()}, switch.balances)
+def _pace(model: DeviceFunctions, cycle: Cycle) -> Pace:
+    ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
+    return Pace({name: end if np.isfinite(end) else 100.0 for name, end in ends.items()}, cycle.balances)
 
 
-def _columns(model: Model, count: int) -> np.ndarray:
+def _columns(model: DeviceFunctions, count: int) -> np.ndarray:
     """The design as drawn, and others up to a tenth off in every input that moves; ambient by 3 K."""
     start = np.array([[model.start[model.index[name]]] for name in MOVING])
     width = np.where(np.array(MOVING)[:, None] == "ambient_temperature", 3.0, 0.1 * start)
@@ -36,17 +36,17 @@ def _columns(model: Model, count: int) -> np.ndarray:
     return start + width * off
 
 
-def _worst(model: Model, names: list[str], count: int) -> float:
+def _worst(model: DeviceFunctions, names: list[str], count: int) -> float:
     """Largest difference from the converged simulation, as a share of it."""
     simulator, columns = fine(model), _columns(model, count)
-    kernel = SwitchKernel(model, MOVING, names)
+    kernel = CycleKernel(model, MOVING, names)
     found = kernel(columns, _pace(model, simulator.run(model.start)))
-    stages = list(kernel.stages)
+    phases = list(kernel.phases)
     worst = 0.0
     for i in range(count):
         inputs = model.start.copy()
         inputs[[model.index[name] for name in MOVING]] = columns[:, i]
-        values = simulator.run(inputs, stages=stages).values
+        values = simulator.run(inputs, phases=phases).values
         expected = np.array([values[name] for name in kernel.names])
         assert np.all(np.isfinite(expected))
         worst = max(worst, float(np.max(np.abs(found[:, i] / expected - 1.0))))
@@ -70,13 +70,13 @@ def test_the_whole_cycle_is_within_the_accuracy_asked_for(build: Build, design: 
 def test_every_shipped_study_is_within_the_accuracy_asked_for(study: str) -> None:
     read = read_study(ROOT / f"studies/{study}.yaml")
     table = table_for(read.mode)
-    model = Model(table, given(read, Catalog(), table), tuple(read.operating_points), read.solver.cells)
+    model = DeviceFunctions(table, given(read, Catalog(), table), tuple(read.operating_points), read.solver.cells)
     assert _worst(model, SOFTENING, 6) < WITHIN
 
 
-def test_no_bit_hangs_on_workers_or_neighbours(build: Build, switch_of: Callable[[str], Switch]) -> None:
+def test_no_bit_hangs_on_workers_or_neighbours(build: Build, switch_of: Callable[[str], Cycle]) -> None:
     model = build()
-    kernel = SwitchKernel(model, MOVING, ["response_time", "switch_energy"])
+    kernel = CycleKernel(model, MOVING, ["response_time", "switch_energy"])
     pace, columns = _pace(model, switch_of("as it is")), _columns(model, 1_100)
     alone = kernel(columns, pace)
     assert np.array_equal(alone, kernel(columns, pace, workers=2))
@@ -84,10 +84,10 @@ def test_no_bit_hangs_on_workers_or_neighbours(build: Build, switch_of: Callable
 
 
 def test_what_never_ends_is_infinite_and_its_neighbours_are_not(
-    build: Build, switch_of: Callable[[str], Switch]
+    build: Build, switch_of: Callable[[str], Cycle]
 ) -> None:
     model = build()
-    kernel = SwitchKernel(model, ["current"], ["response_time", "switch_energy", "peak_power"])
+    kernel = CycleKernel(model, ["current"], ["response_time", "switch_energy", "peak_power"])
     found = kernel(np.array([[0.06, 1.5]]), _pace(model, switch_of("as it is")))
     assert np.isinf(found[:2, 0]).all()
     assert np.isfinite(found[:, 1]).all()

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
-from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solver_run import Run
 
 
@@ -87,20 +87,20 @@ def bowls(draw: st.DrawFn) -> list[Bowl]:
 @settings(deadline=None, derandomize=True, max_examples=40)
 @given(trees=bowls(), keep=st.integers(1, 5))
 def test_it_finds_the_best_combinations_and_accounts_for_all(trees: list[Bowl], keep: int) -> None:
-    search = BranchAndBound(cast("list[Tree]", trees), keep)
+    search = BranchAndBound(cast("list[Relaxation]", trees), keep)
     search.run()
-    expected = sorted(objective for tree in trees for objective in tree.enumerated())
+    expected = sorted(objective for relaxation in trees for objective in relaxation.enumerated())
     found = sorted(run.start.objective for run in search.found.values())
     assert found[:keep] == pytest.approx(expected[:keep], rel=1e-5)
     assert search.inside <= 1e-12
-    assert len(found) + search.pruned <= sum(tree.sizes.count for tree in trees)
+    assert len(found) + search.pruned <= sum(relaxation.sizes.count for relaxation in trees)
     assert len(found) + search.pruned >= len(expected)
 
 
 def test_a_bowl_over_two_thousand_combinations_takes_a_few_runs() -> None:
     sizes = Sizes(("a", "b", "c"), tuple(tuple(float(i) for i in range(1, 14)) for _ in range(3)))
     bowl = Bowl(0, sizes, (6.4, 3.2, 9.7), (1.0, 2.0, 0.5), 5.0, 0.0)
-    search = BranchAndBound(cast("list[Tree]", [bowl]), 1)
+    search = BranchAndBound(cast("list[Relaxation]", [bowl]), 1)
     search.run()
     assert sizes.count == 2197
     assert min(run.start.objective for run in search.found.values()) == pytest.approx(min(bowl.enumerated()))

@@ -13,12 +13,12 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
-from tvimdesign.solve.discrete.discrete_choices import listed_sizes
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.enumeration import account_for_all, enumerate_all
-from tvimdesign.solve.discrete.feasibility_screen import Screen
+from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.discrete.least_cost import LeastCost
-from tvimdesign.solve.discrete.relaxation import Tree
-from tvimdesign.solve.nlp.solution import Choosing, Solution, Work
+from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.nlp.solution import Choosing, Solution, SolverEffort
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, given
@@ -47,7 +47,7 @@ vary:
 require:
   spring_stiffness: ">= 5 N.m/rad"
   holding_torque: ">= 8 N.m"
-  peltier_temperature_reserve: ">= 0 K"
+  peltier_temperature_margin: ">= 0 K"
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 solver: {starts: 3, cells: 6, elements: 2}
 """
@@ -135,19 +135,19 @@ def test_a_proof_accounts_for_every_combination_and_finds_the_same(found: Soluti
 
 def test_what_arithmetic_alone_rules_out_is_told(found: Solution) -> None:
     chosen = _chosen(found)
-    told = tally_in_words(replace(chosen, work=replace(chosen.work, screened=3)))
-    assert "3 sets of sizes needed none, by arithmetic alone." in told
+    reported = tally_in_words(replace(chosen, work=replace(chosen.work, screened=3)))
+    assert "3 sets of sizes needed none, by arithmetic alone." in reported
     assert "arithmetic" not in tally_in_words(replace(chosen, work=replace(chosen.work, screened=0)))
 
 
 def test_no_combination_costs_less_than_its_bound(alone: dict[tuple[float, ...], float]) -> None:
     """And near the best the bounds are close: far more is ruled out by them than is solved."""
     study = listed()
-    tree = Tree(0, Optimizer(study, Catalog(), TABLE), {}, listed_sizes(study, TABLE), Work())
-    tree.starts()
-    least = LeastCost(tree)
+    relaxation = Relaxation(0, Optimizer(study, Catalog(), TABLE), {}, discrete_sizes(study, TABLE), SolverEffort())
+    relaxation.starts()
+    least = LeastCost(relaxation)
     least.find(math.inf)
-    bounds = {tuple(low for low, _ in tree.sizes.ends(box).values()): k for k, box in enumerate(least.boxes)}
+    bounds = {tuple(low for low, _ in relaxation.sizes.ends(box).values()): k for k, box in enumerate(least.boxes)}
     for sizes, objective in alone.items():
         (k,) = (k for one, k in bounds.items() if one == pytest.approx(sizes))
         assert least.bounds[k] <= objective * (1.0 + 1e-6)
@@ -159,13 +159,15 @@ def test_no_combination_costs_less_than_its_bound(alone: dict[tuple[float, ...],
 def test_solving_each_and_accounting_for_all_come_to_the_same(found: Solution) -> None:
     """Without a search before, and each combination solved against those that bounds leave."""
     study = listed(LISTED.replace("1.9 mm, to: 2.4 mm", "2 mm, to: 2.2 mm"))
-    tree = Tree(0, Optimizer(study, Catalog(), TABLE, found.reference), {}, listed_sizes(study, TABLE), Work())
-    tree.starts()
-    each, every = enumerate_all(tree), account_for_all(tree, 2, {})
+    relaxation = Relaxation(
+        0, Optimizer(study, Catalog(), TABLE, found.reference), {}, discrete_sizes(study, TABLE), SolverEffort()
+    )
+    relaxation.starts()
+    each, every = enumerate_all(relaxation), account_for_all(relaxation, 2, {})
     best = sorted(run.start.objective for run in each.values())[:2]
     assert sorted(run.start.objective for run in every.found.values())[:2] == pytest.approx(best, rel=1e-6)
     assert len(every.found) < len(each)
-    assert len(each) <= len(every.found) + every.bounded <= tree.sizes.count - every.broken
+    assert len(each) <= len(every.found) + every.bounded <= relaxation.sizes.count - every.broken
     assert every.below <= 1e-6
 
 
@@ -225,8 +227,8 @@ def test_records_and_sizes_are_chosen_together() -> None:
 def test_where_no_combination_has_a_design_that_is_said() -> None:
     none = _solve(listed(LISTED.replace('">= 5 N.m/rad"', '">= 5 N.m/rad"\n  response_time: "<= 2 s"')))
     assert none.status.startswith("infeasible")
-    assert none.quarrel
-    assert any("response_time" in side.text for side in none.quarrel.broken)
+    assert none.conflict_set
+    assert any("response_time" in side.text for side in none.conflict_set.broken)
     choosing = _chosen(none)
     assert not choosing.best
     assert choosing.without_design == choosing.combinations
@@ -235,7 +237,7 @@ def test_where_no_combination_has_a_design_that_is_said() -> None:
 def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:
     study = listed()
     optimizer = Optimizer(study, Catalog(), TABLE)
-    screen, begin = Screen(optimizer), optimizer.model.start
+    screen, begin = FeasibilityScreen(optimizer), optimizer.model.start
     thin, thick = {"wire_diameter": (1.5e-3, 1.6e-3)}, {"wire_diameter": (1.5e-3, 2.4e-3)}
     assert screen.impossible(thin, begin)
     assert not screen.impossible(thick, begin)
@@ -249,6 +251,6 @@ def test_more_combinations_than_can_be_searched_are_refused_with_what_to_do() ->
     text = LISTED.replace("{from: 3, to: 4, step: 0.5}", "{from: 3, to: 8, step: 0.03}").replace(
         "[12 mm, 30 mm]", "{from: 12 mm, to: 22 mm, step: 0.1 mm}"
     )
-    assert listed_sizes(listed(text), TABLE).count > 20_000
+    assert discrete_sizes(listed(text), TABLE).count > 20_000
     with pytest.raises(InputError, match="combinations of listed choices; the limit is 20000; narrow a list"):
         _solve(listed(text))

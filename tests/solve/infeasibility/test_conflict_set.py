@@ -10,9 +10,9 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
-from tvimdesign.solve.infeasibility.infeasibility_proof import contradiction, proved, ranges_of, refuse_contradiction
+from tvimdesign.solve.infeasibility.infeasibility_proof import infeasibility_proof, proved, ranges_of, refuse_infeasible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.result import Answer, answer
+from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, read_study_text
 
 TABLE = table_for("shear")
@@ -47,13 +47,13 @@ def _study(text: str) -> Study:
     return read_study_text(text, "test")
 
 
-def _answer(text: str) -> Answer:
+def _answer(text: str) -> StudyResult:
     return answer(_study(text), Catalog(), TABLE)
 
 
 def _refusal(text: str) -> str:
     with pytest.raises(InfeasibleError) as caught:
-        refuse_contradiction(_study(text), Catalog(), TABLE)
+        refuse_infeasible(_study(text), Catalog(), TABLE)
     return str(caught.value)
 
 
@@ -75,7 +75,7 @@ def test_what_is_fixed_and_would_move_a_limit_most_is_named_and_doing_so_helps()
     )
     assert "vary placement_radius (57 mm), which moves it more than all that is varied" in _refusal(text)
     freed = text.replace("30 mm]}", "30 mm], placement_radius: [45 mm, 57 mm]}")
-    refuse_contradiction(_study(freed), Catalog(), TABLE)
+    refuse_infeasible(_study(freed), Catalog(), TABLE)
     little = freed.replace("45 mm", "56 mm")  # nothing that is fixed moves it more now
     assert "moves it more" not in _refusal(little)
 
@@ -83,12 +83,12 @@ def test_what_is_fixed_and_would_move_a_limit_most_is_named_and_doing_so_helps()
 def test_what_a_design_keeps_is_never_refused() -> None:
     free = _answer(HEAVY.replace(', module_mass: "<= 60 g"', ""))
     just = 1e3 * free.design.values["module_mass"] * (1.0 + 1e-6)
-    refuse_contradiction(_study(HEAVY.replace("<= 60 g", f"<= {just:.9g} g")), Catalog(), TABLE)
+    refuse_infeasible(_study(HEAVY.replace("<= 60 g", f"<= {just:.9g} g")), Catalog(), TABLE)
 
 
 def test_limits_that_bounds_prove_apart_are_named_without_the_others() -> None:
     text = HEAVY.replace('"<= 60 g"', '"<= 400 g", spring_index: "<= 6", coil_pitch: "<= 2 mm"')
-    found = contradiction(ranges_of(_study(text), Catalog(), TABLE), boxes=200)
+    found = infeasibility_proof(ranges_of(_study(text), Catalog(), TABLE), boxes=200)
     assert found is not None
     assert {limit.name for limit in found.limits} == {"spring_index <=", "coil_pitch <="} or len(found.limits) == 1
 
@@ -107,7 +107,7 @@ def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> N
     assert "every listed structure_material" in _refusal(listed)
     light = ranges_of(_study(HEAVY.replace("<= 60 g", "<= 250 g")), Catalog(), TABLE)
     assert not proved(light, light.limits)
-    refuse_contradiction(_study(listed.replace("<= 60 g", "<= 250 g")), Catalog(), TABLE)
+    refuse_infeasible(_study(listed.replace("<= 60 g", "<= 250 g")), Catalog(), TABLE)
 
 
 @pytest.mark.slow
@@ -115,9 +115,9 @@ def test_the_smallest_set_holds_once_one_of_it_moves_as_far_as_told() -> None:
     found = _answer(STIFF)
     assert found.design.status.startswith("infeasible")
     assert found.solution is not None
-    quarrel = found.solution.quarrel
-    assert quarrel is not None
-    sides = {side.text.split(" ")[0]: side for side in quarrel.sides}
+    conflict_set = found.solution.conflict_set
+    assert conflict_set is not None
+    sides = {side.text.split(" ")[0]: side for side in conflict_set.sides}
     assert set(sides) == {"spring_stiffness", "spring_fatigue_safety"}
     place = sides["spring_stiffness"].move_to
     assert place is not None
@@ -130,12 +130,12 @@ def test_the_smallest_set_holds_once_one_of_it_moves_as_far_as_told() -> None:
 def test_the_design_that_breaks_least_breaks_what_is_told_by_as_much() -> None:
     found = _answer(STIFF)
     assert found.solution is not None
-    assert found.solution.quarrel is not None
+    assert found.solution.conflict_set is not None
     assert not found.found
     broken = {check.text: -check.margin for check in found.checks if not check.kept}
-    told = {side.text: side.by for side in found.solution.quarrel.broken}
-    assert set(broken) == set(told)
-    for text, by in told.items():
+    reported = {side.text: side.by for side in found.solution.conflict_set.broken}
+    assert set(broken) == set(reported)
+    for text, by in reported.items():
         assert broken[text] == pytest.approx(by, rel=1e-4)
 
 
@@ -143,11 +143,11 @@ def test_the_design_that_breaks_least_breaks_what_is_told_by_as_much() -> None:
 def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
     found = _answer(HURRIED)
     assert found.solution is not None
-    quarrel = found.solution.quarrel
-    assert quarrel is not None
-    sides = {side.text.split(" ")[0]: side for side in quarrel.sides}
+    conflict_set = found.solution.conflict_set
+    assert conflict_set is not None
+    sides = {side.text.split(" ")[0]: side for side in conflict_set.sides}
     assert set(sides) == {"response_time", "peak_power"}
-    assert not quarrel.proved
+    assert not conflict_set.proved
     for name, limit, factor in (("response_time", "<= 90 s", 1.01), ("peak_power", "<= 9 W", 1.01)):
         place = sides[name].move_to
         assert place is not None
@@ -159,6 +159,6 @@ def test_a_start_begun_again_from_a_design_that_keeps_all_limits_converges() -> 
     study = _study(STIFF.replace(">= 20 N.m/rad", ">= 8 N.m/rad"))
     optimizer = Optimizer(study, Catalog(), TABLE)
     run = optimizer.solve()
-    again = SecondTry(optimizer).from_peace(run)
+    again = SecondTry(optimizer).from_conflict_search(run)
     assert again.start.second_try
     assert again.start.objective == pytest.approx(run.start.objective, rel=1e-6)

@@ -12,7 +12,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.infeasibility.enclosure import Enclosure
 from tvimdesign.solve.infeasibility.infeasibility_proof import Ranges, ranges_of
-from tvimdesign.solve.nlp.constraints import on_switch
+from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.study import read_study
 
 STUDIES = ["paper_shear", pytest.param("wrist_compression", marks=pytest.mark.slow)]
@@ -28,7 +28,7 @@ def _ranges(name: str) -> Ranges:
 @cache
 def _enclosure(name: str) -> Enclosure:
     ranges = _ranges(name)
-    return ranges.enclosure([one for one in ranges.model.output_names if not on_switch(ranges.table, one)])
+    return ranges.enclosure([one for one in ranges.model.output_names if not on_cycle(ranges.table, one)])
 
 
 def _sub_boxes(ranges: Ranges, random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:

@@ -90,7 +90,7 @@ solver: {starts: 1}
     rows = [i for i, name in enumerate(found._rows) if not name.startswith(("envelope", "goal"))]
     found._jacobian[rows, :] = 0.0
     conditioning = found.conditioning()
-    assert {name for names in conditioning.traded for name in names} == {"placement_radius", "wall_thickness"}
+    assert {name for names in conditioning.objectives for name in names} == {"placement_radius", "wall_thickness"}
 
 
 def test_what_bounds_prove_to_hold_anywhere_is_told(inspection: Inspection) -> None:

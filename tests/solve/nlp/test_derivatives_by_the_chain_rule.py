@@ -12,7 +12,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.solve.nlp.derivatives import derivatives_of
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study_text
 
@@ -79,7 +79,7 @@ def test_derivatives_of_a_problem_are_those_of_the_whole(text: str) -> None:
     optimizer = Optimizer(study, Catalog(), table_for(study.mode))
     begin = optimizer.guess(optimizer.model.start)
     apart = 1e-3 * np.random.default_rng(2).normal(size=begin.size)
-    assert_same(optimizer._compiled, begin + apart, optimizer.parameters(Goal(study.minimize)))
+    assert_same(optimizer._compiled, begin + apart, optimizer.parameters(Objective(study.minimize)))
 
 
 def test_calls_may_need_calls_that_may_share_arguments_and_have_graphs_of_their_own() -> None:

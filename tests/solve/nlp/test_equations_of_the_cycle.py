@@ -14,9 +14,9 @@ from support import fine
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Switch
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.resolved_module import rig_for
+from tvimdesign.simulation.cycle import Cycle
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.resolved_module import resolve_study
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.transcription import guess
 from tvimdesign.study import read_study
@@ -36,7 +36,7 @@ class Solved:
     """By every input, from the implicit function theorem."""
 
 
-def solve(model: Model, switch: Switch, elements: int) -> Solved:
+def solve(model: DeviceFunctions, cycle: Cycle, elements: int) -> Solved:
     """Newton's method on the equations the optimiser hands to IPOPT, from the simulated cycle."""
     problem = Problem(model, (), (), ("stiffening_time", "hold_power"), elements)
     assert problem.events == ["response_time", "stiffening_time"]
@@ -45,7 +45,7 @@ def solve(model: Model, switch: Switch, elements: int) -> Solved:
     balance = problem.balances[0].unknowns
     wanted = ca.vertcat(
         problem.blocks[1].final_time,
-        model.stages["softening"].watch(["hold_power"])(balance[:-1], balance[-1], parameters[: len(model.names)]),
+        model.phases["softening"].watch(["hold_power"])(balance[:-1], balance[-1], parameters[: len(model.names)]),
         balance[-1],
     )
     system = ca.Function(
@@ -55,10 +55,10 @@ def solve(model: Model, switch: Switch, elements: int) -> Solved:
     )  # fmt: skip
     parts = []
     for block in problem.blocks:
-        name = block.stage.stage.name
-        states = guess(switch.trajectories[name], problem.elements(name))
-        parts += [states.ravel(order="F"), [np.log(switch.values[block.event])]]
-    found = np.concatenate([*parts, switch.balances["softening"]])
+        name = block.phase.phase.name
+        states = guess(cycle.trajectories[name], problem.elements(name))
+        parts += [states.ravel(order="F"), [np.log(cycle.values[block.event])]]
+    found = np.concatenate([*parts, cycle.balances["softening"]])
     given = np.append(model.start, [1.0, 1.0])
     for _ in range(30):
         rest, by_unknowns, *_ = system(found, given)
@@ -81,36 +81,36 @@ def _sparse(matrix: object) -> csc_matrix:
 
 @pytest.mark.parametrize("design", DESIGNS)
 def test_the_usual_elements_find_stiffening_time_and_hold_power_of_the_simulation(
-    design: str, build: Callable[..., Model], switch_of: Callable[[str], Switch]
+    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
 ) -> None:
-    switch = switch_of(design)
-    solved = solve(build(design), switch, 3)
-    assert solved.values["stiffening_time"] == pytest.approx(switch.values["stiffening_time"], rel=1e-3)
+    cycle = switch_of(design)
+    solved = solve(build(design), cycle, 3)
+    assert solved.values["stiffening_time"] == pytest.approx(cycle.values["stiffening_time"], rel=1e-3)
     for name in ("hold_power", "hold_current"):
-        assert solved.values[name] == pytest.approx(switch.values[name], rel=1e-8)
+        assert solved.values[name] == pytest.approx(cycle.values[name], rel=1e-8)
 
 
-def stencil(model: Model, name: str, share: float = 5e-3) -> Array:
+def stencil(model: DeviceFunctions, name: str, share: float = 5e-3) -> Array:
     """Derivatives of the wanted values by one input from simulations of changed designs; fourth order."""
     simulator, place = fine(model), model.index[name]
     step, found = share * (model.start[place] or 1e-3), []
     for times in (-2, -1, 1, 2):
         inputs = model.start.copy()
         inputs[place] += times * step
-        values = simulator.run(inputs, stages=["stiffening"]).values
+        values = simulator.run(inputs, phases=["stiffening"]).values
         found.append([values[row] for row in WANTED])
     far_below, below, above, far_above = np.array(found)
     return np.asarray((far_below - 8.0 * below + 8.0 * above - far_above) / (12.0 * step))
 
 
 @pytest.fixture(scope="module")
-def solved(build: Callable[..., Model], switch_of: Callable[[str], Switch]) -> Solved:
+def solved(build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]) -> Solved:
     return solve(build(), switch_of("as it is"), 12)
 
 
 @pytest.mark.parametrize("name", VARIABLES)
 def test_stiffening_and_holding_have_the_derivatives_that_simulations_show(
-    name: str, build: Callable[..., Model], solved: Solved
+    name: str, build: Callable[..., DeviceFunctions], solved: Solved
 ) -> None:
     model = build()
     size = model.start[model.index[name]]
@@ -123,7 +123,7 @@ def test_stiffening_and_holding_have_the_derivatives_that_simulations_show(
         assert exact * size == pytest.approx(shown * size, abs=1e-3 * scale), row
 
 
-def test_the_cycle_depends_on_what_one_expects_it_to(solved: Solved, build: Callable[..., Model]) -> None:
+def test_the_cycle_depends_on_what_one_expects_it_to(solved: Solved, build: Callable[..., DeviceFunctions]) -> None:
     by = {row: dict(zip(VARIABLES, (solved.gradients[row][build().index[name]] for name in VARIABLES), strict=True))
           for row in WANTED}  # fmt: skip
     assert by["hold_power"]["current"] == pytest.approx(0.0, abs=1e-9)  # how fast it got hot does not matter
@@ -136,8 +136,8 @@ def test_the_cycle_depends_on_what_one_expects_it_to(solved: Solved, build: Call
 def test_a_layer_whose_frozen_edge_runs_through_the_cells_has_elements_enough() -> None:
     """With as many as for softening, `wrist_joint` as it starts would be off by 0.4 %."""
     study = read_study(Path(__file__).parents[3] / "studies" / "wrist_joint.yaml")
-    rig = rig_for(study, Catalog(), table_for(study.mode))
-    model = Model(rig.table, rig.values, rig.points, study.solver.cells)
-    switch = fine(model).run(model.start)
-    found = solve(model, switch, study.solver.elements).values["stiffening_time"]
-    assert found == pytest.approx(switch.values["stiffening_time"], rel=1e-3)
+    resolved = resolve_study(study, Catalog(), table_for(study.mode))
+    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, study.solver.cells)
+    cycle = fine(model).run(model.start)
+    found = solve(model, cycle, study.solver.elements).values["stiffening_time"]
+    assert found == pytest.approx(cycle.values["stiffening_time"], rel=1e-3)

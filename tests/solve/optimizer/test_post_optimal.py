@@ -7,9 +7,9 @@ from support import ROOT
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.nlp.solution import Held
+from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.verify_optimum import account
+from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Range, Study, read_study, read_study_text
 
@@ -48,13 +48,13 @@ def _optimum(study: Study) -> dict[str, float]:
     return optimizer.derivatives(run).values
 
 
-def _held(study: Study) -> tuple[Held, ...]:
+def _active(study: Study) -> tuple[ActiveConstraint, ...]:
     optimizer = Optimizer(study, Catalog(), TABLE)
     run = optimizer.solve()
-    return account(optimizer, run, (run.start,), {}).held
+    return verify_optimum(optimizer, run, (run.start,), {}).held
 
 
-def _moved(study: Study, held: Held, share: float) -> Study:
+def _moved(study: Study, held: ActiveConstraint, share: float) -> Study:
     """The study with one limit eased by a share of its size."""
     output, sense = held.name.split(" ")
     factor = 1.0 + share if sense == "<=" else 1.0 - share
@@ -72,12 +72,12 @@ def _moved(study: Study, held: Held, share: float) -> Study:
 def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
     study = read_study_text(text, "a test")
     at_optimum = _optimum(study)
-    binding = [held for held in _held(study) if held.price > 1e-3 and held.origin in ("require", "vary")]
+    binding = [held for held in _active(study) if held.shadow_price > 1e-3 and held.origin in ("require", "vary")]
     assert len(binding) >= 4
     assert {held.origin for held in binding} == {"require", "vary"}
     for held in binding:
         eased, tightened = (_optimum(_moved(study, held, share)) for share in (STEP, -STEP))
-        for name, saving in held.savings.items():
+        for name, saving in held.sensitivity.items():
             shown = (tightened[name] - eased[name]) / (2.0 * STEP * at_optimum[name])
             assert saving == pytest.approx(shown, rel=1e-3, abs=2e-4), (held.text, name)
 
@@ -96,34 +96,34 @@ def test_savings_add_up_to_the_price_in_the_objective(name: str) -> None:
     study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 1})})
     solution = optimize(study, Catalog(), table_for(study.mode))
     weights = {n: w * solution.values[n] / solution.reference[n] for n, w in study.minimize.items()}
-    priced = [held for held in solution.held if held.price > 1e-3 and held.savings]
+    priced = [held for held in solution.held if held.shadow_price > 1e-3 and held.sensitivity]
     assert len(priced) >= 5
     for held in priced:
-        total = sum(weights[n] * saving for n, saving in held.savings.items()) / solution.objective
-        assert total == pytest.approx(held.price, rel=1e-3, abs=1e-5), held.text
+        total = sum(weights[n] * saving for n, saving in held.sensitivity.items()) / solution.objective
+        assert total == pytest.approx(held.shadow_price, rel=1e-3, abs=1e-5), held.text
 
 
 def test_a_limit_with_room_saves_nothing() -> None:
-    slack = [held for held in _held(_study()) if held.residual < -0.01]
+    slack = [held for held in _active(_study()) if held.residual < -0.01]
     assert len(slack) >= 5
-    assert all(saving == 0.0 for held in slack for saving in held.savings.values())
+    assert all(saving == 0.0 for held in slack for saving in held.sensitivity.values())
 
 
 def test_a_variable_nothing_depends_on_hides_no_saving() -> None:
     study = _study()
     idle = study.model_copy(update={"vary": {**study.vary, "cooling_current": Range(lower=0.5, upper=2.0)}})
-    savings = {held.name: held.savings for held in _held(study)}
-    for held in _held(idle):
-        if held.price > 1e-3:
-            assert held.savings == pytest.approx(savings[held.name], rel=1e-4, abs=1e-6), held.text
+    sensitivity = {held.name: held.sensitivity for held in _active(study)}
+    for held in _active(idle):
+        if held.shadow_price > 1e-3:
+            assert held.sensitivity == pytest.approx(sensitivity[held.name], rel=1e-4, abs=1e-6), held.text
 
 
 def test_of_a_limit_that_is_written_twice_no_saving_is_claimed() -> None:
     study = _study()
     twice = study.model_copy(update={"require": (*study.require, study.require[0])})
-    alone = {held.name: held.savings for held in _held(study)}
-    for held in _held(twice):
+    alone = {held.name: held.sensitivity for held in _active(study)}
+    for held in _active(twice):
         if held.name == "spring_stiffness >=":
-            assert held.savings == {}
-        elif held.price > 1e-3:
-            assert held.savings == pytest.approx(alone[held.name], rel=1e-4, abs=1e-6), held.text
+            assert held.sensitivity == {}
+        elif held.shadow_price > 1e-3:
+            assert held.sensitivity == pytest.approx(alone[held.name], rel=1e-4, abs=1e-6), held.text

@@ -13,7 +13,7 @@ from comparable import COMPRESSION, SHEAR
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -29,13 +29,13 @@ TIME, MASS, SIZE = "response_time", "module_mass", "envelope_volume"
 class Solved:
     """A study's optimum with what found it, to be traded again and again."""
 
-    def __init__(self, text: str, traded: tuple[str, ...] = (TIME, MASS, SIZE)) -> None:
+    def __init__(self, text: str, objectives: tuple[str, ...] = (TIME, MASS, SIZE)) -> None:
         """Optimise it, able to trade some of its outputs."""
         self.study = read_study_text(text, "test")
         self.built: list[tuple[Optimizer, list[Run]]] = []
         self.solution: Solution = optimize(
             self.study, Catalog(), table_for(self.study.mode), keep=lambda *kept: self.built.append(kept),
-            traded=traded,
+            objectives=objectives,
         )  # fmt: skip
         assert self.solution.status == "optimal"
 
@@ -179,12 +179,12 @@ class Notes:
         self.known: dict[int, Point | Failure] = {}
         self.recalled = 0
 
-    def recall(self, number: int, _: Goal) -> Point | Failure | None:
+    def recall(self, number: int, _: Objective) -> Point | Failure | None:
         """What is known."""
         self.recalled += number in self.known
         return self.known.get(number)
 
-    def keep(self, number: int, _: Goal, found: Point | Failure) -> None:
+    def keep(self, number: int, _: Objective, found: Point | Failure) -> None:
         """Note it."""
         self.known[number] = found
 
@@ -202,7 +202,7 @@ def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved) -
 def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> None:
     solve = Optimizer.solve
 
-    def lost_between(self: Optimizer, *args: Any, goal: Goal, **more: Any) -> Run:
+    def lost_between(self: Optimizer, *args: Any, goal: Objective, **more: Any) -> Run:
         run = solve(self, *args, goal=goal, **more)
         if goal.bounds:
             run.start = replace(run.start, converged=False, status="Restoration_Failed")

@@ -9,7 +9,7 @@ import pytest
 
 from tvimdesign.report.paper.paper_check import published_model
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, _root, level_set
 
 WANTED = 70.0
@@ -17,16 +17,16 @@ THICKNESSES = [0.2e-3, 0.6e-3, 2e-3]
 
 
 @pytest.fixture(scope="module")
-def model() -> Model:
+def model() -> DeviceFunctions:
     return published_model()
 
 
 @pytest.fixture(scope="module")
-def found(model: Model) -> LevelSet:
+def found(model: DeviceFunctions) -> LevelSet:
     return level_set(model, "current", [1.4, 1.75, 2.2], THICKNESSES, WANTED)
 
 
-def test_a_point_on_a_line_takes_the_time_when_it_is_simulated(model: Model, found: LevelSet) -> None:
+def test_a_point_on_a_line_takes_the_time_when_it_is_simulated(model: DeviceFunctions, found: LevelSet) -> None:
     points = 0
     for place in PLACES:
         for current, thickness in zip(found.values, found.line[place], strict=True):

@@ -13,10 +13,16 @@ from tvimdesign.base.errors import SimulationError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.current_profile import Drive
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.resolved_module import Rig, rig_for
-from tvimdesign.solve.sensitivity.output_sensitivity import FINER, Elasticities, _solved, elasticities, entries
+from tvimdesign.simulation.current_profile import CurrentProfile
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.solve.sensitivity.output_sensitivity import (
+    FINER,
+    OutputSensitivities,
+    _solved,
+    entries,
+    output_sensitivities,
+)
 from tvimdesign.study import read_study, read_study_text
 
 CELLS, ELEMENTS = 12, 12
@@ -25,32 +31,32 @@ OF_CYCLE = (
     "switch_energy", "peak_power", "peak_voltage", "stiffening_energy", "hold_power",
 )  # fmt: skip
 OF_GEOMETRY = ("spring_stiffness", "layer_strain", "pcl_area", "module_mass", "envelope_volume", "joint_stiffness@cold")
-TEMPERATURES = ("peak_peltier_temperature", "peltier_temperature_reserve")
+TEMPERATURES = ("peak_peltier_temperature", "peltier_temperature_margin")
 STEP = 4e-3
 
 
-def _rig(text: str = "mode: shear\n") -> Rig:
+def _rig(text: str = "mode: shear\n") -> ResolvedModule:
     study = read_study_text(text, "a test")
-    return rig_for(study, Catalog(), table_for(study.mode))
+    return resolve_study(study, Catalog(), table_for(study.mode))
 
 
 @pytest.fixture(scope="module")
-def rig() -> Rig:
+def resolved() -> ResolvedModule:
     return _rig("mode: shear\nmodule: {transmission: unity, current: 2 A}\n")
 
 
 @pytest.fixture(scope="module")
-def found(rig: Rig) -> Elasticities:
-    return elasticities(rig, ELEMENTS, CELLS, [*OF_CYCLE, *OF_GEOMETRY, *TEMPERATURES])
+def found(resolved: ResolvedModule) -> OutputSensitivities:
+    return output_sensitivities(resolved, ELEMENTS, CELLS, [*OF_CYCLE, *OF_GEOMETRY, *TEMPERATURES])
 
 
-def _logarithmic(found: Elasticities, rig: Rig) -> dict[tuple[str, str], float | None]:
-    return {(one.output, one.variable): one.logarithmic for one in entries(found, rig)}
+def _logarithmic(found: OutputSensitivities, resolved: ResolvedModule) -> dict[tuple[str, str], float | None]:
+    return {(one.output, one.variable): one.logarithmic for one in entries(found, resolved)}
 
 
-def _simulated(rig: Rig, cells: int, name: str, wanted: Sequence[str]) -> dict[str, float]:
+def _simulated(resolved: ResolvedModule, cells: int, name: str, wanted: Sequence[str]) -> dict[str, float]:
     """Exponents of outputs by an input, from two simulations of changed designs."""
-    model = Model(rig.table, rig.values, rig.points, cells)
+    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, cells)
     simulator, ends = fine(model), []
     for factor in (1.0 - STEP, 1.0 + STEP):
         inputs = model.start.copy()
@@ -60,13 +66,13 @@ def _simulated(rig: Rig, cells: int, name: str, wanted: Sequence[str]) -> dict[s
     return {one: float(np.log(above[one] / below[one]) / np.log((1.0 + STEP) / (1.0 - STEP))) for one in wanted}
 
 
-def test_powers_of_textbook_formulae_come_back(found: Elasticities, rig: Rig) -> None:
-    by = _logarithmic(found, rig)
+def test_powers_of_textbook_formulae_come_back(found: OutputSensitivities, resolved: ResolvedModule) -> None:
+    by = _logarithmic(found, resolved)
     assert by["spring_stiffness", "wire_diameter"] == pytest.approx(4.0, abs=0.01)  # E d^4 / (64 D n)
     assert by["layer_strain", "pcl_thickness"] == pytest.approx(-1.0, rel=1e-12)  # r theta / t
     assert by["layer_strain", "pcl_outer_radius"] == pytest.approx(1.0, rel=1e-12)
     assert by["pcl_area", "arc_span"] == pytest.approx(1.0, rel=1e-12)
-    outer, inner = rig.values["pcl_outer_radius"], rig.values["pcl_inner_radius"]
+    outer, inner = resolved.values["pcl_outer_radius"], resolved.values["pcl_inner_radius"]
     assert by["pcl_area", "pcl_outer_radius"] == pytest.approx(2.0 * outer**2 / (outer**2 - inner**2), rel=1e-12)
     assert by["module_mass", "current"] == 0.0
     assert by["response_time", "cooling_current"] == pytest.approx(0.0, abs=1e-12)
@@ -74,19 +80,19 @@ def test_powers_of_textbook_formulae_come_back(found: Elasticities, rig: Rig) ->
 
 @pytest.mark.parametrize("name", ["pcl_thickness", "pcl_outer_radius", "current", "cooling_current", "core_radius"])
 def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(
-    name: str, found: Elasticities, rig: Rig
+    name: str, found: OutputSensitivities, resolved: ResolvedModule
 ) -> None:
-    by, shown = _logarithmic(found, rig), _simulated(rig, CELLS, name, OF_CYCLE)
+    by, shown = _logarithmic(found, resolved), _simulated(resolved, CELLS, name, OF_CYCLE)
     for output in OF_CYCLE:
         assert by[output, name] == pytest.approx(shown[output], rel=3e-3, abs=3e-3), output
 
 
-def test_a_temperature_has_a_derivative_and_no_logarithm(found: Elasticities, rig: Rig) -> None:
-    records = {(one.output, one.variable): one for one in entries(found, rig)}
+def test_a_temperature_has_a_derivative_and_no_logarithm(found: OutputSensitivities, resolved: ResolvedModule) -> None:
+    records = {(one.output, one.variable): one for one in entries(found, resolved)}
     peak = records["peak_peltier_temperature", "current"]
     assert peak.logarithmic is None
     assert peak.derivative > 0.0
-    reserve = records["peltier_temperature_reserve", "current"]
+    reserve = records["peltier_temperature_margin", "current"]
     assert reserve.logarithmic is None
     assert reserve.derivative == pytest.approx(-peak.derivative, rel=1e-9)
     assert reserve.per_hundredth == pytest.approx(0.02 * reserve.derivative, rel=1e-12)  # 1 % of 2 A
@@ -94,24 +100,28 @@ def test_a_temperature_has_a_derivative_and_no_logarithm(found: Elasticities, ri
 
 def test_what_never_happens_is_left_out_by_name() -> None:
     weak = _rig("mode: shear\nmodule: {current: 0.2 A}\n")
-    found = elasticities(weak, 3, CELLS, ["response_time", "cycle_time", "module_mass"])
+    found = output_sensitivities(weak, 3, CELLS, ["response_time", "cycle_time", "module_mass"])
     assert found.outputs == ("module_mass",)
     assert found.left_out == ("response_time", "cycle_time")
     assert np.all(np.isfinite(found.derivatives))
 
 
-def test_what_hangs_on_a_profile_is_left_out_by_name(rig: Rig) -> None:
+def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -> None:
     """A profile divides the time its stage takes, so the current is no one number there."""
-    driven = Rig(rig.study, rig.catalog, rig.table, rig.values, {"stiffening": Drive.constant(-0.5)})
-    found = elasticities(driven, 3, CELLS, ["response_time", "stiffening_time", "module_mass"])
+    driven = ResolvedModule(
+        resolved.study, resolved.catalog, resolved.table, resolved.values, {"stiffening": CurrentProfile.constant(-0.5)}
+    )
+    found = output_sensitivities(driven, 3, CELLS, ["response_time", "stiffening_time", "module_mass"])
     assert found.left_out == ("stiffening_time",)
     assert "cooling_current" not in found.variables
     assert "current" in found.variables
 
 
 def test_the_compression_module_is_differentiated_alike() -> None:
-    found = elasticities(rig := _rig("mode: compression\n"), 3, CELLS, ["response_time", "module_mass", "block_strain"])
-    by = _logarithmic(found, rig)
+    found = output_sensitivities(
+        resolved := _rig("mode: compression\n"), 3, CELLS, ["response_time", "module_mass", "block_strain"]
+    )
+    by = _logarithmic(found, resolved)
     assert by["block_strain", "block_depth"] == pytest.approx(-1.0, rel=1e-9)
     assert 0.0 < (by["response_time", "block_depth"] or 0.0) < 2.0
 
@@ -120,10 +130,10 @@ def test_the_compression_module_is_differentiated_alike() -> None:
 def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -> None:
     """Newton's whole steps do not converge there; shorter ones do."""
     study = read_study(Path(__file__).parents[3] / "studies" / "wrist_compression.yaml")
-    rig = rig_for(study, Catalog(), table_for(study.mode))
+    resolved = resolve_study(study, Catalog(), table_for(study.mode))
     elements, cells = FINER * study.solver.elements, study.solver.cells
-    by = _logarithmic(elasticities(rig, elements, cells, ["frozen_time"], [name]), rig)
-    shown = _simulated(rig, cells, name, ["frozen_time"])
+    by = _logarithmic(output_sensitivities(resolved, elements, cells, ["frozen_time"], [name]), resolved)
+    shown = _simulated(resolved, cells, name, ["frozen_time"])
     assert by["frozen_time", name] == pytest.approx(shown["frozen_time"], rel=3e-2)
 
 

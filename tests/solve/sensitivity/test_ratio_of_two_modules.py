@@ -22,12 +22,12 @@ def pair() -> Pair:
 def test_elasticities_are_those_of_the_implicit_function_theorem(pair: Pair) -> None:
     exact = []
     for model, simulator in zip(pair.models, pair._simulators, strict=True):
-        switch = simulator.run(model.start, stages=["softening"])
-        time, gradient = event_gradient(model, switch, EVENT)
-        assert time == pytest.approx(switch.values[EVENT], rel=5e-4)
+        cycle = simulator.run(model.start, phases=["softening"])
+        time, gradient = event_gradient(model, cycle, EVENT)
+        assert time == pytest.approx(cycle.values[EVENT], rel=5e-4)
         exact.append({name: gradient[i] * model.start[i] / time for name, i in model.index.items()})
     for name in paper_case.ranges():
-        shown = pair.elasticities(EVENT, name)
+        shown = pair.output_sensitivities(EVENT, name)
         for of_one, difference in zip(exact, shown, strict=True):
             # To 1e-3; to half a percent of itself where it is large, as by a temperature in kelvin.
             assert difference == pytest.approx(of_one.get(name, 0.0), rel=5e-3, abs=1e-3), name
@@ -45,7 +45,7 @@ def test_an_input_that_only_one_module_has_moves_that_one_alone(pair: Pair) -> N
 
 def test_an_input_that_both_have_moves_both(pair: Pair) -> None:
     assert np.all(pair.times(EVENT, {"peltier_resistance": 4.0}) > pair.times(EVENT))
-    assert np.all(pair.elasticities(EVENT, "peltier_resistance") < -0.5)
+    assert np.all(pair.output_sensitivities(EVENT, "peltier_resistance") < -0.5)
 
 
 def test_an_input_in_which_the_two_differ_cannot_move(pair: Pair) -> None:

@@ -13,12 +13,12 @@ from tvimdesign.device import table_for
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.summary import _robustness
-from tvimdesign.simulation.resolved_module import rig_of_design
+from tvimdesign.simulation.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, trace_front
 from tvimdesign.solve.pareto.tradeoff import Tradeoff
-from tvimdesign.solve.result import Answer, answer
+from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.uncertainty.tolerance import Spread, Tolerancing
 from tvimdesign.solve.uncertainty.yields import yields_of
@@ -44,12 +44,12 @@ solver: {starts: 1, cells: 12, elements: 3}
 """
 
 
-def _solved(text: str) -> tuple[Answer, Spread]:
+def _solved(text: str) -> tuple[StudyResult, Spread]:
     study = read_study_text(text, "a test")
     catalog, table = Catalog(), table_for(study.mode)
     found = answer(study, catalog, table)
     assert found.design.status == "optimal"
-    analysis = Tolerancing(rig_of_design(found.design, catalog, table), lambda _: None)
+    analysis = Tolerancing(resolve_design(found.design, catalog, table), lambda _: None)
     return found, analysis.analyse(1 << 14, 1)
 
 
@@ -86,21 +86,21 @@ def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
     assert reached is not None
     assert reached.shares["spring_stiffness >="] == pytest.approx(0.99, abs=2e-3)
     assert reached.together <= min(reached.shares.values())
-    (told,) = _robustness(asked)
-    assert "keep the worst of them (spring_stiffness >=)" in told
+    (reported,) = _robustness(asked)
+    assert "keep the worst of them (spring_stiffness >=)" in reported
 
 
 @pytest.mark.slow
 def test_every_point_of_a_front_keeps_limits_on_times_by_as_much_as_the_optimum_does() -> None:
     study = read_study_text(f"{TIMED}robust: {{sigma: 1.5}}\n", "a test")
-    traded = ("peak_power", "response_time")
+    objectives = ("peak_power", "response_time")
     # Its optimum is far from the limit on the time, where the time spreads less: that margin is too small for others.
     study = study.model_copy(update={"minimize": {"peak_power": 1.0, "response_time": 10.0}})
     built: list[tuple[Optimizer, list[Run]]] = []
     solution = optimize(
-        study, Catalog(), table_for("shear"), keep=lambda *kept: built.append(kept), traded=traded
+        study, Catalog(), table_for("shear"), keep=lambda *kept: built.append(kept), objectives=objectives
     )  # fmt: skip
-    front = trace_front(Tradeoff(study, solution, *built[0]), traded, 3)
+    front = trace_front(Tradeoff(study, solution, *built[0]), objectives, 3)
     assert len(front.points) == 3
     optimizer, asked = built[0][0], NormalDist().cdf(1.5)
     shares = [drawn.shares for drawn in map(yields_of(optimizer).at, _inputs(optimizer, front))]

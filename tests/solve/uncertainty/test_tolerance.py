@@ -12,9 +12,9 @@ import pytest
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.resolved_module import Rig, rig_for
-from tvimdesign.solve.batch.batch_model import ManyModules
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp.moments import moments
 from tvimdesign.solve.uncertainty.contributors import contributors_of
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
@@ -25,13 +25,13 @@ OUTPUTS = ["spring_stiffness", "spring_static_safety", "pcl_stiffness@hot", "mod
 
 
 @pytest.fixture(scope="module")
-def rig() -> Callable[[str], Rig]:
+def resolved() -> Callable[[str], ResolvedModule]:
     """A shear module with what is written under its mode."""
 
     @cache
-    def make(text: str) -> Rig:
+    def make(text: str) -> ResolvedModule:
         table = table_for("shear")
-        return rig_for(read_study_text(f"mode: shear\n{text}", "a test"), Catalog(), table)
+        return resolve_study(read_study_text(f"mode: shear\n{text}", "a test"), Catalog(), table)
 
     return make
 
@@ -40,9 +40,11 @@ def _silent(_: str) -> None:
     pass
 
 
-def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(rig: Callable[[str], Rig]) -> None:
+def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(
+    resolved: Callable[[str], ResolvedModule],
+) -> None:
     spread = "tolerances: {preload_angle: {row: free_angle_tolerance, adjusted_to: 1 deg}}"
-    module = rig(f"{spread}\nrequire: {{preload_reserve: '>= 0 rad'}}\n")
+    module = resolved(f"{spread}\nrequire: {{preload_margin: '>= 0 rad'}}\n")
     angle = next(one for one in contributors_of(module) if one.name == "preload_angle")
     assert np.degrees(angle.plus_minus) == pytest.approx(18.7, abs=0.05)  # +-18.7 deg of grade 2 against +-5.96 deg
     preload = Tolerancing(module, _silent).preload(1 << 12, 1)
@@ -54,7 +56,7 @@ def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(rig: Call
     assert preload.yield_adjusted.share == 1.0
 
 
-def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(rig: Callable[[str], Rig]) -> None:
+def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(resolved: Callable[[str], ResolvedModule]) -> None:
     text = "tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: %s, adjusted_to: 2 deg}}\n"
     for said, adjusted, expected in (
         ("true", None, 2.0),
@@ -62,12 +64,12 @@ def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(rig: Callable[[str],
         ("false", True, 2.0),
         ("true", False, 5.0),
     ):
-        (one,) = contributors_of(rig(text % said), adjusted)
+        (one,) = contributors_of(resolved(text % said), adjusted)
         assert np.degrees(one.plus_minus) == pytest.approx(expected)
-    assert contributors_of(rig("tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: true}}\n")) == []
+    assert contributors_of(resolved("tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: true}}\n")) == []
 
 
-def _differences(module: Rig, output: str) -> tuple[float, float]:
+def _differences(module: ResolvedModule, output: str) -> tuple[float, float]:
     """Shift of the mean and standard deviation, by differences of the table's own floats."""
     shift = variance = 0.0
     for one in contributors_of(module):
@@ -82,9 +84,9 @@ def _differences(module: Rig, output: str) -> tuple[float, float]:
     return shift, float(np.sqrt(variance))
 
 
-def test_the_moments_are_those_of_differences_of_the_table(rig: Callable[[str], Rig]) -> None:
-    module = rig(f"tolerances:\n{SPRINGS}  pcl_thickness: {{plus_minus: 0.2 mm, distribution: uniform}}\n")
-    model = Model(module.table, module.values, module.points, 4)
+def test_the_moments_are_those_of_differences_of_the_table(resolved: Callable[[str], ResolvedModule]) -> None:
+    module = resolved(f"tolerances:\n{SPRINGS}  pcl_thickness: {{plus_minus: 0.2 mm, distribution: uniform}}\n")
+    model = DeviceFunctions(module.table, module.values, module.points, 4)
     function = moments(model, module.study.tolerances, OUTPUTS, [1.0] * len(OUTPUTS))
     shifts, deviations = (np.asarray(part).ravel() for part in function(model.start))
     for output, shift, deviation in zip(OUTPUTS, shifts, deviations, strict=True):
@@ -92,10 +94,10 @@ def test_the_moments_are_those_of_differences_of_the_table(rig: Callable[[str], 
         assert (shift, deviation) == (pytest.approx(expected[0], rel=0.02), pytest.approx(expected[1], rel=0.01))
 
 
-def test_many_modules_are_what_each_is_by_itself(rig: Callable[[str], Rig]) -> None:
-    module = rig(f"tolerances:\n{SPRINGS}")
+def test_many_modules_are_what_each_is_by_itself(resolved: Callable[[str], ResolvedModule]) -> None:
+    module = resolved(f"tolerances:\n{SPRINGS}")
     names = ["wire_diameter", "coil_diameter"]
-    many = ManyModules(module, names, OUTPUTS)
+    many = BatchModel(module, names, OUTPUTS)
     columns = np.array([[module.values[name] * factor for factor in (0.99, 1.0, 1.02)] for name in names])
     found = many(columns)
     for i in range(3):
@@ -104,12 +106,12 @@ def test_many_modules_are_what_each_is_by_itself(rig: Callable[[str], Rig]) -> N
         assert found[:, i] == pytest.approx([expected[name] for name in OUTPUTS], rel=1e-12)
 
 
-def test_one_input_gives_a_yield_that_can_be_worked_out(rig: Callable[[str], Rig]) -> None:
+def test_one_input_gives_a_yield_that_can_be_worked_out(resolved: Callable[[str], ResolvedModule]) -> None:
     # Mass is linear in the density of the springs, so the yield is the normal distribution's.
-    module = rig("tolerances: {spring_density: 9 %}\nrequire: {springs_mass: '<= 1 kg'}\n")
-    mass = float(module.row("springs_mass"))
+    module = resolved("tolerances: {spring_density: 9 %}\nrequire: {springs_mass: '<= 1 kg'}\n")
+    mass = float(module.quantity("springs_mass"))
     text = f"tolerances: {{spring_density: 9 %}}\nrequire: {{springs_mass: '<= {1.03 * mass:.17g} kg'}}\n"
-    found = Tolerancing(rig(text), _silent).analyse(1 << 14, 1)
+    found = Tolerancing(resolved(text), _silent).analyse(1 << 14, 1)
     (kept,) = [one for one in found.kept if one.limit.output == "springs_mass"]
     assert kept.share.share == pytest.approx(0.841345, abs=5e-4)  # one standard deviation
     assert kept.capability == pytest.approx(1.0 / 3.0, rel=1e-3)
@@ -119,8 +121,8 @@ def test_one_input_gives_a_yield_that_can_be_worked_out(rig: Callable[[str], Rig
     assert found.total[i, 0] == pytest.approx(1.0, abs=0.02)
 
 
-def test_the_same_bits_for_any_number_of_workers(rig: Callable[[str], Rig]) -> None:
-    module = rig("tolerances: {current: 1 %, wire_diameter: 0.02 mm}\nrequire: {response_time: '<= 200 s'}\n")
+def test_the_same_bits_for_any_number_of_workers(resolved: Callable[[str], ResolvedModule]) -> None:
+    module = resolved("tolerances: {current: 1 %, wire_diameter: 0.02 mm}\nrequire: {response_time: '<= 200 s'}\n")
     analysis = Tolerancing(module, _silent)
     alone = analysis.analyse(1 << 11, 7)
     analysis.workers = 2
@@ -131,9 +133,9 @@ def test_the_same_bits_for_any_number_of_workers(rig: Callable[[str], Rig]) -> N
     assert alone.together == shared.together
 
 
-def test_where_nothing_spreads_that_is_said(rig: Callable[[str], Rig]) -> None:
+def test_where_nothing_spreads_that_is_said(resolved: Callable[[str], ResolvedModule]) -> None:
     with pytest.raises(InputError, match="nothing spreads; give `tolerances: standard`"):
-        Tolerancing(rig("tolerances: {current: 0 A}\n"), _silent)
+        Tolerancing(resolved("tolerances: {current: 0 A}\n"), _silent)
     text = "tolerances: {structure_service_temperature: 5 K}\nrequire: {spring_stiffness: '>= 1 N.m/rad'}\n"
     with pytest.raises(InputError, match="depends on structure_service_temperature; give tolerances of other inputs"):
-        Tolerancing(rig(text), _silent)
+        Tolerancing(resolved(text), _silent)

@@ -94,7 +94,7 @@ def test_forms(read: Read, name: str, form: str, expected: Vary) -> None:
         (
             "wire_diameter",
             "{catalog: metrik}",
-            "no such record on the shelf wires: 'metrik'; expected one of metric, qu",
+            "no such record in the category wires: 'metrik'; expected one of metric, qu",
         ),
         ("wire_diameter", "{catalog: [metric]}", "vary.wire_diameter.catalog: a list does not fit here"),
         (
@@ -123,7 +123,7 @@ def test_forms(read: Read, name: str, form: str, expected: Vary) -> None:
         ("wire_diameter", "{from: 1 mm, to: 2 mm, step: 0.1}", "vary.wire_diameter.step: '0.1': say the unit"),
         ("arc_count", "{choose: [3.5]}", "vary.arc_count.choose[0]: '3.5' is not a whole number"),
         ("peltier", "[qc_17]", "a list does not fit here; expected a list of names {choose: [...]}"),
-        ("peltier", "{choose: [qc_71]}", "vary.peltier.choose[0]: no such record on the shelf peltiers: 'qc_71'"),
+        ("peltier", "{choose: [qc_71]}", "vary.peltier.choose[0]: no such record in the category peltiers: 'qc_71'"),
         ("peltier", "{from: 1, to: 2}", "expected a list of names"),
         (
             "placement_radius",

@@ -13,7 +13,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.physics import slices
-from tvimdesign.simulation.resolved_module import rig_for
+from tvimdesign.simulation.resolved_module import resolve_study
 from tvimdesign.study import read_study_text
 from tvimdesign.virtual_tests.joint_tests.load_through_cycle import (
     Carried,
@@ -32,7 +32,7 @@ SOLID = np.array([(1e10, 2.0e5), (10.0, 2e4), (0.1, 2e4)])
 MELT = np.array([(2e-2, 150.0), (2e-3, 250.0), (2e-4, 600.0)])
 
 
-def switch(front: Array, count: int, end: float, samples: int = 161) -> tuple[Array, Callable[[float], Array]]:
+def cycle(front: Array, count: int, end: float, samples: int = 161) -> tuple[Array, Callable[[float], Array]]:
     """Logarithms of relaxation times and stiffnesses of slices that melt one after the other and freeze again.
 
     Returns them at samples, and as a smooth function of time: (what, mode, slice).
@@ -82,7 +82,7 @@ def with_inertia(at: Callable[[float], Array], count: int, times: Array) -> Arra
 
 @pytest.fixture(scope="module")
 def there_and_back() -> tuple[Carried, Callable[[float], Array]]:
-    logarithms, at = switch(np.array([4.0, 18.0]), 2, 40.0, 401)
+    logarithms, at = cycle(np.array([4.0, 18.0]), 2, 40.0, 401)
     times = np.linspace(0.0, 40.0, 401)
     return carry(Changing(logarithms, times), SUPPORT, LOAD, times), at
 
@@ -120,7 +120,7 @@ def test_every_slice_carries_what_the_springs_leave(
 @settings(max_examples=12, deadline=None)
 @given(st.floats(2.0, 20.0), st.floats(2.0, 20.0), st.integers(1, 4))
 def test_melting_and_freezing_under_load_only_lose_energy(start: float, wait: float, count: int) -> None:
-    logarithms, _ = switch(np.array([start, start + wait]), count, 50.0)
+    logarithms, _ = cycle(np.array([start, start + wait]), count, 50.0)
     carried = carry(Changing(logarithms, np.linspace(0.0, 50.0, 161)), SUPPORT, LOAD, np.linspace(0.0, 50.0, 161))
     potential = carried.energy - LOAD * carried.angle
     assert np.max(np.diff(potential)) <= 1e-6 * LOAD * 0.104
@@ -148,21 +148,21 @@ def test_freezing_under_load_leaves_a_layer_that_does_not_relax_as_it_is() -> No
 
 
 def test_module_heated_under_load_lets_go_before_the_switch_ends_and_freezes_where_it_is() -> None:
-    rig = rig_for(read_study_text("mode: shear\n", "a test"), Catalog(), table_for("shear"))
-    history = slice_histories(rig)
-    assert history.temperatures.shape == (rig.study.solver.cells, len(history.times))
-    assert history.temperatures[:, 0] == pytest.approx(rig.row("ambient_temperature"), abs=0.01)
+    resolved = resolve_study(read_study_text("mode: shear\n", "a test"), Catalog(), table_for("shear"))
+    history = slice_histories(resolved)
+    assert history.temperatures.shape == (resolved.study.solver.cells, len(history.times))
+    assert history.temperatures[:, 0] == pytest.approx(resolved.quantity("ambient_temperature"), abs=0.01)
     # Heating ends as the far face reaches the target, half a slice beyond the middle of the last.
     hottest = int(np.argmax(history.temperatures[0]))
-    last, target = history.temperatures[-2:, hottest], rig.row("target_temperature")
+    last, target = history.temperatures[-2:, hottest], resolved.quantity("target_temperature")
     assert last[1] - target == pytest.approx(0.5 * (last[0] - last[1]), rel=0.3)
     assert history.fractions[:, 0] == pytest.approx(1.0, abs=1e-3)
     assert history.fractions[:, hottest] == pytest.approx(0.0, abs=1e-2)
     assert np.min(history.fractions[:, -1]) > 0.1  # a fifth frozen is as stiff as the structure around it
-    load = 0.1 * rig.row("spring_stiffness")
-    carried = carry(changing(rig, history), support_of(rig), load, history.times)
-    solid = rig.table.evaluate(
-        {**rig.values, "temperature@cold": rig.row("ambient_temperature")}, ["joint_stiffness@cold"]
+    load = 0.1 * resolved.quantity("spring_stiffness")
+    carried = carry(changing(resolved, history), support_of(resolved), load, history.times)
+    solid = resolved.table.evaluate(
+        {**resolved.values, "temperature@cold": resolved.quantity("ambient_temperature")}, ["joint_stiffness@cold"]
     )
     assert carried.angle[0] == pytest.approx(load / solid["joint_stiffness@cold"], rel=5e-3)
     assert carried.angle[hottest] == pytest.approx(0.1, rel=1e-3)

@@ -13,7 +13,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.physics import polymer
 from tvimdesign.simulation.melt_history import fractions_at, frozen_on_cooling, melting_range
-from tvimdesign.simulation.resolved_module import Rig, rig_for
+from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study_text
 from tvimdesign.virtual_tests.registry import TESTS, find_test
 from tvimdesign.virtual_tests.rheometer import oscillation, transient
@@ -24,39 +24,39 @@ CELSIUS = 273.15
 Done = Callable[[str], Trial]
 
 
-def rig_of(text: str = "") -> Rig:
-    return rig_for(read_study_text(f"mode: shear\n{text}", "a test"), Catalog(), table_for("shear"))
+def rig_of(text: str = "") -> ResolvedModule:
+    return resolve_study(read_study_text(f"mode: shear\n{text}", "a test"), Catalog(), table_for("shear"))
 
 
 @pytest.fixture(scope="module")
-def rig() -> Rig:
+def resolved() -> ResolvedModule:
     return rig_of()
 
 
 @pytest.fixture(scope="module")
-def done(rig: Rig) -> Done:
-    return cache(lambda name: find_test(name)(rig))
+def done(resolved: ResolvedModule) -> Done:
+    return cache(lambda name: find_test(name)(resolved))
 
 
 def named(trial: Trial, name: str) -> Finding:
     return next(found for found in trial.findings if found.name == name)
 
 
-def test_standard_points_give_the_papers_temperatures_and_others_the_studys_own(rig: Rig) -> None:
-    assert [at.temperature - CELSIUS for at in specimens(rig)] == pytest.approx([30.0, 60.0, 100.0])
+def test_standard_points_give_the_papers_temperatures_and_others_the_studys_own(resolved: ResolvedModule) -> None:
+    assert [at.temperature - CELSIUS for at in specimens(resolved)] == pytest.approx([30.0, 60.0, 100.0])
     own = rig_of("operating_points: {hot: {temperature: 80 degC}}\n")
     assert [at.temperature - CELSIUS for at in specimens(own)] == pytest.approx([30.0, 80.0])
 
 
-def test_inside_melting_the_solid_fraction_is_an_interval_and_outside_one_number(rig: Rig) -> None:
+def test_inside_melting_the_solid_fraction_is_an_interval_and_outside_one_number(resolved: ResolvedModule) -> None:
     # The record: melting starts at 50 (45-55) and ends at 65 (62-70) degC.
-    assert melting_range(rig) == pytest.approx((CELSIUS + 45.0, CELSIUS + 70.0))
-    low, nominal, high = fractions_at(rig, CELSIUS + 60.0)
+    assert melting_range(resolved) == pytest.approx((CELSIUS + 45.0, CELSIUS + 70.0))
+    low, nominal, high = fractions_at(resolved, CELSIUS + 60.0)
     assert low == 0.0
     assert nominal == pytest.approx(5.0 / 15.0, abs=2e-3)
     assert high == pytest.approx(10.0 / 15.0, abs=2e-3)
     for celsius, frozen in ((30.0, 1.0), (44.0, 1.0), (71.0, 0.0), (100.0, 0.0)):
-        assert fractions_at(rig, CELSIUS + celsius) == pytest.approx((frozen,) * 3, abs=2e-3)
+        assert fractions_at(resolved, CELSIUS + celsius) == pytest.approx((frozen,) * 3, abs=2e-3)
 
 
 def test_a_studys_own_melting_range_moves_the_interval_with_it() -> None:
@@ -130,8 +130,8 @@ def test_melt_creeps_at_stress_over_viscosity_and_recovers_nothing(done: Done) -
     assert any("200 s" in note and "600 s" in note for note in trial.notes)
 
 
-def test_creep_of_the_mix_is_what_its_internal_equations_integrate_to(rig: Rig, done: Done) -> None:
-    taus, moduli = np.array(specimen(rig, CELSIUS + 60.0).nominal.modes).T
+def test_creep_of_the_mix_is_what_its_internal_equations_integrate_to(resolved: ResolvedModule, done: Done) -> None:
+    taus, moduli = np.array(specimen(resolved, CELSIUS + 60.0).nominal.modes).T
 
     def rates(_: float, state: np.ndarray) -> np.ndarray:
         flow = np.sum(moduli * state[:-1] / taus) / np.sum(moduli)
@@ -142,9 +142,11 @@ def test_creep_of_the_mix_is_what_its_internal_equations_integrate_to(rig: Rig, 
     assert named(done("creep"), "creep_strain@60_degC").value == pytest.approx(found.y[-1, -1], rel=1e-5)
 
 
-def test_stress_after_the_ramp_is_what_its_internal_equations_integrate_to(rig: Rig, done: Done) -> None:
+def test_stress_after_the_ramp_is_what_its_internal_equations_integrate_to(
+    resolved: ResolvedModule, done: Done
+) -> None:
     # 10 % within 0.1 s, held; far beyond the solid's linear 0.3 %: 1/(1 + 0.05/0.95 (10/0.3)^2) is left.
-    taus, moduli = np.array(specimen(rig, CELSIUS + 30.0).nominal.modes).T
+    taus, moduli = np.array(specimen(resolved, CELSIUS + 30.0).nominal.modes).T
     ramp = solve_ivp(lambda _, e: 1.0 - e / taus, (0.0, 0.1), np.zeros(taus.size), "Radau", rtol=1e-9, atol=1e-12)
     held = solve_ivp(lambda _, e: -e / taus, (0.1, 1.0), ramp.y[:, -1], "Radau", rtol=1e-9, atol=1e-12)
     left = 1.0 / (1.0 + 0.05 / 0.95 * (10.0 / 0.3) ** 2)
@@ -220,26 +222,28 @@ def test_temperature_sweep_melts_where_the_record_says(done: Done) -> None:
         assert np.all(low[~outside] < high[~outside])
 
 
-def test_cooling_branch_is_drawn_from_the_solid_fractions_it_is_given(rig: Rig) -> None:
+def test_cooling_branch_is_drawn_from_the_solid_fractions_it_is_given(resolved: ResolvedModule) -> None:
     def cooling(temperature: float) -> float:
         return float(1.0 / (1.0 + math.exp((temperature - CELSIUS - 35.0) / 2.0)))
 
-    trial = oscillation.temperature(rig, cooling)
+    trial = oscillation.temperature(resolved, cooling)
     cooled = next(sheet for sheet in trial.sheets if sheet.name == "cooling")
     at = int(np.argmin(np.abs(cooled.column("temperature").values - CELSIUS - 35.0)))
-    expected, _ = polymer.moduli(CELSIUS + 35.0, 0.5, 2.0 * np.pi, rig.row("pcl_rheology"))
+    expected, _ = polymer.moduli(CELSIUS + 35.0, 0.5, 2.0 * np.pi, resolved.quantity("pcl_rheology"))
     assert cooled.column("storage_modulus").values[at] == pytest.approx(expected, rel=1e-3)
     assert any(line.sheet == "cooling" for panel in trial.panels for line in panel.lines)
 
 
-def test_cooled_from_the_melt_it_freezes_tens_of_kelvin_below_where_it_melts_and_later_the_faster(rig: Rig) -> None:
+def test_cooled_from_the_melt_it_freezes_tens_of_kelvin_below_where_it_melts_and_later_the_faster(
+    resolved: ResolvedModule,
+) -> None:
     # Slow cooling freezes polycaprolactone at 35 to 45 degC, 10 K/min at 25 to 27 degC at its fastest.
-    trial = oscillation.temperature(rig)
+    trial = oscillation.temperature(resolved)
     half = next(found for found in trial.findings if found.name == "freezing_temperature")
     assert 26.0 < half.value - CELSIUS < 45.0
     temperatures = np.linspace(CELSIUS + 70.0, CELSIUS, 1401)
     halves = [
-        float(np.interp(0.5, [frozen_on_cooling(rig, rate / 60.0)(t) for t in temperatures], temperatures))
+        float(np.interp(0.5, [frozen_on_cooling(resolved, rate / 60.0)(t) for t in temperatures], temperatures))
         for rate in (0.5, 2.0, 10.0)
     ]
     assert halves[0] > halves[1] > halves[2]
@@ -247,18 +251,18 @@ def test_cooled_from_the_melt_it_freezes_tens_of_kelvin_below_where_it_melts_and
     assert 20.0 < halves[2] - CELSIUS < 28.0
 
 
-def test_temperatures_that_do_not_rise_are_refused(rig: Rig) -> None:
+def test_temperatures_that_do_not_rise_are_refused(resolved: ResolvedModule) -> None:
     for test in (oscillation.frequency, oscillation.amplitude, transient.creep, transient.relaxation):
         with pytest.raises(InputError, match="the temperatures of the test: value 2 is 30 °C and follows 60 °C"):
-            test(rig, [CELSIUS + 60.0, CELSIUS + 30.0])
+            test(resolved, [CELSIUS + 60.0, CELSIUS + 30.0])
 
 
-def test_a_temperature_at_which_there_is_no_spectrum_is_named(rig: Rig) -> None:
+def test_a_temperature_at_which_there_is_no_spectrum_is_named(resolved: ResolvedModule) -> None:
     with (
         pytest.raises(InputError, match=r"pcl_grade pcl_80k at -272.15 °C: mode \d has the relaxation time inf s"),
         np.errstate(over="ignore"),
     ):
-        specimen(rig, 1.0)
+        specimen(resolved, 1.0)
 
 
 def test_an_unknown_test_is_refused_with_the_nearest_name() -> None:

@@ -13,7 +13,7 @@ from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS
-from tvimdesign.cad.geometry.production import MAKING
+from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
 
@@ -55,8 +55,8 @@ def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]
 
 
 def _printing(kind: str) -> str:
-    lying = "as it stands in the module" if MAKING[kind].down == "bottom" else "turned over"
-    return f"- {_words(kind)}: {lying}; {MAKING[kind].why}."
+    lying = "as it stands in the module" if PRODUCTION[kind].down == "bottom" else "turned over"
+    return f"- {_words(kind)}: {lying}; {PRODUCTION[kind].why}."
 
 
 def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]:

@@ -12,7 +12,7 @@ import cadquery as cq
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
-from tvimdesign.cad.geometry.production import MAKING
+from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.study.design import Design
 
 
@@ -43,7 +43,7 @@ def bill(design: Design, titles: Mapping[str, str], placed: Mapping[str, cq.Soli
         what = product(design, kind)
         mass = solids[0].Volume() * what.density * 1e-6
         title = titles.get(KINDS[kind].material, what.material)
-        made = MAKING[kind].down != "bought"
+        made = PRODUCTION[kind].down != "bought"
         items.append(Item(kind, len(solids), made, what.material, title, mass, _papers(kind)))
     return items
 
@@ -52,9 +52,9 @@ def _papers(kind: str) -> tuple[str, ...]:
     """Files a part is made from, or ordered by."""
     if kind in SPRINGS:
         return (file_names.SPRING_SHEET, file_names.SPRING_TABLE)
-    if MAKING[kind].down == "bought":
+    if PRODUCTION[kind].down == "bought":
         return (file_names.step(kind),)
-    drawing = (file_names.drawing_pdf(kind),) if MAKING[kind].drawn else ()
+    drawing = (file_names.drawing_pdf(kind),) if PRODUCTION[kind].drawn else ()
     return (file_names.step(kind), *drawing, file_names.print_3mf(kind))
 
 

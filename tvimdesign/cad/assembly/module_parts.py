@@ -21,7 +21,7 @@ from tvimdesign.cad.parts import (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Module:
+class ModuleParts:
     """The parts of a mode."""
 
     made: Mapping[str, Callable[[Dimensions], cq.Shape]]
@@ -49,8 +49,10 @@ class Module:
 
 
 MODULES = {
-    "shear": Module(made=shear_parts.DRAWN, stand=shear_parts.stand, fixed=(*shear_parts.FIXED, *motor_parts.FIXED)),
-    "compression": Module(
+    "shear": ModuleParts(
+        made=shear_parts.DRAWN, stand=shear_parts.stand, fixed=(*shear_parts.FIXED, *motor_parts.FIXED)
+    ),
+    "compression": ModuleParts(
         made=compression_parts.DRAWN,
         stand=compression_parts.stand,
         fixed=(*compression_parts.FIXED, *motor_parts.FIXED),

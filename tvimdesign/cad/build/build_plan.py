@@ -20,16 +20,16 @@ from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.assembly.product_data import glb_bytes, instances, product
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.geometry.kinds import SPRINGS, kind_of
-from tvimdesign.cad.geometry.production import MAKING
+from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.cad.export.mesh import CHORD, spring_mesh
 from tvimdesign.cad.assembly.module_parts import MODULES
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.geometry.spring_solids import free_coil
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.build.worker import Job, Work
-from tvimdesign.cad.drawing.drawing_requirements import workmanship
+from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.base.errors import GeometryError
 
 PICTURES = "pictures"
@@ -39,17 +39,17 @@ _READ_BACK = 1e-6
 """How far a part may be from what its STEP file says, relative; centroids in mm."""
 
 
-def works(dims: Dimensions) -> list[Work]:
+def build_plan(dims: Dimensions) -> list[Work]:
     """All pieces of work for a module."""
     kinds = tuple(MODULES[dims.mode].drawn(dims))
-    parts = [Work(name=kind, do=partial(_part, kind), named=MAKING[kind].drawn) for kind in kinds]
+    parts = [Work(name=kind, do=partial(_part, kind), named=PRODUCTION[kind].drawn) for kind in kinds]
     springs = [Work(name=kind, do=partial(_spring, kind)) for kind in SPRINGS]
     clearances = [
         Work(name=f"interference_{index + 1}", do=partial(_clearances, share), needs=kinds)
         for index, share in enumerate(POSITIONS)
     ]
     inspections = [
-        Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,)) for kind in kinds if MAKING[kind].drawn
+        Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,)) for kind in kinds if PRODUCTION[kind].drawn
     ]
     return [
         *parts,
@@ -65,82 +65,82 @@ def works(dims: Dimensions) -> list[Work]:
     ]
 
 
-def _part(kind: str, job: Job) -> list[Check]:
+def _part(kind: str, job: Job) -> list[SolidCheck]:
     """One part that is drawn: its solid, STEP, and what it is printed or looked at from."""
     solid = drawn_part(job.dims, kind)
     _keep(job.folder / "kept" / _SOLID, solid)
     what = product(job.design, kind)
     checks = _step(job.folder, solid, what)
-    if MAKING[kind].drawn:
-        asked = workmanship(kind, job.dims, job.design.choices)
+    if PRODUCTION[kind].drawn:
+        asked = drawing_requirements(kind, job.dims, job.design.choices)
         sheet = part_sheet(kind, solid, what, job.design.name, asked)
         _write(job.folder, file_names.drawing_dxf(kind), sheet.dxf())
         _write(job.folder, file_names.drawing_pdf(kind), sheet.pdf())
-    if MAKING[kind].down == "bought":
+    if PRODUCTION[kind].down == "bought":
         return [*checks, _bought_mesh(job.folder, solid, kind)]
     return [*checks, _print(job, kind, solid, what)]
 
 
-def _spring(kind: str, job: Job) -> list[Check]:
+def _spring(kind: str, job: Job) -> list[SolidCheck]:
     """One spring as its maker delivers it."""
     solid = free_spring(job.dims, kind)
     mesh = spring_mesh(free_coil(job.dims))
     checks = _step(job.folder, solid, product(job.design, kind))
     body = closed(kind, mesh if kind == "spring_right" else mesh.mirrored())
     _write(job.folder, file_names.mesh_stl(kind), stl_bytes(body))
-    return [*checks, Check(file_names.mesh_stl(kind), 0.0, 0.0, True, f"{kind}: its mesh is watertight")]
+    return [*checks, SolidCheck(file_names.mesh_stl(kind), 0.0, 0.0, True, f"{kind}: its mesh is watertight")]
 
 
-def _step(folder: Path, solid: cq.Solid, what: Product) -> list[Check]:
+def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
     """Write a part's STEP file, and hold what is read back against what the file says it must be."""
     path = _place(folder, file_names.step(what.name))
     write_part(path, solid, what)
-    read, told = read_part(path)
-    centre = (cq.Vector(*told.centroid) - read.Center()).Length / max(solid.BoundingBox().DiagonalLength, 1.0)
-    off = max(abs(read.Volume() / told.volume - 1.0), abs(read.Area() / told.area - 1.0), centre)
+    read, reported = read_part(path)
+    centre = (cq.Vector(*reported.centroid) - read.Center()).Length / max(solid.BoundingBox().DiagonalLength, 1.0)
+    off = max(abs(read.Volume() / reported.volume - 1.0), abs(read.Area() / reported.area - 1.0), centre)
     off = max(off, abs(read.Volume() / solid.Volume() - 1.0))
     text = f"{what.name}: volume, area and centroid read back from STEP as the file says they are"
-    return [Check(file_names.step(what.name), off, _READ_BACK, off <= _READ_BACK, text)]
+    return [SolidCheck(file_names.step(what.name), off, _READ_BACK, off <= _READ_BACK, text)]
 
 
-def _print(job: Job, kind: str, solid: cq.Solid, what: Product) -> Check:
+def _print(job: Job, kind: str, solid: cq.Solid, what: Product) -> SolidCheck:
     """Write what a printer gets. A mesh that does not close is a check that fails, and its files are left out."""
     name = file_names.print_stl(kind)
     try:
-        lying = as_printed(solid, MAKING[kind], job.dims.hole_compensation)
+        lying = as_printed(solid, PRODUCTION[kind], job.dims.hole_compensation)
         body, distance = printed_mesh(kind, lying)
     except GeometryError as error:
-        return Check(name, 1.0, 0.0, False, str(error))
+        return SolidCheck(name, 1.0, 0.0, False, str(error))
     _write(job.folder, name, stl_bytes(body))
     _write(job.folder, file_names.print_3mf(kind), threemf_bytes(body, what))
     text = f"{kind}: its print mesh is watertight and nowhere further than stated from the part [mm]"
-    return Check(name, distance, CHORD, distance <= CHORD, text)
+    return SolidCheck(name, distance, CHORD, distance <= CHORD, text)
 
 
-def _bought_mesh(folder: Path, solid: cq.Solid, kind: str) -> Check:
+def _bought_mesh(folder: Path, solid: cq.Solid, kind: str) -> SolidCheck:
     body, distance = printed_mesh(kind, solid)
     _write(folder, file_names.mesh_stl(kind), stl_bytes(body))
     text = f"{kind}: its mesh is watertight and nowhere further than stated from the part [mm]"
-    return Check(file_names.mesh_stl(kind), distance, CHORD, distance <= CHORD, text)
+    return SolidCheck(file_names.mesh_stl(kind), distance, CHORD, distance <= CHORD, text)
 
 
-def _sizes(job: Job) -> list[Check]:
+def _sizes(job: Job) -> list[SolidCheck]:
     return rest_checks(job.design, job.dims, _solids(job.needs))
 
 
-def _clearances(share: float, job: Job) -> list[Check]:
+def _clearances(share: float, job: Job) -> list[SolidCheck]:
     return clearance_checks(job.dims, _solids(job.needs), share, job.progress)
 
 
-def _inspect(kind: str, job: Job) -> list[Check]:
+def _inspect(kind: str, job: Job) -> list[SolidCheck]:
     return part_checks(job.design, job.dims, kind, _solids(job.needs)[kind])
 
 
-def _inspect_module(job: Job) -> list[Check]:
+def _inspect_module(job: Job) -> list[SolidCheck]:
     return list(module_checks(job.design, job.dims, _solids(job.needs)))
 
 
-def _assembly(job: Job) -> list[Check]:
+def _assembly(job: Job) -> list[SolidCheck]:
     """The module at rest as STEP and GLB."""
     drawn = _solids(job.needs)
     placed = place(job.dims, drawn)
@@ -150,7 +150,7 @@ def _assembly(job: Job) -> list[Check]:
     return []
 
 
-def _spring_sheet(job: Job) -> list[Check]:
+def _spring_sheet(job: Job) -> list[SolidCheck]:
     """What the spring maker needs."""
     lines = spring_lines(job.design, job.dims, job.titles)
     _write(job.folder, file_names.SPRING_TABLE, spring_csv(lines))
@@ -158,7 +158,7 @@ def _spring_sheet(job: Job) -> list[Check]:
     return []
 
 
-def _bill_and_note(job: Job) -> list[Check]:
+def _bill_and_note(job: Job) -> list[SolidCheck]:
     """What there is of each part, and how they go together."""
     items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)))
     _write(job.folder, file_names.BILL_OF_MATERIALS, bill_csv(items))
@@ -166,7 +166,7 @@ def _bill_and_note(job: Job) -> list[Check]:
     return []
 
 
-def _pictures(job: Job) -> list[Check]:
+def _pictures(job: Job) -> list[SolidCheck]:
     """The module whole and opened, taken apart, and cut through."""
     from tvimdesign.cad.render.views import write_exploded, write_section
     from tvimdesign.cad.render.preview import write_preview

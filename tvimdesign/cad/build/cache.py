@@ -19,8 +19,8 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.cad.cad_report import Check
-from tvimdesign.cad.build.read_tracking import Reads, Subject
+from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 
 FOLDER_VARIABLE = "TVIMDESIGN_CACHE"
 """Environment variable that names the folder of kept results; empty keeps none from one run to the next."""
@@ -39,7 +39,7 @@ class Result:
     folder: Path
     files: Mapping[str, str]
     """Hash of each file under `folder`."""
-    checks: tuple[Check, ...]
+    checks: tuple[SolidCheck, ...]
 
     @property
     def out(self) -> list[str]:
@@ -49,11 +49,11 @@ class Result:
     @property
     def digest(self) -> str:
         """What results made from this one hang on: the files that are kept for them."""
-        kept = {name: told for name, told in self.files.items() if name.startswith("kept/")}
+        kept = {name: reported for name, reported in self.files.items() if name.startswith("kept/")}
         return _digest(json.dumps(kept, sort_keys=True).encode())
 
 
-class Store:
+class Cache:
     """The kept results of all pieces of work, in one folder."""
 
     def __init__(self, folder: Path) -> None:
@@ -70,7 +70,7 @@ class Store:
             (made / part).mkdir()
         return made
 
-    def close(self, name: str, made: Path, reads: Reads, needs: Mapping[str, Result], checks: list[Check]) -> Result:
+    def close(self, name: str, made: Path, reads: Reads, needs: Mapping[str, Result], checks: list[SolidCheck]) -> Result:
         """Keep what was written into a fresh folder; returns the result."""
         files = {path.relative_to(made).as_posix(): _digest(path.read_bytes()) for path in _files(made)}
         trace = {
@@ -95,7 +95,7 @@ class Store:
         """Take away a fresh folder whose work came to nothing."""
         shutil.rmtree(made, ignore_errors=True)
 
-    def find(self, name: str, subject: Subject, needs: Mapping[str, Result]) -> Result | None:
+    def find(self, name: str, subject: TrackedDesign, needs: Mapping[str, Result]) -> Result | None:
         """Return the result of a piece of work for a design, where it is there and sound."""
         wanted = {need: result.digest for need, result in needs.items()}
         for folder in self._kept(name):
@@ -104,7 +104,7 @@ class Store:
                 continue
             if subject.agrees_with(trace["reads"]) and _is_sound(folder, trace["files"]):
                 os.utime(folder)
-                return Result(folder, trace["files"], tuple(Check(**check) for check in trace["checks"]))
+                return Result(folder, trace["files"], tuple(SolidCheck(**check) for check in trace["checks"]))
         return None
 
     def _kept(self, name: str) -> list[Path]:
@@ -161,7 +161,7 @@ def _read(path: Path) -> dict[str, Any] | None:
 
 def _is_sound(folder: Path, files: Mapping[str, str]) -> bool:
     try:
-        return all(_digest((folder / name).read_bytes()) == told for name, told in files.items())
+        return all(_digest((folder / name).read_bytes()) == reported for name, reported in files.items())
     except OSError:
         return False
 

@@ -37,15 +37,15 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
     from tvimdesign.cad.geometry.dimensions import dimensions
-    from tvimdesign.cad.build.cache import Store, user_folder
-    from tvimdesign.cad.build.read_tracking import Subject
-    from tvimdesign.cad.build.worker import Workshop
-    from tvimdesign.cad.build.build_plan import PICTURES, works
+    from tvimdesign.cad.build.cache import Cache, user_folder
+    from tvimdesign.cad.build.read_tracking import TrackedDesign
+    from tvimdesign.cad.build.worker import WorkerPool
+    from tvimdesign.cad.build.build_plan import PICTURES, build_plan
 
     with tempfile.TemporaryDirectory(prefix="tvimdesign.") as own:
-        store = Store(user_folder() or Path(own))
-        workshop = Workshop(Subject(design, _titles(design)), store, lambda step: say(progress=step), timeout_s)
-        done = workshop.do(works(dimensions(design)))
+        store = Cache(user_folder() or Path(own))
+        workshop = WorkerPool(TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), timeout_s)
+        done = workshop.do(build_plan(dimensions(design)))
         files = _hand_out(done, out)
     pictures = done.failed.pop(PICTURES, "")
     if done.failed:
@@ -59,13 +59,13 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
 
 def _titles(design: Design) -> dict[str, str]:
     """What the catalogue calls the records a design was made of; a record that is not here has its name only."""
-    told = design.study.get("catalog_folder")
+    reported = design.study.get("catalog_folder")
     titles = {}
     for row in table_for(design.mode).choices:
         with contextlib.suppress(CatalogError):
-            if row.shelf and row.name in design.choices:
-                catalog = Catalog(Path(told) if told else None)
-                titles[row.name] = catalog.record(row.shelf, design.choices[row.name]).title
+            if row.category and row.name in design.choices:
+                catalog = Catalog(Path(reported) if reported else None)
+                titles[row.name] = catalog.record(row.category, design.choices[row.name]).title
     return titles
 
 

@@ -39,7 +39,7 @@ class Watched(Mapping[str, Any]):
         return len(self._whole)
 
 
-class Subject:
+class TrackedDesign:
     """A design and its dimensions, from which pieces of work read."""
 
     def __init__(self, design: Design, titles: Mapping[str, str]) -> None:

@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.cad_report import Check
-from tvimdesign.cad.build.cache import Result, Store
-from tvimdesign.cad.build.read_tracking import Reads, Subject
+from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.build.cache import Result, Cache
+from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.base.errors import TvimError
 from tvimdesign.study.design import Design
 
@@ -48,7 +48,7 @@ class Work:
     """One piece of work: a part with its files, the assembly, a set of checks, the pictures."""
 
     name: str
-    do: Callable[[Job], list[Check]]
+    do: Callable[[Job], list[SolidCheck]]
     """Writes its files; returns the checks it made. Raises GeometryError."""
     needs: tuple[str, ...] = ()
     named: bool = False
@@ -75,14 +75,14 @@ class _Running:
     folder: Path
     deadline: float
     step: str
-    told: dict[str, Any] | None = None
+    reported: dict[str, Any] | None = None
 
 
-class Workshop:
+class WorkerPool:
     """Does pieces of work for one design."""
 
     def __init__(
-        self, subject: Subject, store: Store, progress: Progress, timeout_s: float = TIMEOUT, hands: int | None = None
+        self, subject: TrackedDesign, store: Cache, progress: Progress, timeout_s: float = TIMEOUT, hands: int | None = None
     ) -> None:
         """`hands` is how many pieces of work are in progress at once; as many as there are cores, at most four."""
         self._subject, self._store, self._progress = subject, store, progress
@@ -91,10 +91,10 @@ class Workshop:
         ways = mp.get_all_start_methods()
         self._context: Any = mp.get_context("fork" if "fork" in ways else "spawn")
 
-    def do(self, works: Sequence[Work]) -> Done:
+    def do(self, build_plan: Sequence[Work]) -> Done:
         """Do all pieces of work, each after those that it needs."""
         done = Done()
-        waiting, running = list(works), list[_Running]()
+        waiting, running = list(build_plan), list[_Running]()
         try:
             while waiting or running:
                 waiting = self._start(waiting, running, done)
@@ -103,7 +103,7 @@ class Workshop:
             for one in running:
                 _end(one.process)
                 self._store.discard(one.folder)
-        in_order = [work.name for work in works if work.name in done.results]
+        in_order = [work.name for work in build_plan if work.name in done.results]
         return Done({name: done.results[name] for name in in_order}, done.failed, done.lost, done.reused)
 
     def _start(self, waiting: list[Work], running: list[_Running], done: Done) -> list[Work]:
@@ -158,31 +158,31 @@ class Workshop:
             one.step = message["step"]
             self._progress(one.step if one.step == one.work.name else f"{one.work.name}: {one.step}")
             return False
-        one.told = message
+        one.reported = message
         return True
 
     def _settle(self, one: _Running, done: Done) -> None:
         """Keep what a child made, or say why there is nothing."""
         name = one.work.name
-        if one.told is None:
+        if one.reported is None:
             late = time.monotonic() >= one.deadline
             if not late:
                 one.process.join(timeout=5.0)
             why = f"no answer in {self._timeout:g} s" if late else f"its process ended with code {one.process.exitcode}"
             at = "" if one.step == name else f" (at: {one.step})"
             done.failed[name] = f"{name}: {why}{at}"
-        elif "error" in one.told:
-            done.failed[name] = one.told["error"]
+        elif "error" in one.reported:
+            done.failed[name] = one.reported["error"]
         else:
-            checks = [Check(**check) for check in one.told["checks"]]
-            reads: Reads = one.told["reads"]
+            checks = [SolidCheck(**check) for check in one.reported["checks"]]
+            reads: Reads = one.reported["reads"]
             done.results[name] = self._store.close(name, one.folder, reads, self._needs(one.work, done), checks)
-        _end(one.process, grace_s=0.0 if one.told is None else 5.0)
+        _end(one.process, grace_s=0.0 if one.reported is None else 5.0)
         if name in done.failed:
             self._store.discard(one.folder)
 
 
-def _child(work: Work, subject: Subject, needs: Mapping[str, Path], folder: Path, mouth: Connection) -> None:
+def _child(work: Work, subject: TrackedDesign, needs: Mapping[str, Path], folder: Path, mouth: Connection) -> None:
     """Do one piece of work and say what came of it."""
     try:
         design, dims, titles, reads = subject.watched(work.named)

@@ -7,9 +7,9 @@ from math import atan2, cos, degrees, hypot, pi, sin
 
 import cadquery as cq
 
-from tvimdesign.cad.drawing.drawing_requirements import Workmanship
+from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements
 from tvimdesign.cad.drawing.number_text import around, figure
-from tvimdesign.cad.drawing.placed_view import Placed, apart
+from tvimdesign.cad.drawing.placed_view import PlacedView, apart
 from tvimdesign.cad.geometry.features import Cylinder
 
 _BESIDE = 228.0
@@ -20,16 +20,18 @@ _CORNER = 2.0
 """Radius up to which an arc is the corner of a pocket [mm]."""
 
 
-def call_out(plan: Placed, found: Sequence[Cylinder], solid: cq.Solid, asked: Workmanship, low: float) -> None:
+def call_out(
+    plan: PlacedView, found: Sequence[Cylinder], solid: cq.Solid, asked: DrawingRequirements, low: float
+) -> None:
     """One text for all that are alike; none lower on the sheet than `low` [mm]."""
-    alike: dict[tuple[object, ...], list[Cylinder]] = {}
+    from_template: dict[tuple[object, ...], list[Cylinder]] = {}
     for one in found:
         if not (one.is_central and one.is_round):
             pitch = round(hypot(one.x, one.y), 4)
             stands = () if _is_corner(one) else (pitch, one.bottom, one.top)
             key = (round(one.radius, 6), *stands, one.concave, one.is_round)
-            alike.setdefault(key, []).append(one)
-    groups = sorted(alike.values(), key=lambda group: _pointed_at(group)[1])
+            from_template.setdefault(key, []).append(one)
+    groups = sorted(from_template.values(), key=lambda group: _pointed_at(group)[1])
     box = solid.BoundingBox()
     least = (low - plan.origin[1]) / plan.sheet.scale
     wanted = [max(_pointed_at(group)[1], least) for group in groups]
@@ -56,7 +58,7 @@ def _pointed_at(group: Sequence[Cylinder]) -> tuple[float, float]:
     return max(places, key=lambda place: (round(place[0] + 0.5 * place[1], 4), place))
 
 
-def _said_of(group: Sequence[Cylinder], bottom: float, top: float, asked: Workmanship) -> str:
+def _said_of(group: Sequence[Cylinder], bottom: float, top: float, asked: DrawingRequirements) -> str:
     """What a call-out says: how many, how large, where, and between which heights."""
     one = group[0]
     if _is_corner(one):
@@ -71,7 +73,7 @@ def _said_of(group: Sequence[Cylinder], bottom: float, top: float, asked: Workma
     return ", ".join(filter(None, (f"{many}{size} {what}", _where(group), deep)))
 
 
-def sized(one: Cylinder, asked: Workmanship) -> str:
+def sized(one: Cylinder, asked: DrawingRequirements) -> str:
     """A diameter with its fit or its thread."""
     seat, thread = asked.seat(2.0 * one.radius), asked.thread(one)
     if seat and seat.fit:

@@ -14,7 +14,7 @@ from tvimdesign.cad.drawing.iso_286 import Limits, limit_deviations, standard_to
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import Cylinder
 
-_TOLD = Path(__file__).with_name("drawing_requirements.yaml")
+_DATA = Path(__file__).with_name("drawing_requirements.yaml")
 _SAME = 1e-5
 """Lengths [mm] that differ by less are one."""
 DATUM = "B"
@@ -44,7 +44,7 @@ class Seat:
 
 
 @dataclass(frozen=True)
-class Thread:
+class ThreadCallout:
     """Holes for screws; lengths in mm."""
 
     about: str
@@ -59,7 +59,7 @@ class Thread:
 
 
 @dataclass(frozen=True)
-class Workmanship:
+class DrawingRequirements:
     """What one part's drawing asks for."""
 
     tolerances: str
@@ -67,28 +67,28 @@ class Workmanship:
     printed: bool
     notes: Sequence[str] = ()
     seats: Sequence[Seat] = ()
-    threads: Sequence[Thread] = ()
+    threads: Sequence[ThreadCallout] = ()
 
     def seat(self, diameter: float) -> Seat | None:
         """The seat that is drawn with a diameter, if any."""
         return next((one for one in self.seats if abs(one.drawn - diameter) < _SAME), None)
 
-    def thread(self, hole: Cylinder) -> Thread | None:
+    def thread(self, hole: Cylinder) -> ThreadCallout | None:
         """What is cut in a hole, if anything: other holes of its diameter have another depth."""
         deep = hole.top - hole.bottom
-        alike = [
+        from_template = [
             one for one in self.threads if abs(one.hole - 2.0 * hole.radius) < _SAME and abs(one.depth - deep) < _SAME
         ]
-        return alike[0] if alike and hole.concave else None
+        return from_template[0] if from_template and hole.concave else None
 
 
-def workmanship(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> Workmanship:
+def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> DrawingRequirements:
     """What the drawing of a kind of part asks for, by the module's process."""
-    told, method = _told(), choices["making_method"]
-    seats = [one for one in told["seats"].get(kind, ()) if _is_there(one, dims)] if method == "milled" else []
-    threads = [one for one in told["threads"].get(kind, ()) if _is_there(one, dims)]
-    general = told["general"][method]
-    return Workmanship(
+    reported, method = _told(), choices["making_method"]
+    seats = [one for one in reported["seats"].get(kind, ()) if _is_there(one, dims)] if method == "milled" else []
+    threads = [one for one in reported["threads"].get(kind, ()) if _is_there(one, dims)]
+    general = reported["general"][method]
+    return DrawingRequirements(
         tolerances=general["tolerances"],
         surface=general["surface"],
         notes=[general["edges"], *([_BEARINGS] if any("bearing" in one for one in seats) else [])],
@@ -98,24 +98,24 @@ def workmanship(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> Work
     )
 
 
-def _is_there(told: Mapping[str, Any], dims: Dimensions) -> bool:
+def _is_there(reported: Mapping[str, Any], dims: Dimensions) -> bool:
     """Whether the module has a seat or a thread."""
-    return not ("where" in told and not getattr(dims, told["where"])) and not (
-        "unless" in told and getattr(dims, told["unless"])
+    return not ("where" in reported and not getattr(dims, reported["where"])) and not (
+        "unless" in reported and getattr(dims, reported["unless"])
     )
 
 
-def _seat(told: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
+def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
     """A seat with its fit, or as it is drawn where its study has another gap than the fit."""
-    drawn = getattr(dims, told["diameter"]) if "diameter" in told else 2.0 * getattr(dims, told["radius"])
-    inside = told["class"][0].isupper()
-    gap = 2.0 * getattr(dims, told["gap"]) if "gap" in told else 0.0
-    size, fit = drawn - gap if inside else drawn + gap, told["class"]
+    drawn = getattr(dims, reported["diameter"]) if "diameter" in reported else 2.0 * getattr(dims, reported["radius"])
+    inside = reported["class"][0].isupper()
+    gap = 2.0 * getattr(dims, reported["gap"]) if "gap" in reported else 0.0
+    size, fit = drawn - gap if inside else drawn + gap, reported["class"]
     limits = limit_deviations(fit, size)
     if not limits.lower - _SAME <= drawn - size <= limits.upper + _SAME:
         size, fit, limits = drawn, "", Limits(0.0, 0.0)
-    form = _bearing_form(size) if "bearing" in told else told.get("form", "")
-    return Seat(told["about"], size, drawn, fit, limits, told["roughness"], form, letter)
+    form = _bearing_form(size) if "bearing" in reported else reported.get("form", "")
+    return Seat(reported["about"], size, drawn, fit, limits, reported["roughness"], form, letter)
 
 
 def _bearing_form(size: float) -> str:
@@ -124,17 +124,17 @@ def _bearing_form(size: float) -> str:
     return f"/○/ {0.5 * grade:.4g}  ↗ {grade:.4g} {DATUM}"
 
 
-def _thread(told: Mapping[str, Any], dims: Dimensions, method: str) -> Thread:
+def _thread(reported: Mapping[str, Any], dims: Dimensions, method: str) -> ThreadCallout:
     """A thread: tapped, cut by its screw in plastic, or that of an insert."""
-    depth = getattr(dims, told["depth"])
-    length = depth - (getattr(dims, told["runout"]) if "runout" in told else 0.0)
-    insert = getattr(dims, told["insert"]) if "insert" in told else 0.0
+    depth = getattr(dims, reported["depth"])
+    length = depth - (getattr(dims, reported["runout"]) if "runout" in reported else 0.0)
+    insert = getattr(dims, reported["insert"]) if "insert" in reported else 0.0
     made = "insert melted in" if insert else "tapped 6H" if method == "milled" else "cut by its screw"
-    screw = f"M{getattr(dims, told['screw']):g}"
-    return Thread(told["about"], screw, made, getattr(dims, told["hole"]), depth, insert or length)
+    screw = f"M{getattr(dims, reported['screw']):g}"
+    return ThreadCallout(reported["about"], screw, made, getattr(dims, reported["hole"]), depth, insert or length)
 
 
 @cache
 def _told() -> dict[str, Any]:
-    told: dict[str, Any] = yaml.safe_load(_TOLD.read_text(encoding="utf-8"))
-    return told
+    reported: dict[str, Any] = yaml.safe_load(_DATA.read_text(encoding="utf-8"))
+    return reported

@@ -49,7 +49,7 @@ class Field:
     """Of the block's width."""
 
 
-class Sheet:
+class DrawingSheet:
     """A sheet at a scale. Places are in mm on paper; geometry keeps its size, and the frame is scaled."""
 
     def __init__(self, scale: float) -> None:

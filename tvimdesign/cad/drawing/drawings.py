@@ -9,14 +9,14 @@ import cadquery as cq
 from tvimdesign import __version__
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.drawing.call_outs import call_out, sized
-from tvimdesign.cad.drawing.drawing_requirements import Seat, Thread, Workmanship
-from tvimdesign.cad.drawing.drawing_sheet import MARGIN, SIZE, TITLE_WIDTH, Field, Sheet, ratio
+from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, Seat, ThreadCallout
+from tvimdesign.cad.drawing.drawing_sheet import MARGIN, SIZE, TITLE_WIDTH, DrawingSheet, Field, ratio
 from tvimdesign.cad.drawing.number_text import figure
-from tvimdesign.cad.drawing.placed_view import Placed, apart
+from tvimdesign.cad.drawing.placed_view import PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, section
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
-from tvimdesign.cad.geometry.production import MAKING
+from tvimdesign.cad.geometry.production import PRODUCTION
 
 _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)
 _WIDE, _HIGH = 165.0, 256.0
@@ -34,20 +34,20 @@ _SEATS = ("", "Seat", "fit", "deviations µm", "limits of size", "Ra µm", "form
 _THREADS = ("", "Thread", "size", "hole", "hole's depth", "", "length of thread")
 
 
-def part_sheet(kind: str, solid: cq.Solid, what: Product, module: str, asked: Workmanship) -> Sheet:
+def part_sheet(kind: str, solid: cq.Solid, what: Product, module: str, asked: DrawingRequirements) -> DrawingSheet:
     """Draw a part: section A-A above, plan below it, first angle; levels, diameters and holes, fits and threads."""
     plan, front = from_above(solid), section(solid)
     found = upright_cylinders(solid)
     central = {2.0 * one.radius: one for one in found if one.is_central and one.is_round}
     diameters = sorted(central)
     scale = _scale(plan, front, len(diameters))
-    sheet = Sheet(scale)
+    sheet = DrawingSheet(scale)
     left, right, bottom, top = plan.bounds
     height = (top - bottom + front.bounds[3] - front.bounds[2]) * scale + _taken(len(diameters))
     below = _BOTTOM + 0.5 * max(_HIGH - height, 0.0)
     plan_at = (_MIDDLE - 0.5 * (left + right) * scale, below - bottom * scale)
     front_at = (plan_at[0], plan_at[1] + top * scale + _GAP - front.bounds[2] * scale)
-    placed_plan, placed_front = Placed(sheet, plan, plan_at), Placed(sheet, front, front_at)
+    placed_plan, placed_front = PlacedView(sheet, plan, plan_at), PlacedView(sheet, front, front_at)
     placed_plan.draw()
     placed_front.draw()
     placed_plan.centre_lines([one for one in found if one.is_round])
@@ -76,7 +76,7 @@ def _taken(diameters: int) -> float:
     return _FIRST + _NEXT * (diameters + 1) + _GAP
 
 
-def _dimension_diameters(front: Placed, round_faces: Sequence[Cylinder], asked: Workmanship) -> None:
+def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], asked: DrawingRequirements) -> None:
     """Diameters about the axis with their fits, the smallest nearest, above the section; the datum beside its own."""
     top, left = front.view.bounds[3], front.view.bounds[0]
     for index, one in enumerate(round_faces):
@@ -90,7 +90,7 @@ def _dimension_diameters(front: Placed, round_faces: Sequence[Cylinder], asked: 
             front.datum(seat.letter, (-one.radius, level), left - front.paper(12.0))
 
 
-def _dimension_extent(front: Placed, diameters: Sequence[float]) -> None:
+def _dimension_extent(front: PlacedView, diameters: Sequence[float]) -> None:
     """Overall length, where no diameter says it, and overall height."""
     left, right, bottom, top = front.view.bounds
     space = front.sheet.space
@@ -103,7 +103,7 @@ def _dimension_extent(front: Placed, diameters: Sequence[float]) -> None:
     space.add_linear_dim(base, *ends, angle=90, dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}).render()
 
 
-def _dimension_levels(front: Placed, heights: Sequence[float]) -> None:
+def _dimension_levels(front: PlacedView, heights: Sequence[float]) -> None:
     """Heights of the flat faces over the lowest, right of the section, their figures apart from each other."""
     right = front.view.bounds[1] + front.paper(2.0)
     places = apart(heights, front.paper(4.2))
@@ -115,7 +115,7 @@ def _dimension_levels(front: Placed, heights: Sequence[float]) -> None:
         ).render()  # fmt: skip
 
 
-def _table(sheet: Sheet, asked: Workmanship) -> float:
+def _table(sheet: DrawingSheet, asked: DrawingRequirements) -> float:
     """Seats and threads over the title block; returns the height on the sheet that is free above."""
     rows = [*([_SEATS] if asked.seats else []), *map(_seat_row, asked.seats),
             *([_THREADS] if asked.threads else []), *map(_thread_row, asked.threads)]  # fmt: skip
@@ -145,15 +145,17 @@ def _seat_row(one: Seat) -> tuple[str, ...]:
     )
 
 
-def _thread_row(one: Thread) -> tuple[str, ...]:
+def _thread_row(one: ThreadCallout) -> tuple[str, ...]:
     """What the table says of a thread."""
     return "", one.about, one.screw, f"⌀{figure(one.hole)}", figure(one.depth), "", f"{figure(one.length)}, {one.made}"
 
 
-def _words(sheet: Sheet, kind: str, solid: cq.Solid, what: Product, module: str, asked: Workmanship) -> None:
+def _words(
+    sheet: DrawingSheet, kind: str, solid: cq.Solid, what: Product, module: str, asked: DrawingRequirements
+) -> None:
     """Notes and title block."""
     volume = solid.Volume()
-    lying = "standing as in the section" if MAKING[kind].down == "bottom" else "turned over"
+    lying = "standing as in the section" if PRODUCTION[kind].down == "bottom" else "turned over"
     notes = [
         "Millimetres. Heights h, and those beside the section, are over the lowest face.",
         "Section A – A is taken through the module's axis; azimuths count from x, to the right.",

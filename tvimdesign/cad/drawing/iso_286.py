@@ -13,7 +13,7 @@ import yaml
 
 from tvimdesign.base.errors import GeometryError
 
-_TOLD = Path(__file__).with_name("iso_286.yaml")
+_DATA = Path(__file__).with_name("iso_286.yaml")
 _MICRON = 1e-3
 _HAIR = 1e-5
 """What [mm] a size may be off the end of a range for rounding."""
@@ -33,7 +33,7 @@ def limit_deviations(fit: str, size: float) -> Limits:
     """
     known = re.fullmatch(r"(H|JS|G|h|js|g|k)(\d)", fit)
     if not known or (known[1] == "k" and known[2] not in "567"):
-        raise GeometryError(f"tolerance class {fit!r} is not in {_TOLD.name}: H, JS, G, h, js, g, or k in 5 to 7")
+        raise GeometryError(f"tolerance class {fit!r} is not in {_DATA.name}: H, JS, G, h, js, g, or k in 5 to 7")
     letter, width = known[1], standard_tolerance(int(known[2]), size)
     if letter in ("JS", "js"):
         return Limits(-0.5 * width, 0.5 * width)
@@ -49,7 +49,7 @@ def standard_tolerance(grade: int, size: float) -> float:
     """Standard tolerance [mm] of a grade at a size [mm]."""
     grades = _told()["grades"]
     if grade not in grades:
-        raise GeometryError(f"tolerance grade IT{grade} is not in {_TOLD.name}: it has {', '.join(map(str, grades))}")
+        raise GeometryError(f"tolerance grade IT{grade} is not in {_DATA.name}: it has {', '.join(map(str, grades))}")
     return _MICRON * _at(grades[grade], size)
 
 
@@ -60,10 +60,10 @@ def _at(row: Sequence[int], size: float) -> int:
     for value, (over, up_to) in zip(row, pairwise(ends), strict=True):
         if over < size <= up_to + _HAIR:
             return value
-    raise GeometryError(f"{size:g} mm is outside the sizes of {_TOLD.name}: above 0 up to {ends[-1]:g} mm")
+    raise GeometryError(f"{size:g} mm is outside the sizes of {_DATA.name}: above 0 up to {ends[-1]:g} mm")
 
 
 @cache
 def _told() -> dict[str, Any]:
-    told: dict[str, Any] = yaml.safe_load(_TOLD.read_text(encoding="utf-8"))
-    return told
+    reported: dict[str, Any] = yaml.safe_load(_DATA.read_text(encoding="utf-8"))
+    return reported

@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot
 
-from tvimdesign.cad.drawing.drawing_sheet import Sheet
+from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.drawing.projection import View
 from tvimdesign.cad.geometry.features import Cylinder
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedView:
     """A view on a sheet, its own origin at a place on paper."""
 
-    sheet: Sheet
+    sheet: DrawingSheet
     view: View
     origin: tuple[float, float]
 

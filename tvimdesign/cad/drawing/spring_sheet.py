@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import atan2, cos, degrees, radians, sin, tan
 
 from tvimdesign import __version__
-from tvimdesign.cad.drawing.drawing_sheet import SIZE, Field, Sheet, ratio
+from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
 from tvimdesign.study.design import Design
@@ -20,7 +20,7 @@ _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2)
 
 
 @dataclass(frozen=True)
-class Line:
+class SpringLine:
     """One line of the table."""
 
     name: str
@@ -30,7 +30,7 @@ class Line:
     note: str = ""
 
 
-def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) -> list[Line]:
+def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) -> list[SpringLine]:
     """All numbers of the spring, free and loaded."""
     coil, tight = free_coil(dims), dims.spring_wound_diameter
     d, mean = coil.wire_diameter, coil.diameter
@@ -41,33 +41,34 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
     material = design.choices["spring_material"]
     half = dims.count("spring_count") // 2
     return [
-        Line("wire", titles.get("spring_material", material), note=f"record {material}"),
-        Line("wire diameter d", _figure(d, 3), "mm", "of the wire's standard"),
-        Line("mean coil diameter D", _figure(mean), "mm", f"± {_figure(spread)}", _DIN),
-        Line("inside diameter", _figure(mean - d), "mm", f"± {_figure(spread)}", "follows from D and d"),
-        Line("outside diameter", _figure(mean + d), "mm", f"± {_figure(spread)}", "follows from D and d"),
-        Line("body coils n", _figure(coil.turns, 3), "", "by the free angle"),
-        Line("coils that bend", _figure(design.value("active_coils"), 3), "", "", "with the share of the leg"),
-        Line("gap between coils", _figure(coil.pitch - d), "mm", "", "coils must not rub"),
-        Line("body length, free", _figure(coil.pitch * coil.turns + d), "mm"),
-        Line("hand", f"{half} right, {half} left", "", "", "right: coils leave the eye clockwise"),
-        Line("leg, tangential", _figure(coil.leg_length / cos(coil.rise)), "mm", "± 0.5", "straight; assumed"),
-        Line("tang, parallel to the axis", _figure(coil.tang_length), "mm", "+ 0 / - 0.3", "assumed"),
-        Line("bend between coils and tang", _figure(d), "mm", "", "radius at the wire's centre"),
-        Line("free angle", _figure(_free_angle(coil)), "deg", f"± {_figure(angle)}",
+        SpringLine("wire", titles.get("spring_material", material), note=f"record {material}"),
+        SpringLine("wire diameter d", _figure(d, 3), "mm", "of the wire's standard"),
+        SpringLine("mean coil diameter D", _figure(mean), "mm", f"± {_figure(spread)}", _DIN),
+        SpringLine("inside diameter", _figure(mean - d), "mm", f"± {_figure(spread)}", "follows from D and d"),
+        SpringLine("outside diameter", _figure(mean + d), "mm", f"± {_figure(spread)}", "follows from D and d"),
+        SpringLine("body coils n", _figure(coil.turns, 3), "", "by the free angle"),
+        SpringLine("coils that bend", _figure(design.value("active_coils"), 3), "", "", "with the share of the leg"),
+        SpringLine("gap between coils", _figure(coil.pitch - d), "mm", "", "coils must not rub"),
+        SpringLine("body length, free", _figure(coil.pitch * coil.turns + d), "mm"),
+        SpringLine("hand", f"{half} right, {half} left", "", "", "right: coils leave the eye clockwise"),
+        SpringLine("leg, tangential", _figure(coil.leg_length / cos(coil.rise)), "mm", "± 0.5", "straight; assumed"),
+        SpringLine("tang, parallel to the axis", _figure(coil.tang_length), "mm", "+ 0 / - 0.3", "assumed"),
+        SpringLine("bend between coils and tang", _figure(d), "mm", "", "radius at the wire's centre"),
+        SpringLine("free angle", _figure(_free_angle(coil)), "deg", f"± {_figure(angle)}",
              f"from tang to leg around the axis; {_DIN}"),
-        Line("rate", _figure(rate, 3), "N.mm/deg"),
-        Line(f"torque M1 at {_figure(preload)} deg", _figure(rate * preload), "N.mm", spread_torque,
+        SpringLine("rate", _figure(rate, 3), "N.mm/deg"),
+        SpringLine(f"torque M1 at {_figure(preload)} deg", _figure(rate * preload), "N.mm", spread_torque,
              "preload; free-angle tolerance times rate"),
-        Line(f"torque M2 at {_figure(full)} deg", _figure(rate * full), "N.mm", spread_torque, "full stroke; as above"),
-        Line("winds", "so that the coil gets smaller"),
-        Line("mean coil diameter at M2", _figure(tight), "mm"),
-        Line("body length at M2", _figure(1e3 * design.value("spring_body_length")), "mm"),
-        Line("mandrel, at most", _figure(2.0 * dims.post_radius), "mm", "", "the post the spring stands on"),
-        Line("stress at M2, inner fibre", _figure(1e-6 * design.value("spring_stress"), 0), "MPa"),
-        Line("tensile strength taken", _figure(1e-6 * design.value("spring_tensile_strength"), 0), "MPa"),
-        Line("wire length", _figure(coil.wire_length, 1), "mm"),
-        Line("mass of one", _figure(1e3 * design.value("spring_volume") * design.value("spring_density")), "g"),
+        SpringLine(f"torque M2 at {_figure(full)} deg", _figure(rate * full), "N.mm", spread_torque,
+             "full stroke; as above"),
+        SpringLine("winds", "so that the coil gets smaller"),
+        SpringLine("mean coil diameter at M2", _figure(tight), "mm"),
+        SpringLine("body length at M2", _figure(1e3 * design.value("spring_body_length")), "mm"),
+        SpringLine("mandrel, at most", _figure(2.0 * dims.post_radius), "mm", "", "the post the spring stands on"),
+        SpringLine("stress at M2, inner fibre", _figure(1e-6 * design.value("spring_stress"), 0), "MPa"),
+        SpringLine("tensile strength taken", _figure(1e-6 * design.value("spring_tensile_strength"), 0), "MPa"),
+        SpringLine("wire length", _figure(coil.wire_length, 1), "mm"),
+        SpringLine("mass of one", _figure(1e3 * design.value("spring_volume") * design.value("spring_density")), "g"),
     ]  # fmt: skip
 
 
@@ -76,7 +77,7 @@ def _free_angle(coil: Coil) -> float:
     return 360.0 * (coil.turns % 1.0)
 
 
-def spring_csv(lines: Sequence[Line]) -> bytes:
+def spring_csv(lines: Sequence[SpringLine]) -> bytes:
     """The table as CSV."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
@@ -85,20 +86,20 @@ def spring_csv(lines: Sequence[Line]) -> bytes:
     return stream.getvalue().encode()
 
 
-def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[Line]) -> Sheet:
+def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) -> DrawingSheet:
     """The right-hand spring, free, drawn in simple lines, beside the table."""
     coil = free_coil(dims)
     reach = 0.5 * coil.diameter + 1.5 * coil.wire_diameter
     height = coil.end_level + coil.tang_length + coil.wire_diameter
     room = min(150.0 / (reach + max(coil.leg_length, reach)), 165.0 / (2.0 * reach + height))
     scale = next((one for one in _SCALES if one <= room), _SCALES[-1])
-    sheet = Sheet(scale)
+    sheet = DrawingSheet(scale)
     across = 100.0 - 0.5 * (max(coil.leg_length, reach) - reach) * scale
     plan_at = (across, 45.0 + reach * scale)
     _plan(sheet, coil, plan_at)
     _side(sheet, coil, (across, plan_at[1] + (reach + coil.tang_length) * scale + 26.0))
     sheet.text("right-hand spring, free; the left-hand one is its mirror image", (20.0, 16.0))
-    for index, line in enumerate((Line("", "", "", "tolerance", ""), *lines)):
+    for index, line in enumerate((SpringLine("", "", "", "tolerance", ""), *lines)):
         y = SIZE[1] - 18.0 - 6.2 * index
         for x, text in ((202.0, line.name), (252.0, " ".join((line.value, line.unit))), (302.0, line.tolerance)):
             sheet.text(text, (x, y), 2.3)
@@ -113,7 +114,7 @@ def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[Line]) -> She
     return sheet
 
 
-def _plan(sheet: Sheet, coil: Coil, origin: tuple[float, float]) -> None:
+def _plan(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
     """The spring seen along its axis from the leg's side, turned so that the leg points to the right."""
     x, y = sheet.at(origin)
     space, outline, dimension = sheet.space, {"layer": "OUTLINE"}, {"layer": "DIMENSION"}
@@ -137,7 +138,7 @@ def _plan(sheet: Sheet, coil: Coil, origin: tuple[float, float]) -> None:
         ).render()  # fmt: skip
 
 
-def _side(sheet: Sheet, coil: Coil, origin: tuple[float, float]) -> None:
+def _side(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
     """The body from the side, its coils as slanting lines, the leg to the right and the tang below."""
     x, y = sheet.at(origin)
     space, outline, dimension = sheet.space, {"layer": "OUTLINE"}, {"layer": "DIMENSION"}

@@ -17,7 +17,7 @@ from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.export.mesh import Array, Mesh, face_meshes
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import holes
-from tvimdesign.cad.geometry.production import Making
+from tvimdesign.cad.geometry.production import Production
 
 _DIGITS = (6, 5, 7)
 """Decimals of a millimetre to which a mesh's vertices are merged. A coordinate can lie where one rounding splits it
@@ -29,7 +29,7 @@ _EPOCH = (1980, 1, 1, 0, 0, 0)
 """The time of every entry of a 3MF archive, so that the same part gives the same file."""
 
 
-def as_printed(solid: cq.Solid, making: Making, hole_compensation: float) -> cq.Solid:
+def as_printed(solid: cq.Solid, making: Production, hole_compensation: float) -> cq.Solid:
     """Return the part with its upright holes wider by `hole_compensation` [mm on the diameter], lying on its side.
 
     What lies on the bed is at z = 0, the part's own axis at x = y = 0.

@@ -7,7 +7,7 @@ from typing import Literal
 
 
 @dataclass(frozen=True, kw_only=True)
-class Making:
+class Production:
     """How one kind of part is come by."""
 
     down: Literal["bottom", "top", "bought"]
@@ -18,52 +18,52 @@ class Making:
     """Whether a workshop gets a drawing of it."""
 
 
-MAKING = {
-    "housing": Making(
+PRODUCTION = {
+    "housing": Production(
         down="bottom", drawn=True,
         why="feet and skirt on the bed: posts, hub and seats grow upwards and come out round; only the floor needs "
         "support, in the open space under it",
     ),
-    "rotor": Making(
+    "rotor": Production(
         down="top", drawn=True,
         why="link end of the core on the bed: the face the PCL bonds to, and the vanes, come out on top without marks "
         "of supports, which stand between plate and bed",
     ),
-    "link": Making(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
-    "retainer": Making(down="bottom", drawn=True, why="flat: no support"),
-    "pcl_arc": Making(down="bottom", why="flat, keys upwards; print it of PCL, or without keys cut it from sheet"),
-    "pcl_block": Making(down="bottom", why="flat; print it of PCL, or cut it from sheet"),
-    "peltier_pad": Making(down="bought", why="a Peltier module of the catalogue, cut or chosen to this size"),
-    "adjuster": Making(
+    "link": Production(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
+    "retainer": Production(down="bottom", drawn=True, why="flat: no support"),
+    "pcl_arc": Production(down="bottom", why="flat, keys upwards; print it of PCL, or without keys cut it from sheet"),
+    "pcl_block": Production(down="bottom", why="flat; print it of PCL, or cut it from sheet"),
+    "peltier_pad": Production(down="bought", why="a Peltier module of the catalogue, cut or chosen to this size"),
+    "adjuster": Production(
         down="bottom", drawn=True, why="flange on the bed: post and slot grow upwards, the screw's hole stands upright",
     ),
-    "cover": Making(down="bottom", drawn=True, why="flat: no support"),
-    "link_screw": Making(down="bought", why="a screw of the catalogue"),
-    "link_insert": Making(down="bought", why="a brass insert of the catalogue, melted into the core"),
-    "retainer_screw": Making(down="bought", why="a screw of the catalogue"),
-    "retainer_insert": Making(down="bought", why="a brass insert of the catalogue, melted into the core"),
-    "adjuster_screw": Making(down="bought", why="a screw of the catalogue"),
-    "adjuster_insert": Making(down="bought", why="a brass insert of the catalogue, melted into the post"),
-    "cover_screw": Making(down="bought", why="a screw of the catalogue"),
-    "cover_insert": Making(down="bought", why="a brass insert of the catalogue, melted into the boss"),
-    "bearing_inner": Making(down="bought", why="the half of a ball bearing of the catalogue that turns"),
-    "bearing_outer": Making(down="bought", why="the half of a ball bearing of the catalogue that stands"),
-    "motor_hub": Making(
+    "cover": Production(down="bottom", drawn=True, why="flat: no support"),
+    "link_screw": Production(down="bought", why="a screw of the catalogue"),
+    "link_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the core"),
+    "retainer_screw": Production(down="bought", why="a screw of the catalogue"),
+    "retainer_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the core"),
+    "adjuster_screw": Production(down="bought", why="a screw of the catalogue"),
+    "adjuster_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the post"),
+    "cover_screw": Production(down="bought", why="a screw of the catalogue"),
+    "cover_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the boss"),
+    "bearing_inner": Production(down="bought", why="the half of a ball bearing of the catalogue that turns"),
+    "bearing_outer": Production(down="bought", why="the half of a ball bearing of the catalogue that stands"),
+    "motor_hub": Production(
         down="top", drawn=True, why="disc and spokes on the bed: barrel and journal grow upwards, no support",
     ),
-    "motor_housing": Making(
+    "motor_housing": Production(
         down="bottom", drawn=True,
         why="base on the bed: wall and tube grow upwards; only the board's recess and the bearings' lip need support",
     ),
-    "motor_retainer": Making(down="top", drawn=True, why="the face to the bearing on the bed: no support"),
-    "motor_rotor": Making(down="bought", why="the rotor of a frameless motor of the catalogue"),
-    "motor_stator": Making(down="bought", why="the stator of a frameless motor of the catalogue"),
-    "motor_bearing": Making(down="bought", why="a ball bearing of the catalogue"),
-    "motor_screw": Making(down="bought", why="a screw of the catalogue"),
-    "mount_screw": Making(down="bought", why="a screw of the catalogue"),
-    "encoder_magnet": Making(down="bought", why="a magnet magnetised across, as the encoder's maker asks"),
-    "encoder_board": Making(down="bought", why="the encoder of the catalogue, or a board made to its size"),
-    "spring_right": Making(down="bought", why="wound to the spring maker's sheet"),
-    "spring_left": Making(down="bought", why="wound to the spring maker's sheet"),
+    "motor_retainer": Production(down="top", drawn=True, why="the face to the bearing on the bed: no support"),
+    "motor_rotor": Production(down="bought", why="the rotor of a frameless motor of the catalogue"),
+    "motor_stator": Production(down="bought", why="the stator of a frameless motor of the catalogue"),
+    "motor_bearing": Production(down="bought", why="a ball bearing of the catalogue"),
+    "motor_screw": Production(down="bought", why="a screw of the catalogue"),
+    "mount_screw": Production(down="bought", why="a screw of the catalogue"),
+    "encoder_magnet": Production(down="bought", why="a magnet magnetised across, as the encoder's maker asks"),
+    "encoder_board": Production(down="bought", why="the encoder of the catalogue, or a board made to its size"),
+    "spring_right": Production(down="bought", why="wound to the spring maker's sheet"),
+    "spring_left": Production(down="bought", why="wound to the spring maker's sheet"),
 }  # fmt: skip
 """By kind of part, of all modes."""

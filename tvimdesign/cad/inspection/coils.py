@@ -7,7 +7,7 @@ from math import cos, hypot, pi, sin
 
 import numpy as np
 
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import polar
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil
@@ -17,7 +17,7 @@ TIGHT = 0.04
 """Of its inner diameter, what a coil should leave free around its post; handbook: Shigley, section 10-12, takes 5 %."""
 
 
-def coil_checks(dims: Dimensions) -> Iterator[Check]:
+def coil_checks(dims: Dimensions) -> Iterator[SolidCheck]:
     """Hold the springs against their posts and each other, free and at five angles of the rotor; exact."""
     yield from _checks(dims, free_coil(dims), "as bought")
     for share in (-1.0, -0.5, 0.0, 0.5, 1.0):
@@ -25,7 +25,7 @@ def coil_checks(dims: Dimensions) -> Iterator[Check]:
         yield from _checks(dims, installed_coil(dims, share * dims.stroke), where)
 
 
-def _checks(dims: Dimensions, coil: Coil, where: str) -> Iterator[Check]:
+def _checks(dims: Dimensions, coil: Coil, where: str) -> Iterator[SolidCheck]:
     """The right-hand spring stands for both: the left-hand one does the same at the opposite angle."""
     d, inside, reach = coil.wire_diameter, 0.5 * (coil.diameter - coil.wire_diameter), spring_reach(coil)
     level = 0.5 * (coil.start_level + coil.end_level)

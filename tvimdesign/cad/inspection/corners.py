@@ -12,7 +12,7 @@ from OCP.BRepClass3d import BRepClass3d_SolidClassifier
 from OCP.gp import gp_Pnt
 from OCP.TopAbs import TopAbs_State
 
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import Array
 from tvimdesign.cad.geometry.features import Cylinder, upright_cylinders
 from tvimdesign.cad.inspection.finding import at_most, finding
@@ -34,7 +34,7 @@ class Corner(NamedTuple):
     place: Array
 
 
-def corner_checks(part: str, solid: cq.Solid, corner_radius: float, corner_depth_ratio: float) -> list[Check]:
+def corner_checks(part: str, solid: cq.Solid, corner_radius: float, corner_depth_ratio: float) -> list[SolidCheck]:
     """Hold the upright inner corners of a part against the radius a cutter has and how deep it cuts [mm]."""
     sharp, rounded = list(sharp_corners(solid)), list(round_corners(solid))
     worst = max(sharp, key=lambda one: one.depth, default=None)
@@ -45,10 +45,10 @@ def corner_checks(part: str, solid: cq.Solid, corner_radius: float, corner_depth
         )
     deepest = max(rounded, key=lambda one: one.depth / one.radius, default=None)
     ratio = deepest.depth / deepest.radius if deepest else 0.0
-    told = "no upright inner corner is round"
+    reported = "no upright inner corner is round"
     if deepest:
-        told = f"a corner of {deepest.radius:.3g} mm is {deepest.depth:.3g} mm deep, {ratio:.3g} times its radius; "
-        told += f"a cutter reaches {corner_depth_ratio:.3g} times"
+        reported = f"a corner of {deepest.radius:.3g} mm is {deepest.depth:.3g} mm deep, {ratio:.3g} times its radius; "
+        reported += f"a cutter reaches {corner_depth_ratio:.3g} times"
     return [
         finding(
             part, "sharp corners", len(sharp), 0.0, "", "warning" if sharp else "pass", text,
@@ -56,13 +56,13 @@ def corner_checks(part: str, solid: cq.Solid, corner_radius: float, corner_depth
         ),
         finding(
             part, "corner depth", ratio, corner_depth_ratio, "", at_most(ratio, (1.0 + 1e-6) * corner_depth_ratio),
-            told,
+            reported,
             place=deepest.place if deepest else None,
         ),
     ]  # fmt: skip
 
 
-def hole_check(part: str, drilled: Sequence[Cylinder], hole_depth_ratio: float) -> Check:
+def hole_check(part: str, drilled: Sequence[Cylinder], hole_depth_ratio: float) -> SolidCheck:
     """Hold the round upright holes of a part against how deep a drill goes."""
     deepest = max(drilled, key=lambda one: (one.top - one.bottom) / one.radius, default=None)
     if deepest is None:

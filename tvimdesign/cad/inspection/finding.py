@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tvimdesign.cad.cad_report import Check, Level
+from tvimdesign.cad.cad_report import Level, SolidCheck
 from tvimdesign.cad.export.mesh import Array
 
 
@@ -21,9 +21,9 @@ def at_most(value: float, limit: float) -> Level:
 def finding(
     part: str, what: str, value: float, limit: float, unit: str, level: Level, text: str,
     *, place: Array | None = None, resolution: float = 0.0,
-) -> Check:  # fmt: skip
+) -> SolidCheck:  # fmt: skip
     """Return a check of one part, its value in `unit`, found at `place` by samples `resolution` [mm] apart."""
-    return Check(
+    return SolidCheck(
         name=f"{part}: {what}", value=float(value), limit=float(limit), ok=level != "failure", text=f"{part}: {text}",
         warned=level == "warning", part=part, place=None if place is None else tuple(round(float(x), 3) for x in place),
         unit=unit, resolution=resolution,

@@ -9,11 +9,11 @@ import cadquery as cq
 from tvimdesign.base.units import from_si
 from tvimdesign.cad.assembly.assembly import place
 from tvimdesign.cad.assembly.product_data import instances
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import holes
-from tvimdesign.cad.geometry.production import MAKING
+from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.cad.inspection.coils import coil_checks
 from tvimdesign.cad.inspection.corners import corner_checks, hole_check
 from tvimdesign.cad.inspection.finding import at_least, finding
@@ -29,7 +29,7 @@ from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
 
 
-def part_checks(design: Design, dims: Dimensions, kind: str, solid: cq.Solid) -> list[Check]:
+def part_checks(design: Design, dims: Dimensions, kind: str, solid: cq.Solid) -> list[SolidCheck]:
     """Hold one made part against its process: all it needs is its own solid."""
     mesh = solid_mesh(solid)
     triangles = Triangles(mesh)
@@ -41,18 +41,18 @@ def part_checks(design: Design, dims: Dimensions, kind: str, solid: cq.Solid) ->
         found += corner_checks(kind, solid, dims.corner_radius, dims.corner_depth_ratio)
         found += [hole_check(kind, drilled, dims.hole_depth_ratio)]
         return [*found, bed_check(kind, triangles.upper - triangles.lower, bed)]
-    down = MAKING[kind].down
+    down = PRODUCTION[kind].down
     return [*found, *printing_checks(kind, mesh, down, dims.overhang_angle, dims.bridge_span, bed)]
 
 
-def solid_check(kind: str, shape: cq.Shape) -> Check:
+def solid_check(kind: str, shape: cq.Shape) -> SolidCheck:
     """Whether a part is one valid solid."""
     count, sound = len(shape.Solids()), shape.isValid()
     text = f"{count} solid{'' if count == 1 else 's'}, {'valid' if sound else 'not valid'}"
     return finding(kind, "solid", count, 1.0, "", "pass" if count == 1 and sound else "failure", text)
 
 
-def module_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[Check]:
+def module_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """Hold the module against its own rules, its springs as they wind, its screws, and the order of its assembly."""
     yield from rule_checks(design)
     yield from coil_checks(dims)
@@ -60,7 +60,7 @@ def module_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid
     yield from order_checks(dims, instances(dims, drawn, place(dims, drawn)))
 
 
-def rule_checks(design: Design) -> Iterator[Check]:
+def rule_checks(design: Design) -> Iterator[SolidCheck]:
     """Hold the design against the rules of the table that say what can be made and put together; exact."""
     for row in table_for(design.mode).outputs:
         if row.group != "Gaps" or row.name not in design.values:
@@ -75,7 +75,7 @@ def rule_checks(design: Design) -> Iterator[Check]:
             yield finding("module", f"rule {row.name}", value, limit, row.unit, level, text + reason)
 
 
-def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[Check]:
+def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """How much of each kind of screw is in its thread, over its diameter; read off the solids."""
     x, y = link_screws(dims)[0]
     bosses = between_springs(dims, dims.housing_inner_radius)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import CHORD, Array
 from tvimdesign.cad.geometry.features import Cylinder
 from tvimdesign.cad.inspection.across import across
@@ -50,7 +50,7 @@ class Narrow(NamedTuple):
 
 def milling_checks(
     part: str, triangles: Triangles, drilled: Sequence[Cylinder], pocket_depth_ratio: float
-) -> list[Check]:
+) -> list[SolidCheck]:
     """Hold a part against what a mill of three axes reaches; `drilled` are its round holes, which are no pockets."""
     everywhere = samples(triangles, SPACING)
     seen = {side: reached(triangles, everywhere, tool) for side, tool in SIDES.items()}
@@ -99,7 +99,7 @@ def set_ups(where: Samples, seen: dict[str, NDArray[np.bool_]]) -> list[str]:
 
 def _pocket_check(
     part: str, triangles: Triangles, where: Samples, seen: dict[str, NDArray[np.bool_]], limit: float
-) -> Check:
+) -> SolidCheck:
     found = [narrowest(triangles, where.of(seen[side]), side) for side in ("+z", "-z")]
     worst = max(filter(None, found), key=lambda one: one.ratio, default=None)
     if worst is None:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tvimdesign.cad.assembly.assembly_note import steps_of
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
@@ -34,7 +34,7 @@ TOOL_RADIUS = 3.2
 _TOOL_RAYS = 24
 
 
-class Placed(NamedTuple):
+class PlacedPart(NamedTuple):
     """One part that comes into its place."""
 
     name: str
@@ -65,17 +65,17 @@ class Standing:
         return min(self._parts, key=lambda name: away(self._parts[name]))
 
 
-def sequence(names: Sequence[str]) -> list[Placed]:
+def sequence(names: Sequence[str]) -> list[PlacedPart]:
     """Every part in the order in which it comes into its place, by the steps of the assembly note."""
     kinds = {kind_of(name) for name in names}
-    order: list[Placed] = []
+    order: list[PlacedPart] = []
     for step in steps_of(kinds):
         for one in step.get("place", ()):
-            order += [Placed(name, one["from"]) for name in names if one["part"] in (name, kind_of(name))]
+            order += [PlacedPart(name, one["from"]) for name in names if one["part"] in (name, kind_of(name))]
     return order
 
 
-def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[Check]:
+def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[SolidCheck]:
     """Put part after part in its place and hold its way in against those that are there; then look at the screws."""
     meshes = {name: in_module(instance) for name, instance in placed.items()}
     order = sequence(list(meshes))
@@ -97,9 +97,9 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[C
         yield from mount_checks(dims, Standing(there))
 
 
-def _groups(order: Sequence[Placed]) -> Iterator[list[Placed]]:
+def _groups(order: Sequence[PlacedPart]) -> Iterator[list[PlacedPart]]:
     """Neighbours in the order that are of one kind and come from one side."""
-    group: list[Placed] = []
+    group: list[PlacedPart] = []
     for one in order:
         if group and (kind_of(one.name), one.side) != (kind_of(group[0].name), group[0].side):
             yield group
@@ -115,7 +115,7 @@ def in_module(instance: Instance) -> Mesh:
     return Mesh(instance.mesh.vertices @ turn.T + shift, instance.mesh.faces)
 
 
-def _way_check(kind: str, side: str, copies: Mapping[str, Mesh], there: Standing) -> Check:
+def _way_check(kind: str, side: str, copies: Mapping[str, Mesh], there: Standing) -> SolidCheck:
     """Look back along the way in from every copy: what it meets there, the part would have to pass through."""
     out = _WAY[side]
     points = [_leading(mesh, out) for mesh in copies.values()]
@@ -152,13 +152,13 @@ def _end(mesh: Mesh, out: Array) -> Array:
     return np.asarray(mesh.vertices[ends > ends.max() - 1e-6].mean(axis=0))
 
 
-def mount_checks(dims: Dimensions, there: Standing) -> Iterator[Check]:
+def mount_checks(dims: Dimensions, there: Standing) -> Iterator[SolidCheck]:
     """Whether a driver comes from above to the screws that fix the housing, the module complete and at rest."""
     for index, (x, y) in enumerate(mounts(dims)):
         yield _driver(f"mount_screw_{index + 1}", np.array([x, y, 0.0]), _WAY["above"], there)
 
 
-def _driver(name: str, head: Array, out: Array, there: Standing) -> Check:
+def _driver(name: str, head: Array, out: Array, there: Standing) -> SolidCheck:
     """Whether a driver comes to a screw along its axis; the screw itself lies behind the rays."""
     angles = np.arange(_TOOL_RAYS) * 2.0 * pi / _TOOL_RAYS
     rim = [

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import Array, Mesh
 from tvimdesign.cad.inspection.across import across
 from tvimdesign.cad.inspection.finding import at_least, finding
@@ -46,7 +46,7 @@ def lying(mesh: Mesh, down: str) -> Mesh:
 
 def printing_checks(
     part: str, mesh: Mesh, down: str, overhang_angle: float, bridge_span: float, bed: tuple[float, float, float]
-) -> list[Check]:
+) -> list[SolidCheck]:
     """Hold a part as it is printed against the process: angle from upright [rad], lengths [mm]."""
     triangles = Triangles(lying(mesh, down))
     found = overhangs(triangles, overhang_angle)
@@ -75,7 +75,7 @@ def printing_checks(
     ]  # fmt: skip
 
 
-def bed_check(part: str, size: Array, bed: tuple[float, float, float]) -> Check:
+def bed_check(part: str, size: Array, bed: tuple[float, float, float]) -> SolidCheck:
     """Hold a part's box, turned about z as suits it, against what the machine can make [mm]."""
     need, have = sorted(size[:2]), sorted(bed[:2])
     room = min(have[0] - need[0], have[1] - need[1], bed[2] - size[2])

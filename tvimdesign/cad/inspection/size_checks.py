@@ -15,7 +15,7 @@ from OCP.GProp import GProp_GProps
 
 from tvimdesign.cad.assembly.assembly import place
 from tvimdesign.cad.assembly.module_parts import MODULES
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, TURNING, kind_of
 from tvimdesign.cad.geometry.spring_solids import installed_coil
@@ -33,7 +33,7 @@ Place = tuple[float, float, float]
 
 def all_checks(
     design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], progress: Callable[[str], None] | None = None
-) -> list[Check]:
+) -> list[SolidCheck]:
     """Run every check at rest and through the stroke."""
     say = progress or (lambda _: None)
     say("sizes")
@@ -47,7 +47,7 @@ POSITIONS = (0.0, -1.0, -0.5, 0.5, 1.0)
 """Of the rotor at which parts are held against each other, as shares of the stroke."""
 
 
-def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> list[Check]:
+def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> list[SolidCheck]:
     """Hold the sizes at rest against the rows, and the legs against their pins."""
     at_rest = place(dims, drawn)
     return [*size_checks(design, at_rest), *envelope_checks(dims, at_rest), *bearing_checks(dims)]
@@ -55,7 +55,7 @@ def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid])
 
 def clearance_checks(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, say: Callable[[str], None]
-) -> list[Check]:
+) -> list[SolidCheck]:
     """Hold every part against every other one at rest; at a share of the stroke, those that do not move together."""
     where = "at rest" if share == 0.0 else f"at {share * dims.stroke:+.4f} rad"
     say(f"interference {where}")
@@ -65,7 +65,7 @@ def clearance_checks(
     return list(interference_checks(placed, where, lambda a, b: not _together(dims.mode, a, b)))
 
 
-def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:
+def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """Volume, mass and inertia of the solids against the rows of the design."""
     by_kind: dict[str, list[cq.Solid]] = {}
     for name, solid in placed.items():
@@ -86,7 +86,7 @@ def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Chec
     yield _against("module_mass", mass, design.value("module_mass"))
 
 
-def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[Check]:
+def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """Diameter and height of the whole module at rest against the rows, to rounding."""
     boxes = [solid.BoundingBox() for solid in placed.values()]
     height = max(box.zmax for box in boxes) - min(box.zmin for box in boxes)
@@ -95,7 +95,7 @@ def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterato
     yield _against("envelope_diameter", width, dims.envelope_diameter, ENVELOPE_TOLERANCE)
 
 
-def bearing_checks(dims: Dimensions) -> Iterator[Check]:
+def bearing_checks(dims: Dimensions) -> Iterator[SolidCheck]:
     """How far the legs reach beyond the pins they bear on, at rest and at either end of the stroke [mm]."""
     for angle in (-dims.stroke, 0.0, dims.stroke):
         coil = installed_coil(dims, angle)
@@ -103,12 +103,12 @@ def bearing_checks(dims: Dimensions) -> Iterator[Check]:
         distance = pin_distance(dims.pin_radius, dims.placement_radius, angle)
         beyond = coil.leg_length - float(sqrt(distance**2 - offset**2))
         text = f"the springs' legs reach {beyond:.3g} mm beyond their pins at {angle:+.4f} rad"
-        yield Check(f"leg beyond pin at {angle:+.4f} rad", beyond, 0.0, beyond > 0.0, text)
+        yield SolidCheck(f"leg beyond pin at {angle:+.4f} rad", beyond, 0.0, beyond > 0.0, text)
 
 
 def interference_checks(
     placed: Mapping[str, cq.Solid], where: str, wanted: Callable[[str, str], bool] = lambda _a, _b: True
-) -> Iterator[Check]:
+) -> Iterator[SolidCheck]:
     """Common volume of every wanted pair whose boxes overlap; one check that says how many pairs are apart."""
     boxes = {name: solid.BoundingBox() for name, solid in placed.items()}
     apart = 0
@@ -120,11 +120,11 @@ def interference_checks(
             continue
         common, place = _common(placed[first], placed[second])
         text = f"{first} and {second} share {common:.4g} mm3 {where}"
-        yield Check(
+        yield SolidCheck(
             f"{first} | {second} {where}", common, TOUCHING, common < TOUCHING, text,
             part=f"{first}, {second}", place=place or _between(boxes[first], boxes[second]), unit="mm³",
         )  # fmt: skip
-    yield Check(f"pairs apart {where}", apart, 0.0, True, f"{apart} pairs are apart by their boxes {where}")
+    yield SolidCheck(f"pairs apart {where}", apart, 0.0, True, f"{apart} pairs are apart by their boxes {where}")
 
 
 def _common(first: cq.Solid, second: cq.Solid) -> tuple[float, Place | None]:
@@ -152,10 +152,10 @@ def _together(mode: str, first: str, second: str) -> bool:
     return kinds <= set(MODULES[mode].fixed) or kinds <= set(TURNING)
 
 
-def _against(name: str, built: float, model: float, tolerance: float = MODEL_TOLERANCE) -> Check:
+def _against(name: str, built: float, model: float, tolerance: float = MODEL_TOLERANCE) -> SolidCheck:
     deviation = built / model - 1.0
     text = f"{name}: solid {built:.6g}, model {model:.6g}"
-    return Check(name, deviation, tolerance, abs(deviation) <= tolerance, text)
+    return SolidCheck(name, deviation, tolerance, abs(deviation) <= tolerance, text)
 
 
 def _polar_moment(solid: cq.Solid) -> float:

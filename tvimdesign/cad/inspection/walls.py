@@ -8,7 +8,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
-from tvimdesign.cad.cad_report import Check, Level
+from tvimdesign.cad.cad_report import Level, SolidCheck
 from tvimdesign.cad.export.mesh import CHORD, Array
 from tvimdesign.cad.inspection.finding import at_least, finding
 from tvimdesign.cad.inspection.rays import Triangles
@@ -26,7 +26,7 @@ _OPPOSED = -0.5
 """A ray that comes out at an edge has measured no wall: both faces must look away from each other, within 60 deg."""
 
 
-def wall_checks(part: str, triangles: Triangles, minimum_wall: float, thinnest_wall: float) -> list[Check]:
+def wall_checks(part: str, triangles: Triangles, minimum_wall: float, thinnest_wall: float) -> list[SolidCheck]:
     """Hold the walls of a part against the process [mm], and tell of edges that taper to nothing."""
     everywhere = samples(triangles, SPACING)
     coarse = wall_thickness(triangles, everywhere)
@@ -65,7 +65,7 @@ def _tapering(where: Samples, thickness: Array, minimum_wall: float) -> NDArray[
     return tapering
 
 
-def _thinnest(part: str, where: Samples, thickness: Array, minimum_wall: float, thinnest_wall: float) -> Check:
+def _thinnest(part: str, where: Samples, thickness: Array, minimum_wall: float, thinnest_wall: float) -> SolidCheck:
     at = int(np.argmin(thickness))
     least = float(thickness[at])
     text = f"the thinnest wall is {least:.3g} mm; the process makes {minimum_wall:.3g} mm"
@@ -75,7 +75,7 @@ def _thinnest(part: str, where: Samples, thickness: Array, minimum_wall: float, 
     )  # fmt: skip
 
 
-def _edges(part: str, where: Samples, thickness: Array, minimum_wall: float) -> Check:
+def _edges(part: str, where: Samples, thickness: Array, minimum_wall: float) -> SolidCheck:
     area = float(where.area.sum())
     text = "no edge tapers to nothing"
     if area:

@@ -37,10 +37,10 @@ def hub(dims: Dimensions) -> cq.Shape:
 
 def housing(dims: Dimensions) -> cq.Shape:
     """Base, wall around the stator, tube for two bearings; less bore and seats, screw holes and ways for wires."""
-    bottom, shelf, top = dims.motor_bottom_level, dims.stator_bottom_level, dims.stator_top_level
-    base = cylinder(dims.motor_outer_radius, bottom, shelf)
-    wall = ring(dims.stator_seat_radius, dims.motor_outer_radius, shelf, top)
-    tube = cylinder(dims.motor_tube_radius, shelf, top)
+    bottom, category, top = dims.motor_bottom_level, dims.stator_bottom_level, dims.stator_top_level
+    base = cylinder(dims.motor_outer_radius, bottom, category)
+    wall = ring(dims.stator_seat_radius, dims.motor_outer_radius, category, top)
+    tube = cylinder(dims.motor_tube_radius, category, top)
     across = (0.0, dims.motor_outer_radius + 1.0)
     # The wires' opening ends at the wall: what it is cut from is the wall alone.
     wall = wall.cut(block(across, dims.motor_wire_width, top - dims.motor_wire_depth, top))

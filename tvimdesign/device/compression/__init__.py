@@ -1,4 +1,4 @@
-"""The compression module: what blocks between vanes add to the rows that all modes share.
+"""The compression module: what blocks between vanes add to the quantities that all modes share.
 
 The drawing in words. Housing, floor, hub, springs on posts, core, rotor plate, link and retainer are those of the shear
 module; so are axes, origin and signs. Between the radii `pcl_inner_radius` and `pcl_outer_radius`, above the floor and

@@ -9,22 +9,22 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.compression.block_impedance import blocks_moment
-from tvimdesign.device.core.thermal_stack import book as shared
+from tvimdesign.device.core.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import film, heat
 from tvimdesign.physics.shapes import Section
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.helper()
+@quantities.helper()
 def cold_area(vane_count: Scalar, slot_width: Scalar, slot_height: Scalar) -> Scalar:
     """Open area of the pads' cold sides [m^2]: what of them the slots show."""
     return 2.0 * vane_count * slot_width * slot_height
 
 
-@book.helper(instant=True)
+@quantities.helper(instant=True)
 def moment_now(
     slice_moduli: tuple[Scalar, Scalar],
     shape_factor: Scalar,
@@ -37,13 +37,13 @@ def moment_now(
     return blocks_moment(shape_factor / share, vane_count, block_area, pcl_mean_radius)
 
 
-@book.helper()
+@quantities.helper()
 def plate_depth(vane_thickness: Scalar) -> Scalar:
     """Thickness of what is behind a block [m]: half a rotor vane."""
     return 0.5 * vane_thickness
 
 
-@book.helper()
+@quantities.helper()
 def plate_outside(
     pcl_area: Scalar,
     block_area: Scalar,
@@ -58,7 +58,7 @@ def plate_outside(
     return heat.Surface(pcl_area, share * rotor_coefficient, share * surface_emissivity)
 
 
-@book.helper()
+@quantities.helper()
 def plate_mass(
     rotor_radius: Scalar, rotor_thickness: Scalar, rotor_vanes: Section, vane_height: Scalar, structure_density: Scalar
 ) -> Scalar:
@@ -66,7 +66,7 @@ def plate_mass(
     return (np.pi * rotor_radius**2 * rotor_thickness + rotor_vanes.area * vane_height) * structure_density
 
 
-@book.helper()
+@quantities.helper()
 def rotor_beside(
     plate_mass: Scalar,
     pcl_area: Scalar,

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.joint_impedance import book as shared
+from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import block, hold, layer, structure, vane
 from tvimdesign.physics.motion import Modes
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.output("1")
+@quantities.output("1")
 def shape_factor(block_width: Scalar, block_height: Scalar, block_depth: Scalar) -> Scalar:
     """Loaded face of a block over its force-free sides, S."""
     return block.shape_factor(block_width, block_height, block_depth)
@@ -28,13 +28,13 @@ def blocks_moment(shape_factor: Scalar, vane_count: Scalar, block_area: Scalar, 
     return block.stiffness(3.0 * block.shape_stiffening(shape_factor), vane_count, block_area, pcl_mean_radius, 1.0)
 
 
-@book.helper()
+@quantities.helper()
 def pcl_moment(shape_factor: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar) -> Scalar:
     """What the PCL's shear modulus over its depth is multiplied with [m^4]."""
     return blocks_moment(shape_factor, vane_count, block_area, pcl_mean_radius)
 
 
-@book.helper()
+@quantities.helper()
 def volume_stiffness(
     pcl_flexural_modulus: Scalar,
     pcl_poissons_ratio: Scalar,
@@ -50,7 +50,7 @@ def volume_stiffness(
     return block.stiffness(modulus, vane_count, block_area, pcl_mean_radius, block_depth)
 
 
-@book.helper(per_point=True)
+@quantities.helper(per_point=True)
 def pcl_dynamic_stiffness(
     pcl_moduli: tuple[Scalar, Scalar], pcl_moment: Scalar, block_depth: Scalar, volume_stiffness: Scalar
 ) -> tuple[Scalar, Scalar]:
@@ -59,19 +59,19 @@ def pcl_dynamic_stiffness(
     return layer.series_stiffness(storage, loss, volume_stiffness)
 
 
-@book.output("N*m/rad", per_point=True, headline=True)
+@quantities.output("N*m/rad", per_point=True, headline=True)
 def pcl_stiffness(pcl_dynamic_stiffness: tuple[Scalar, Scalar]) -> Scalar:
     """Stiffness of the PCL blocks alone, those of one sense, K_PCL."""
     return pcl_dynamic_stiffness[0]
 
 
-@book.output("N*m*s/rad", per_point=True, headline=True)
+@quantities.output("N*m*s/rad", per_point=True, headline=True)
 def pcl_damping(pcl_dynamic_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
     """Damping of the PCL blocks alone, those of one sense, b_PCL."""
     return pcl_dynamic_stiffness[1] / (2.0 * np.pi * frequency)
 
 
-@book.helper()
+@quantities.helper()
 def rotor_vane_stiffness(
     structure_youngs_modulus: Scalar,
     structure_shear_modulus: Scalar,
@@ -86,13 +86,13 @@ def rotor_vane_stiffness(
     return vane_count * one * pcl_mean_radius**2
 
 
-@book.output("mm")
+@quantities.output("mm")
 def housing_vane_thickness(slot_angle: Scalar, pcl_mean_radius: Scalar) -> Scalar:
     """Thickness of the housing's vanes between their pads, at the mean radius."""
     return slot_angle * pcl_mean_radius
 
 
-@book.helper()
+@quantities.helper()
 def housing_vane_stiffness(
     structure_youngs_modulus: Scalar,
     structure_shear_modulus: Scalar,
@@ -109,7 +109,7 @@ def housing_vane_stiffness(
     return vane_count * one * pcl_mean_radius**2
 
 
-@book.output("N*m/rad")
+@quantities.output("N*m/rad")
 def structure_stiffness(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
@@ -139,7 +139,7 @@ def structure_stiffness(
     )
 
 
-@book.helper()
+@quantities.helper()
 def elastic_support(structure_stiffness: Scalar, volume_stiffness: Scalar) -> Scalar:
     """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure, and the blocks' volume."""
     return structure.series(structure_stiffness, volume_stiffness)
@@ -151,7 +151,7 @@ _SQUEEZED = (
 )
 
 
-@book.output("1", Rule(sense="<=", value=0.5, reason=_SQUEEZED), headline=True)
+@quantities.output("1", Rule(sense="<=", value=0.5, reason=_SQUEEZED), headline=True)
 def block_strain(pcl_mean_radius: Scalar, stroke: Scalar, block_depth: Scalar) -> Scalar:
     """Compression of the molten block at full stroke, of its depth.
 
@@ -161,7 +161,7 @@ def block_strain(pcl_mean_radius: Scalar, stroke: Scalar, block_depth: Scalar) -
     return block.strain(pcl_mean_radius, stroke, block_depth)
 
 
-@book.output("N*m")
+@quantities.output("N*m")
 def block_holding_torque(
     pcl_tensile_yield: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar
 ) -> Scalar:
@@ -169,13 +169,13 @@ def block_holding_torque(
     return block.torque_at_stress(pcl_tensile_yield, vane_count, block_area, pcl_mean_radius)
 
 
-@book.helper()
+@quantities.helper()
 def vane_arm(block_height: Scalar, running_clearance: Scalar) -> Scalar:
     """Distance of the middle of a block from the root of the vane it presses on [m]."""
     return 0.5 * block_height + running_clearance
 
 
-@book.output("N*m")
+@quantities.output("N*m")
 def rotor_vane_holding_torque(
     structure_layer_strength: Scalar,
     block_width: Scalar,
@@ -189,7 +189,7 @@ def rotor_vane_holding_torque(
     return vane_count * force * pcl_mean_radius
 
 
-@book.output("N*m")
+@quantities.output("N*m")
 def housing_vane_holding_torque(
     structure_layer_strength: Scalar,
     slot_web: Scalar,
@@ -209,7 +209,7 @@ _PARTS = (
 )  # fmt: skip
 
 
-@book.output("N*m", headline=True, least_of=_PARTS)
+@quantities.output("N*m", headline=True, least_of=_PARTS)
 def holding_torque(
     block_holding_torque: Scalar,
     rotor_vane_holding_torque: Scalar,
@@ -222,7 +222,7 @@ def holding_torque(
     return np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
 
 
-@book.output("1", headline=True)
+@quantities.output("1", headline=True)
 def parting_share() -> Scalar:
     """Share of the PCL that can part from what presses on it: all, a block pushes and never pulls.
 
@@ -231,7 +231,7 @@ def parting_share() -> Scalar:
     return 1.0
 
 
-@book.output("MPa", per_point=True)
+@quantities.output("MPa", per_point=True)
 def block_pressure(
     hold_torque: Scalar,
     spring_stiffness: Scalar,

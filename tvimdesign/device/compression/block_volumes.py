@@ -2,39 +2,39 @@
 
 from __future__ import annotations
 
-from tvimdesign.device.core.mass_properties import book as shared
+from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.shapes import Section, corners, radial_strip, sector
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.output("mm^2")
+@quantities.output("mm^2")
 def block_area(block_width: Scalar, block_height: Scalar) -> Scalar:
     """Face of one block, and of one Peltier pad."""
     return block_width * block_height
 
 
-@book.output("mm^2", headline=True)
+@quantities.output("mm^2", headline=True)
 def pcl_area(vane_count: Scalar, block_area: Scalar) -> Scalar:
     """Area of all PCL blocks together towards their pads."""
     return 2.0 * vane_count * block_area
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def pcl_volume(pcl_area: Scalar, block_depth: Scalar) -> Scalar:
     """Volume of all PCL blocks together; a sector has its depth at the mean radius throughout."""
     return pcl_area * block_depth
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def peltier_volume(pcl_area: Scalar, peltier_thickness: Scalar) -> Scalar:
     """Volume of all Peltier pads together; they have the faces of the blocks."""
     return pcl_area * peltier_thickness
 
 
-@book.helper()
+@quantities.helper()
 def slot_section(
     vane_count: Scalar,
     housing_vane_angle: Scalar,
@@ -48,7 +48,7 @@ def slot_section(
     return vane_count * (whole - pads)
 
 
-@book.helper()
+@quantities.helper()
 def slot_foot_section(
     vane_count: Scalar,
     housing_vane_angle: Scalar,
@@ -64,7 +64,7 @@ def slot_foot_section(
     return vane_count * (whole - seats - rounded)
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def housing_vanes_volume(
     vane_count: Scalar,
     housing_vane_angle: Scalar,
@@ -84,19 +84,19 @@ def housing_vanes_volume(
     return vane_count * (whole - pads) - slots
 
 
-@book.helper()
+@quantities.helper()
 def floor_openings(slot_foot_section: Scalar, pcl_mean_radius: Scalar, floor_thickness: Scalar) -> Section:
     """What the floor has not got, volume and its polar moment: the slots, at their mean radius."""
     return Section(slot_foot_section, slot_foot_section * pcl_mean_radius**2).times(floor_thickness)
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def floor_volume(floor_moments: Section) -> Scalar:
     """Volume of the housing's floor around the hub, less slots, tang holes and mounting holes."""
     return floor_moments.area
 
 
-@book.helper()
+@quantities.helper()
 def housing_moments(
     bare_housing_moments: Section, housing_vanes_volume: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
 ) -> Section:
@@ -105,13 +105,13 @@ def housing_moments(
     return bare_housing_moments.plus(Section(housing_vanes_volume, housing_vanes_volume * spread))
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def housing_volume(housing_moments: Section) -> Scalar:
     """Volume of the housing: skirt and floor, wall, hub, spring posts and vanes."""
     return housing_moments.area
 
 
-@book.helper()
+@quantities.helper()
 def rotor_vanes(
     vane_count: Scalar, rotor_vane_angle: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
 ) -> Section:
@@ -119,7 +119,7 @@ def rotor_vanes(
     return sector(rotor_vane_angle, pcl_inner_radius, pcl_outer_radius).times(vane_count)
 
 
-@book.helper()
+@quantities.helper()
 def rotor_moments(bare_rotor_moments: Section, rotor_vanes: Section, vane_height: Scalar) -> Section:
     """Volume and its polar moment about the axis, of the rotor with its vanes."""
     return bare_rotor_moments.plus(rotor_vanes.times(vane_height))

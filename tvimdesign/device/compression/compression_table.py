@@ -1,12 +1,12 @@
-"""The table of the compression-mode module, put together from the rooms that write the rows."""
+"""The table of the compression-mode module, put together from the rooms that write the quantities."""
 
 from __future__ import annotations
 
 from tvimdesign.device.compression import block_heat, block_impedance, block_volumes, vane_clearances, vane_layout
 from tvimdesign.device.shared import BOOKS
-from tvimdesign.device.table.phases import STAGES
+from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity import Table
 from tvimdesign.device.table.quantity_group import gather
 
 ROOMS = (vane_layout, block_impedance, block_heat, block_volumes, vane_clearances)
-TABLE = Table(gather([*BOOKS, *(room.book for room in ROOMS)], "compression"), STAGES)
+TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS)], "compression"), PHASES)

@@ -5,64 +5,68 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
-from tvimdesign.device.core.clearances import book as shared
+from tvimdesign.device.core.clearances import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import block
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.output("mm", at_least(0.0, "blocks and vanes must clear the hub"))
+@quantities.output("mm", at_least(0.0, "blocks and vanes must clear the hub"))
 def hub_block_gap(pcl_inner_radius: Scalar, hub_radius: Scalar, radial_clearance: Scalar) -> Scalar:
     """Room between the hub and the blocks and vanes beyond the radial clearance."""
     return pcl_inner_radius - hub_radius - radial_clearance
 
 
-@book.output("mm", at_least(3.0 * MM, "blocks and pads need a width", 0.0))
+@quantities.output("mm", at_least(3.0 * MM, "blocks and pads need a width", 0.0))
 def block_breadth(block_width: Scalar) -> Scalar:
     """Radial width of the blocks, held against the least that can be made."""
     return block_width
 
 
-@book.output("mm", at_least(2.0 * MM, "air must pass between the two pads of a housing vane", 0.0))
+@quantities.output("mm", at_least(2.0 * MM, "air must pass between the two pads of a housing vane", 0.0))
 def slot_opening(housing_vane_angle: Scalar, slot_inner_radius: Scalar, peltier_thickness: Scalar) -> Scalar:
     """Distance of the two pads of a housing vane around the axis, at the inner end of the slot."""
     return slot_inner_radius * (housing_vane_angle - 2.0 * np.arcsin(peltier_thickness / slot_inner_radius))
 
 
-@book.output("mm", at_least(1.0 * MM, "the pads' cold sides must be open somewhere", 0.0))
+@quantities.output("mm", at_least(1.0 * MM, "the pads' cold sides must be open somewhere", 0.0))
 def slot_reach(slot_height: Scalar) -> Scalar:
     """Height of the pads' open cold sides, held against the least that lets air in."""
     return slot_height
 
 
-@book.output("mm", at_least(0.0, "the housing's vanes must carry their pads beside the slot", 0.0))
+@quantities.output("mm", at_least(0.0, "the housing's vanes must carry their pads beside the slot", 0.0))
 def slot_web(block_width: Scalar, slot_width: Scalar) -> Scalar:
     """Radial width of what a housing vane has on either side of its slot."""
     return 0.5 * (block_width - slot_width)
 
 
-@book.output("mm", at_least(0.0, "what carries the pads beside the slots is thinner than the process can make it"))
-def slot_web_reserve(slot_web: Scalar, minimum_wall: Scalar) -> Scalar:
+@quantities.output(
+    "mm", at_least(0.0, "what carries the pads beside the slots is thinner than the process can make it")
+)
+def slot_web_margin(slot_web: Scalar, minimum_wall: Scalar) -> Scalar:
     """Housing vane on either side of its slot beyond the process's least wall."""
     return slot_web - minimum_wall
 
 
-@book.output("mm")
+@quantities.output("mm")
 def vane_root(rotor_vane_angle: Scalar, pcl_inner_radius: Scalar) -> Scalar:
     """Thickness of the rotor's vanes at their inner end, where they are thinnest."""
     return rotor_vane_angle * pcl_inner_radius
 
 
-@book.output("mm", at_least(0.0, "the rotor's vanes are thinner at their inner end than the process can make them"))
-def vane_root_reserve(vane_root: Scalar, minimum_wall: Scalar) -> Scalar:
+@quantities.output(
+    "mm", at_least(0.0, "the rotor's vanes are thinner at their inner end than the process can make them")
+)
+def vane_root_margin(vane_root: Scalar, minimum_wall: Scalar) -> Scalar:
     """Rotor vanes at their inner end beyond the process's least wall."""
     return vane_root - minimum_wall
 
 
-@book.output("mm", at_least(0.0, "the slots are too narrow for their depth: the cutter cannot reach their ends"))
-def slot_pocket_reserve(
+@quantities.output("mm", at_least(0.0, "the slots are too narrow for their depth: the cutter cannot reach their ends"))
+def slot_pocket_margin(
     slot_opening: Scalar,
     pocket_depth_ratio: Scalar,
     floor_thickness: Scalar,
@@ -73,8 +77,8 @@ def slot_pocket_reserve(
     return pocket_depth_ratio * slot_opening - (floor_thickness + vane_height - window_ledge)
 
 
-@book.output("mm", at_least(0.0, "the slots are too deep, the cutter cannot reach into their corners so far"))
-def slot_corner_reserve(
+@quantities.output("mm", at_least(0.0, "the slots are too deep, the cutter cannot reach into their corners so far"))
+def slot_corner_margin(
     corner_radius: Scalar,
     corner_depth_ratio: Scalar,
     floor_thickness: Scalar,
@@ -88,19 +92,19 @@ def slot_corner_reserve(
 _NARROW = "a slot must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
 
 
-@book.output("mm", at_least(0.0, _NARROW))
-def slot_width_reserve(slot_width: Scalar, corner_radius: Scalar) -> Scalar:
+@quantities.output("mm", at_least(0.0, _NARROW))
+def slot_width_margin(slot_width: Scalar, corner_radius: Scalar) -> Scalar:
     """Radial width of the slots beyond what their corners need."""
     return slot_width - POCKET_WIDTH * corner_radius
 
 
-@book.helper()
+@quantities.helper()
 def solid_floor(floor_thickness: Scalar) -> Scalar:
     """Floor that may be drilled into from below [m]: all of it, pads stand in the vanes."""
     return floor_thickness
 
 
-@book.helper()
+@quantities.helper()
 def floor_opening_radius(slot_inner_radius: Scalar) -> Scalar:
     """Radius at which the openings of the floor begin [m]: the slots."""
     return slot_inner_radius
@@ -109,7 +113,7 @@ def floor_opening_radius(slot_inner_radius: Scalar) -> Scalar:
 _PRESSED_OUT = "what is squeezed out of the blocks' places could reach the springs, were all of it to go outwards"
 
 
-@book.output("mm", advice=(Rule(sense=">=", value=0.0, reason=_PRESSED_OUT),))
+@quantities.output("mm", advice=(Rule(sense=">=", value=0.0, reason=_PRESSED_OUT),))
 def squeezed_block_gap(
     pcl_inner_radius: Scalar,
     pcl_outer_radius: Scalar,
@@ -126,7 +130,7 @@ def squeezed_block_gap(
     return placement_radius - spring_reach - squeezed - radial_clearance
 
 
-@book.output("mm", at_least(0.0, "the feet must clear the slots"))
+@quantities.output("mm", at_least(0.0, "the feet must clear the slots"))
 def mount_slot_gap(
     placement_radius: Scalar, mount_boss_radius: Scalar, slot_outer_radius: Scalar, radial_clearance: Scalar
 ) -> Scalar:
@@ -137,7 +141,7 @@ def mount_slot_gap(
 _FALLS = "slots are wider below the pads, by the radius of their corners, and leave these nothing to stand on"
 
 
-@book.output("mm", at_least(0.2 * MM, _FALLS, 0.0))
+@quantities.output("mm", at_least(0.2 * MM, _FALLS, 0.0))
 def pad_seat(peltier_thickness: Scalar, corner_radius: Scalar) -> Scalar:
     """Width of what a pad stands on beside its slot."""
     return peltier_thickness - corner_radius

@@ -4,80 +4,80 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.layout import book as shared
+from tvimdesign.device.core.layout import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.output("mm", hidden=True)
+@quantities.output("mm", hidden=True)
 def rotor_bottom_level(block_height: Scalar, running_clearance: Scalar) -> Scalar:
     """Lower face of the rotor plate: a running clearance below and above the blocks."""
     return block_height + 2.0 * running_clearance
 
 
-@book.output("mm")
+@quantities.output("mm")
 def vane_height(block_height: Scalar, running_clearance: Scalar) -> Scalar:
     """Height of the vanes of rotor and housing, which keep a running clearance from floor and plate."""
     return block_height + running_clearance
 
 
-@book.helper()
+@quantities.helper()
 def pcl_depth(block_depth: Scalar) -> Scalar:
     """Way of heat and load through the PCL [m]."""
     return block_depth
 
 
-@book.output("mm")
+@quantities.output("mm")
 def block_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
     """Radial width of blocks, pads and vanes."""
     return pcl_outer_radius - pcl_inner_radius
 
 
-@book.output("deg")
+@quantities.output("deg")
 def block_angle(block_depth: Scalar, pcl_mean_radius: Scalar) -> Scalar:
     """Angle each block covers."""
     return block_depth / pcl_mean_radius
 
 
-@book.output("deg")
+@quantities.output("deg")
 def rotor_vane_angle(vane_thickness: Scalar, pcl_mean_radius: Scalar) -> Scalar:
     """Angle each vane of the rotor covers."""
     return vane_thickness / pcl_mean_radius
 
 
-@book.output("deg")
+@quantities.output("deg")
 def housing_vane_angle(vane_count: Scalar, block_angle: Scalar, rotor_vane_angle: Scalar) -> Scalar:
     """Angle each vane of the housing covers, pads included: what blocks and rotor vanes leave of the circle."""
     return 2.0 * np.pi / vane_count - 2.0 * block_angle - rotor_vane_angle
 
 
-@book.output("mm")
+@quantities.output("mm")
 def slot_width(slot_share: Scalar, block_width: Scalar) -> Scalar:
     """Radial width of the slots in the housing's vanes."""
     return slot_share * block_width
 
 
-@book.output("mm")
+@quantities.output("mm")
 def slot_inner_radius(pcl_mean_radius: Scalar, slot_width: Scalar) -> Scalar:
     """Inner radius of the slots in the housing's vanes."""
     return pcl_mean_radius - 0.5 * slot_width
 
 
-@book.output("mm")
+@quantities.output("mm")
 def slot_outer_radius(pcl_mean_radius: Scalar, slot_width: Scalar) -> Scalar:
     """Outer radius of the slots in the housing's vanes."""
     return pcl_mean_radius + 0.5 * slot_width
 
 
-@book.output("mm")
+@quantities.output("mm")
 def slot_height(block_height: Scalar, window_ledge: Scalar) -> Scalar:
     """Height over which the pads' cold sides are open to the slots."""
     return block_height - window_ledge
 
 
-@book.helper()
+@quantities.helper()
 def slot_angle(housing_vane_angle: Scalar, peltier_thickness: Scalar, pcl_mean_radius: Scalar) -> Scalar:
     """Angle between the cold sides of a housing vane's two pads at the mean radius [rad]."""
     return housing_vane_angle - 2.0 * np.arcsin(peltier_thickness / pcl_mean_radius)

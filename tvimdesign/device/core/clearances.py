@@ -1,14 +1,14 @@
-"""What must hold for the parts to go together, be made, and stay apart while they move: each row is a rule."""
+"""What must hold for the parts to go together, be made, and stay apart while they move: each quantity is a rule."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.transmission import leg_direction, pin_distance
 
-book = Book("Gaps")
+quantities = QuantityGroup("Gaps")
 
 
 MM = 1e-3
@@ -17,7 +17,7 @@ POCKET_WIDTH = 2.1
 has no way to go to its size, and two round corners that meet leave no edge between them to draw."""
 
 
-@book.output("mm", at_least(0.0, "the springs must clear the rotor plate"))
+@quantities.output("mm", at_least(0.0, "the springs must clear the rotor plate"))
 def rotor_spring_gap(
     placement_radius: Scalar, spring_reach: Scalar, rotor_radius: Scalar, radial_clearance: Scalar
 ) -> Scalar:
@@ -25,7 +25,7 @@ def rotor_spring_gap(
     return placement_radius - spring_reach - rotor_radius - radial_clearance
 
 
-@book.output("mm", at_least(0.0, "the rotor-side legs must pass above the rotor plate"))
+@quantities.output("mm", at_least(0.0, "the rotor-side legs must pass above the rotor plate"))
 def leg_rotor_gap(
     coil_end_level: Scalar, wire_diameter: Scalar, rotor_top_level: Scalar, axial_clearance: Scalar
 ) -> Scalar:
@@ -33,13 +33,13 @@ def leg_rotor_gap(
     return coil_end_level - 0.5 * wire_diameter - rotor_top_level - axial_clearance
 
 
-@book.output("mm", at_least(0.0, "the pins must stand on the rotor plate"))
+@quantities.output("mm", at_least(0.0, "the pins must stand on the rotor plate"))
 def pin_rim_gap(rotor_radius: Scalar, pin_radius: Scalar, pin_diameter: Scalar, radial_clearance: Scalar) -> Scalar:
     """Room between the pins and the rim of the rotor plate beyond the radial clearance."""
     return rotor_radius - pin_radius - 0.5 * pin_diameter - radial_clearance
 
 
-@book.output("mm", at_least(0.0, "the legs must clear the core"))
+@quantities.output("mm", at_least(0.0, "the legs must clear the core"))
 def leg_core_gap(
     placement_radius: Scalar,
     pin_radius: Scalar,
@@ -60,8 +60,8 @@ def leg_core_gap(
     return np.sqrt(beside**2 + ahead**2) - 0.5 * wire_diameter - core_radius - radial_clearance
 
 
-@book.output("mm", at_least(0.5 * MM, "the leg would slip off its pin"))
-def leg_overhang_reserve(
+@quantities.output("mm", at_least(0.5 * MM, "the leg would slip off its pin"))
+def leg_overhang_margin(
     placement_radius: Scalar,
     pin_radius: Scalar,
     stroke: Scalar,
@@ -73,8 +73,8 @@ def leg_overhang_reserve(
     return leg_overhang + leg_arm - np.sqrt(pin_distance(pin_radius, placement_radius, stroke) ** 2 - leg_offset**2)
 
 
-@book.output("mm", at_least(0.0, "the tang would press on its hole as the coil winds and unwinds"))
-def tang_reserve(
+@quantities.output("mm", at_least(0.0, "the tang would press on its hole as the coil winds and unwinds"))
+def tang_margin(
     tang_clearance: Scalar,
     coil_diameter: Scalar,
     coil_count: Scalar,
@@ -87,19 +87,19 @@ def tang_reserve(
     return tang_clearance - coil_diameter * turned / (4.0 * np.pi * coil_count)
 
 
-@book.output("mm", at_least(1.0 * MM, "the leg must reach its pin", 0.0))
+@quantities.output("mm", at_least(1.0 * MM, "the leg must reach its pin", 0.0))
 def leg_reach_gap(placement_radius: Scalar, pin_radius: Scalar, leg_offset: Scalar) -> Scalar:
     """Distance of pin and spring axis beyond the offset of the leg."""
     return placement_radius - pin_radius - leg_offset
 
 
-@book.output("mm", at_least(0.0, "a spring needs a post inside it", 0.0))
+@quantities.output("mm", at_least(0.0, "a spring needs a post inside it", 0.0))
 def post_thickness(post_radius: Scalar) -> Scalar:
     """Radius of the spring posts."""
     return post_radius
 
 
-@book.output("mm", at_least(0.0, "neighbouring springs must clear each other"))
+@quantities.output("mm", at_least(0.0, "neighbouring springs must clear each other"))
 def spring_spring_gap(
     placement_radius: Scalar, spring_count: Scalar, spring_reach: Scalar, radial_clearance: Scalar
 ) -> Scalar:
@@ -107,7 +107,7 @@ def spring_spring_gap(
     return 2.0 * placement_radius * np.sin(np.pi / spring_count) - 2.0 * spring_reach - radial_clearance
 
 
-@book.output("mm", at_least(0.0, "the retainer must stand above the ground"))
+@quantities.output("mm", at_least(0.0, "the retainer must stand above the ground"))
 def retainer_gap(
     foot_height: Scalar,
     floor_thickness: Scalar,
@@ -119,7 +119,7 @@ def retainer_gap(
     return foot_height + floor_thickness + retainer_top_level - retainer_thickness - retainer_screw_head_height
 
 
-@book.output("mm")
+@quantities.output("mm")
 def link_screw_wall(
     core_radius: Scalar, journal_radius: Scalar, link_bolt_circle_radius: Scalar, link_screw_hole: Scalar
 ) -> Scalar:
@@ -127,13 +127,13 @@ def link_screw_wall(
     return np.fmin(core_radius, journal_radius) - link_bolt_circle_radius - 0.5 * link_screw_hole
 
 
-@book.output("mm", at_least(0.3 * MM, "the heads of the link screws must clear each other"))
+@quantities.output("mm", at_least(0.3 * MM, "the heads of the link screws must clear each other"))
 def link_screw_gap(link_bolt_circle_radius: Scalar, link_screw_head: Scalar) -> Scalar:
     """Room between the heads of neighbouring link screws."""
     return np.sqrt(2.0) * link_bolt_circle_radius - link_screw_head
 
 
-@book.output("mm", at_least(1.0 * MM, "the screw holes in the core must not meet"))
+@quantities.output("mm", at_least(1.0 * MM, "the screw holes in the core must not meet"))
 def core_web(
     link_bottom_level: Scalar, core_bottom_level: Scalar, link_screw_depth: Scalar, retainer_screw_depth: Scalar
 ) -> Scalar:
@@ -141,7 +141,7 @@ def core_web(
     return link_bottom_level - core_bottom_level - link_screw_depth - retainer_screw_depth
 
 
-@book.output("mm", at_least(0.0, "the feet must stand inside the skirt"))
+@quantities.output("mm", at_least(0.0, "the feet must stand inside the skirt"))
 def mount_wall_gap(housing_inner_radius: Scalar, placement_radius: Scalar, mount_boss_radius: Scalar) -> Scalar:
     """Room between the mounting feet and the skirt."""
     return housing_inner_radius - placement_radius - mount_boss_radius

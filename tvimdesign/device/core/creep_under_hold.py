@@ -10,23 +10,23 @@ impedance, however much of its stress has relaxed. The springs turn such a joint
 from __future__ import annotations
 
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import block, hold, one_sided
 from tvimdesign.physics.motion import Modes
 from tvimdesign.physics.one_sided import Touching
 
-book = Book("Hold")
+quantities = QuantityGroup("Hold")
 
-book.inputs()
+quantities.inputs()
 
 
-@book.output("N*m")
+@quantities.output("N*m")
 def hold_torque(hold_share: Scalar, spring_stiffness: Scalar, stroke: Scalar) -> Scalar:
     """Load of the hold; at `hold_share` 1 it turns the springs alone by the stroke."""
     return hold_share * spring_stiffness * stroke
 
 
-@book.helper(per_point=True)
+@quantities.helper(per_point=True)
 def held(
     hold_torque: Scalar, hold_time: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
 ) -> hold.Held:
@@ -34,31 +34,31 @@ def held(
     return hold.held(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
 
 
-@book.output("rad", per_point=True)
+@quantities.output("rad", per_point=True)
 def hold_angle(held: hold.Held) -> Scalar:
     """Angle to which the load has turned the joint at the end of the hold."""
     return held.angle
 
 
-@book.output("1", per_point=True)
+@quantities.output("1", per_point=True)
 def pcl_relaxation(hold_time: Scalar, pcl_modes: Modes) -> Scalar:
     """Share of its stress that the PCL loses when it is held at an angle as long; not a share of the impedance."""
     return block.relaxation_loss(hold_time, pcl_modes)
 
 
-@book.output("rad", per_point=True)
+@quantities.output("rad", per_point=True)
 def set_angle(held: hold.Held) -> Scalar:
     """Angle at which the PCL is free of stress right after the hold; before, that was at rest."""
     return held.set_angle
 
 
-@book.output("rad", per_point=True, headline=True)
+@quantities.output("rad", per_point=True, headline=True)
 def backlash(set_angle: Scalar, parting_share: Scalar) -> Scalar:
     """Angle over which only the springs act right after the hold; none where the PCL is bonded to both its faces."""
     return parting_share * set_angle
 
 
-@book.output("1", per_point=True, headline=True)
+@quantities.output("1", per_point=True, headline=True)
 def relaxation_loss(
     hold_angle: Scalar, backlash: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
 ) -> Scalar:
@@ -69,7 +69,7 @@ def relaxation_loss(
     return hold.impedance_loss(hold_angle, backlash, spring_stiffness, elastic_support, pcl_modes)
 
 
-@book.swing("1")
+@quantities.first_oscillation("1")
 def contact_lost(touching: Touching) -> Scalar:
     """Share of the first swing of a released link, up to its second turn, in which no PCL is in contact."""
     return one_sided.out_of_contact(touching)

@@ -11,15 +11,15 @@ import numpy as np
 from tvimdesign.catalog import Record
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Rule, Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import crystallization, dynamics, layer, motion, peg, polymer, structure
 
-book = Book("Impedance")
+quantities = QuantityGroup("Impedance")
 
-book.inputs()
+quantities.inputs()
 
 
-@book.helper()
+@quantities.helper()
 def pcl_melting(
     pcl_specific_heat_solid: Scalar,
     pcl_specific_heat_melt: Scalar,
@@ -33,7 +33,7 @@ def pcl_melting(
                            pcl_melting_end, enthalpy_smoothing)  # fmt: skip
 
 
-@book.helper()
+@quantities.helper()
 def pcl_kinetics(
     pcl_avrami_exponent: Scalar,
     pcl_crystallization_half_time: Scalar,
@@ -50,7 +50,7 @@ def pcl_kinetics(
                                     pcl_transport_energy, melting_time)  # fmt: skip
 
 
-@book.helper()
+@quantities.helper()
 def pcl_solid_modulus(
     pcl_flexural_modulus: Scalar,
     pcl_reference_temperature: Scalar,
@@ -64,7 +64,7 @@ def pcl_solid_modulus(
                                 pcl_softening_onset, pcl_softening_width, pcl_poissons_ratio)  # fmt: skip
 
 
-@book.helper()
+@quantities.helper()
 def pcl_rheology(
     pcl_solid_modulus: polymer.SolidModulus,
     pcl_grade: Record,
@@ -76,32 +76,35 @@ def pcl_rheology(
 
     Chains of another length relax sooner or later; the melt's plateau modulus is the same (Ferry, ch. 13).
     """
-    solid = [(row["relaxation_time"], row["relative_modulus"]) for row in pcl_grade.table("solid_spectrum")]
+    solid = [
+        (quantity["relaxation_time"], quantity["relative_modulus"]) for quantity in pcl_grade.table("solid_spectrum")
+    ]
     melt = [
-        (melt_viscosity_factor * row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")
+        (melt_viscosity_factor * quantity["relaxation_time"], quantity["modulus"])
+        for quantity in pcl_grade.table("melt_spectrum")
     ]
     return polymer.Rheology(pcl_solid_modulus, solid, melt, pcl_flow_activation_energy, pcl_melt_reference)
 
 
-@book.helper()
+@quantities.helper()
 def pcl_linear_range(pcl_linear_strain_solid: Scalar, pcl_linear_strain_melt: Scalar) -> polymer.LinearRange:
     """Strains up to which the PCL's moduli do not depend on strain."""
     return polymer.LinearRange(pcl_linear_strain_solid, pcl_linear_strain_melt)
 
 
-@book.output("1", per_point=True)
+@quantities.output("1", per_point=True)
 def solid_fraction(temperature: Scalar, pcl_melting: polymer.Melting) -> Scalar:
     """Share of the PCL that is frozen, on the equilibrium melting curve."""
     return polymer.solid_fraction(polymer.enthalpy(temperature, pcl_melting), pcl_melting)
 
 
-@book.output("%", per_point=True)
+@quantities.output("%", per_point=True)
 def linear_strain(solid_fraction: Scalar, pcl_linear_range: polymer.LinearRange) -> Scalar:
     """Shear strain up to which the PCL's moduli do not depend on it: the storage modulus has fallen 5 % there."""
     return polymer.linear_strain(solid_fraction, pcl_linear_range)
 
 
-@book.helper(per_point=True)
+@quantities.helper(per_point=True)
 def pcl_modes(
     temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology, pcl_moment: Scalar, pcl_depth: Scalar
 ) -> motion.Modes:
@@ -109,7 +112,7 @@ def pcl_modes(
     return motion.layer_modes(polymer.spectrum(temperature, solid_fraction, pcl_rheology), pcl_moment, pcl_depth)
 
 
-@book.helper(per_point=True)
+@quantities.helper(per_point=True)
 def pcl_moduli(
     temperature: Scalar, frequency: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology
 ) -> tuple[Scalar, Scalar]:
@@ -117,37 +120,37 @@ def pcl_moduli(
     return polymer.moduli(temperature, solid_fraction, 2.0 * np.pi * frequency, pcl_rheology)
 
 
-@book.output("Pa", per_point=True)
+@quantities.output("Pa", per_point=True)
 def storage_modulus(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
     """Storage shear modulus of the PCL, G'."""
     return pcl_moduli[0]
 
 
-@book.output("Pa", per_point=True)
+@quantities.output("Pa", per_point=True)
 def loss_modulus(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
     """Loss shear modulus of the PCL, G''."""
     return pcl_moduli[1]
 
 
-@book.output("1", per_point=True)
+@quantities.output("1", per_point=True)
 def loss_factor(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
     """Loss factor of the PCL, tan(delta)."""
     return pcl_moduli[1] / pcl_moduli[0]
 
 
-@book.helper()
+@quantities.helper()
 def structure_shear_modulus(structure_youngs_modulus: Scalar, structure_poissons_ratio: Scalar) -> Scalar:
     """Shear modulus of the structure [Pa]."""
     return structure.shear_modulus(structure_youngs_modulus, structure_poissons_ratio)
 
 
-@book.helper()
+@quantities.helper()
 def pcl_mean_radius(pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
     """Mean radius of the PCL [m]."""
     return 0.5 * (pcl_inner_radius + pcl_outer_radius)
 
 
-@book.helper()
+@quantities.helper()
 def core_stiffness(
     structure_shear_modulus: Scalar, core_radius: Scalar, link_bottom_level: Scalar, rotor_top_level: Scalar
 ) -> Scalar:
@@ -155,7 +158,7 @@ def core_stiffness(
     return structure.shaft_stiffness(structure_shear_modulus, core_radius, link_bottom_level - rotor_top_level)
 
 
-@book.helper()
+@quantities.helper()
 def plate_stiffness(
     structure_shear_modulus: Scalar, rotor_thickness: Scalar, core_radius: Scalar, pcl_mean_radius: Scalar
 ) -> Scalar:
@@ -163,7 +166,7 @@ def plate_stiffness(
     return structure.ring_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_mean_radius)
 
 
-@book.helper(per_point=True)
+@quantities.helper(per_point=True)
 def branch_stiffness(
     pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, structure_stiffness: Scalar
 ) -> tuple[Scalar, Scalar]:
@@ -171,67 +174,67 @@ def branch_stiffness(
     return layer.series_stiffness(pcl_stiffness, 2.0 * np.pi * frequency * pcl_damping, structure_stiffness)
 
 
-@book.output("N*m/rad", per_point=True)
+@quantities.output("N*m/rad", per_point=True)
 def joint_impedance(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
     """Magnitude of the joint's dynamic stiffness, springs and damping together."""
     return np.sqrt((spring_stiffness + branch_stiffness[0]) ** 2 + branch_stiffness[1] ** 2)
 
 
-@book.output("N*m/rad", per_point=True, headline=True)
+@quantities.output("N*m/rad", per_point=True, headline=True)
 def joint_stiffness(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
     """Stiffness of the joint: springs, parallel to the layer in series with the structure."""
     return spring_stiffness + branch_stiffness[0]
 
 
-@book.output("N*m*s/rad", per_point=True, headline=True)
+@quantities.output("N*m*s/rad", per_point=True, headline=True)
 def joint_damping(branch_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
     """Damping of the joint: layer in series with the structure."""
     return branch_stiffness[1] / (2.0 * np.pi * frequency)
 
 
-@book.output("Hz", per_point=True, headline=True)
+@quantities.output("Hz", per_point=True, headline=True)
 def natural_frequency(joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
     """Undamped natural frequency of the joint with its load."""
     return dynamics.natural_frequency(joint_stiffness, moving_inertia)
 
 
-@book.output("1", per_point=True, headline=True)
+@quantities.output("1", per_point=True, headline=True)
 def damping_ratio(joint_damping: Scalar, joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
     """Damping ratio of the joint with its load; above one it creeps back without ringing."""
     return dynamics.damping_ratio(joint_damping, joint_stiffness, moving_inertia)
 
 
-@book.output("Hz")
+@quantities.output("Hz")
 def spring_natural_frequency(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
     """Undamped natural frequency on the springs alone."""
     return dynamics.natural_frequency(spring_stiffness, moving_inertia)
 
 
-@book.output("N*m*s/rad")
+@quantities.output("N*m*s/rad")
 def critical_damping(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
     """Damping above which the joint on its springs no longer rings."""
     return dynamics.critical_damping(spring_stiffness, moving_inertia)
 
 
-@book.output("1", headline=True)
+@quantities.output("1", headline=True)
 def impedance_range(joint_stiffness_at_cold: Scalar, joint_stiffness_at_hot: Scalar) -> Scalar:
     """Stiffness of the joint cold over hot."""
     return joint_stiffness_at_cold / joint_stiffness_at_hot
 
 
-@book.output("1")
+@quantities.output("1")
 def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -> Scalar:
     """Damping of the joint cold over hot."""
     return joint_damping_at_cold / joint_damping_at_hot
 
 
-@book.output("N*m")
+@quantities.output("N*m")
 def core_holding_torque(structure_layer_strength: Scalar, core_radius: Scalar) -> Scalar:
     """Torque at which the core yields in torsion, its screw holes not counted."""
     return structure.shaft_torque(structure.shear_yield(structure_layer_strength), core_radius)
 
 
-@book.output("N*m")
+@quantities.output("N*m")
 def link_holding_torque(
     structure_strength: Scalar, link_screw_pilot: Scalar, link_thickness: Scalar, link_bolt_circle_radius: Scalar
 ) -> Scalar:
@@ -240,7 +243,7 @@ def link_holding_torque(
     return LINK_SCREWS * bearing * link_bolt_circle_radius
 
 
-@book.output(
+@quantities.output(
     "kg*mm^2", advice=(Rule(sense=">=", value=0.0, reason="the module's own parts have more inertia than that"),)
 )
 def load_inertia(moving_inertia: Scalar, parts_inertia: Scalar) -> Scalar:

@@ -10,14 +10,14 @@ import numpy as np
 
 from tvimdesign.device.core.motor_choice import Motor
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 
-book = Book("Layout")
+quantities = QuantityGroup("Layout")
 
-book.inputs()
+quantities.inputs()
 
 
-@book.output("1")
+@quantities.output("1")
 def spring_count(spring_pairs: Scalar) -> Scalar:
     """Torsion springs, half of them of either hand."""
     return 2.0 * spring_pairs
@@ -26,68 +26,68 @@ def spring_count(spring_pairs: Scalar) -> Scalar:
 # --- radii -----------------------------------------------------------------------------------------------------------
 
 
-@book.output("mm")
+@quantities.output("mm")
 def pin_radius(placement_radius: Scalar, pin_radius_ratio: Scalar) -> Scalar:
     """Distance of the rotor pins from the axis."""
     return pin_radius_ratio * placement_radius
 
 
-@book.output("mm")
+@quantities.output("mm")
 def spring_reach(coil_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
     """Radius of the circle around a spring's axis that holds its coils and its tang."""
     # The tang leaves the coil along the tangent and turns down over a bend of the radius d.
     return np.sqrt((0.5 * coil_diameter) ** 2 + wire_diameter**2) + 0.5 * wire_diameter
 
 
-@book.output("mm")
+@quantities.output("mm")
 def leg_offset(coil_diameter: Scalar, wire_diameter: Scalar, pin_diameter: Scalar) -> Scalar:
     """Distance of the spring axis from the line through the pin along which the leg points."""
     return 0.5 * (coil_diameter + wire_diameter + pin_diameter)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def leg_arm(placement_radius: Scalar, pin_radius: Scalar, leg_offset: Scalar) -> Scalar:
     """Length of the rotor-side leg from the coil to the pin."""
     return np.sqrt((placement_radius - pin_radius) ** 2 - leg_offset**2)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def leg_length(leg_arm: Scalar, leg_overhang: Scalar) -> Scalar:
     """Length of the rotor-side leg."""
     return leg_arm + leg_overhang
 
 
-@book.output("mm")
+@quantities.output("mm")
 def rotor_radius(pcl_outer_radius: Scalar, rotor_rim: Scalar) -> Scalar:
     """Radius of the rotor plate."""
     return pcl_outer_radius + rotor_rim
 
 
-@book.output("mm")
+@quantities.output("mm")
 def housing_inner_radius(placement_radius: Scalar, spring_reach: Scalar, radial_clearance: Scalar) -> Scalar:
     """Inner radius of the housing wall."""
     return placement_radius + spring_reach + radial_clearance
 
 
-@book.output("mm")
+@quantities.output("mm")
 def housing_outer_radius(housing_inner_radius: Scalar, wall_thickness: Scalar) -> Scalar:
     """Outer radius of the housing."""
     return housing_inner_radius + wall_thickness
 
 
-@book.output("mm")
+@quantities.output("mm")
 def link_half_width(core_radius: Scalar, link_rim: Scalar) -> Scalar:
     """Half the width of the output link."""
     return core_radius + link_rim
 
 
-@book.output("mm")
+@quantities.output("mm")
 def link_length(housing_outer_radius: Scalar, link_half_width: Scalar) -> Scalar:
     """Distance of the output link's end hole from the axis; the link's round end is flush with the housing."""
     return housing_outer_radius - link_half_width
 
 
-@book.output("mm")
+@quantities.output("mm")
 def link_bolt_circle_radius(core_radius: Scalar, link_bolt_ratio: Scalar) -> Scalar:
     """Radius of the circle of the four link screws."""
     return link_bolt_ratio * core_radius
@@ -96,55 +96,55 @@ def link_bolt_circle_radius(core_radius: Scalar, link_bolt_ratio: Scalar) -> Sca
 # --- levels ----------------------------------------------------------------------------------------------------------
 
 
-@book.output("mm")
+@quantities.output("mm")
 def coil_pitch(wire_diameter: Scalar, coil_gap: Scalar) -> Scalar:
     """Axial pitch of the coils."""
     return wire_diameter + coil_gap
 
 
-@book.output("1")
+@quantities.output("1")
 def helix_slope(coil_pitch: Scalar, coil_diameter: Scalar) -> Scalar:
     """Rise of the wire over its way around the coil, tan of the helix angle."""
     return coil_pitch / (np.pi * coil_diameter)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def coil_start_level(wire_diameter: Scalar, helix_slope: Scalar) -> Scalar:
     """Level of the wire's centre where the coils start; the tang's bend below it ends on the floor."""
     return wire_diameter / np.sqrt(1.0 + helix_slope**2)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def coil_end_level(coil_start_level: Scalar, coil_pitch: Scalar, coil_count: Scalar, preload_angle: Scalar) -> Scalar:
     """Level of the wire's centre where the coils of the preloaded spring end and the rotor-side leg begins."""
     return coil_start_level + coil_pitch * (coil_count + preload_angle / (2.0 * np.pi))
 
 
-@book.output("mm")
+@quantities.output("mm")
 def leg_top_level(coil_end_level: Scalar, helix_slope: Scalar, leg_length: Scalar, wire_diameter: Scalar) -> Scalar:
     """Highest point of a rotor-side leg, which keeps rising as the coil does."""
     return coil_end_level + helix_slope * leg_length + 0.5 * wire_diameter
 
 
-@book.output("mm")
+@quantities.output("mm")
 def rotor_top_level(rotor_bottom_level: Scalar, rotor_thickness: Scalar) -> Scalar:
     """Upper face of the rotor plate."""
     return rotor_bottom_level + rotor_thickness
 
 
-@book.output("mm")
+@quantities.output("mm")
 def pin_top_level(leg_top_level: Scalar, axial_clearance: Scalar) -> Scalar:
     """Upper end of the rotor pins."""
     return leg_top_level + axial_clearance
 
 
-@book.output("mm")
+@quantities.output("mm")
 def link_bottom_level(rim_level: Scalar, cover_height: Scalar, axial_clearance: Scalar) -> Scalar:
     """Lower face of the output link and upper end of the core."""
     return rim_level + cover_height + axial_clearance
 
 
-@book.output("mm")
+@quantities.output("mm")
 def post_radius(spring_wound_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
     """Radius of a spring's post: 90 % of the inner radius of the fully wound spring."""
     # Shigley, section 10-12: mandrel about 10 % under the inner diameter at full deflection.
@@ -154,13 +154,13 @@ def post_radius(spring_wound_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
 # --- envelope --------------------------------------------------------------------------------------------------------
 
 
-@book.output("mm", headline=True)
-def envelope_diameter(drive: Motor | None, housing_outer_radius: Scalar, motor_outer_radius: Scalar) -> Scalar:
+@quantities.output("mm", headline=True)
+def envelope_diameter(drive_motor: Motor | None, housing_outer_radius: Scalar, motor_outer_radius: Scalar) -> Scalar:
     """Diameter of the module, or of its motor where that is wider."""
-    return 2.0 * (housing_outer_radius if drive is None else np.fmax(housing_outer_radius, motor_outer_radius))
+    return 2.0 * (housing_outer_radius if drive_motor is None else np.fmax(housing_outer_radius, motor_outer_radius))
 
 
-@book.output("mm", headline=True)
+@quantities.output("mm", headline=True)
 def envelope_height(
     foot_height: Scalar,
     floor_thickness: Scalar,
@@ -174,7 +174,7 @@ def envelope_height(
     return below + link_bottom_level + link_thickness + link_screw_head_height
 
 
-@book.output("cm^3", headline=True)
+@quantities.output("cm^3", headline=True)
 def envelope_volume(envelope_diameter: Scalar, envelope_height: Scalar) -> Scalar:
     """Volume of the cylinder that holds the module."""
     return 0.25 * np.pi * envelope_diameter**2 * envelope_height

@@ -5,20 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.shapes import Section, disc_at, notch, ring, slot, stacked
 
-book = Book("Size and weight")
+quantities = QuantityGroup("Size and weight")
 LINK_SCREWS = 4
 
 
-@book.output("mm")
+@quantities.output("mm")
 def helix_length(coil_count: Scalar, coil_diameter: Scalar, coil_pitch: Scalar) -> Scalar:
     """Length of the wire in the coils of one spring."""
     return coil_count * np.sqrt((np.pi * coil_diameter) ** 2 + coil_pitch**2)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def wire_length(
     helix_length: Scalar, leg_length: Scalar, wire_diameter: Scalar, helix_slope: Scalar, tang_length: Scalar
 ) -> Scalar:
@@ -29,13 +29,13 @@ def wire_length(
     return leg + helix_length + bend + tang_length
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def spring_volume(wire_length: Scalar, wire_diameter: Scalar) -> Scalar:
     """Volume of one spring."""
     return 0.25 * np.pi * wire_diameter**2 * wire_length
 
 
-@book.helper()
+@quantities.helper()
 def skirt_moments(
     housing_inner_radius: Scalar,
     housing_outer_radius: Scalar,
@@ -53,13 +53,13 @@ def skirt_moments(
     return (skirt - notches).plus(foot.times(spring_count)).times(foot_height)
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def skirt_volume(skirt_moments: Section) -> Scalar:
     """Volume of the housing below its floor: the skirt with its notches, and the mounting feet."""
     return skirt_moments.area
 
 
-@book.helper()
+@quantities.helper()
 def hub_moments(
     hub_radius: Scalar,
     hub_top_level: Scalar,
@@ -74,13 +74,13 @@ def hub_moments(
     return stacked((ring(seat_radius, hub_radius), seats), (ring(lip_radius, hub_radius), between))
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def hub_volume(hub_moments: Section) -> Scalar:
     """Volume of the hub from its lower to its upper end, the floor around it not counted."""
     return hub_moments.area
 
 
-@book.helper()
+@quantities.helper()
 def floor_moments(
     hub_radius: Scalar,
     housing_outer_radius: Scalar,
@@ -97,7 +97,7 @@ def floor_moments(
     return solid.times(floor_thickness) - floor_openings
 
 
-@book.helper()
+@quantities.helper()
 def bare_housing_moments(
     skirt_moments: Section,
     floor_moments: Section,
@@ -119,7 +119,7 @@ def bare_housing_moments(
     )
 
 
-@book.helper()
+@quantities.helper()
 def bare_rotor_moments(
     rotor_radius: Scalar,
     rotor_thickness: Scalar,
@@ -153,7 +153,7 @@ def bare_rotor_moments(
     )
 
 
-@book.helper()
+@quantities.helper()
 def link_section(
     link_half_width: Scalar,
     link_length: Scalar,
@@ -166,79 +166,79 @@ def link_section(
     return slot(link_half_width, link_length) - screws - disc_at(0.5 * link_tool_hole, link_length)
 
 
-@book.helper()
+@quantities.helper()
 def retainer_section(retainer_radius: Scalar, retainer_screw_clearance: Scalar) -> Section:
     """Plan view of the retainer."""
     return ring(0.5 * retainer_screw_clearance, retainer_radius)
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def rotor_volume(rotor_moments: Section) -> Scalar:
     """Volume of the rotor with its core and pins."""
     return rotor_moments.area
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def link_volume(link_section: Section, link_thickness: Scalar) -> Scalar:
     """Volume of the output link."""
     return link_section.area * link_thickness
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def retainer_volume(retainer_section: Section, retainer_thickness: Scalar) -> Scalar:
     """Volume of the retainer."""
     return retainer_section.area * retainer_thickness
 
 
-@book.output("g")
+@quantities.output("g")
 def housing_mass(housing_volume: Scalar, structure_density: Scalar) -> Scalar:
     """Mass of the housing."""
     return housing_volume * structure_density
 
 
-@book.output("g")
+@quantities.output("g")
 def rotor_mass(rotor_volume: Scalar, structure_density: Scalar) -> Scalar:
     """Mass of the rotor."""
     return rotor_volume * structure_density
 
 
-@book.output("g")
+@quantities.output("g")
 def link_mass(link_volume: Scalar, structure_density: Scalar) -> Scalar:
     """Mass of the output link."""
     return link_volume * structure_density
 
 
-@book.output("g")
+@quantities.output("g")
 def retainer_mass(retainer_volume: Scalar, structure_density: Scalar) -> Scalar:
     """Mass of the retainer."""
     return retainer_volume * structure_density
 
 
-@book.output("g")
+@quantities.output("g")
 def springs_mass(spring_count: Scalar, spring_volume: Scalar, spring_density: Scalar) -> Scalar:
     """Mass of all springs together."""
     return spring_count * spring_volume * spring_density
 
 
-@book.output("g")
+@quantities.output("g")
 def pcl_mass(pcl_volume: Scalar, pcl_density: Scalar) -> Scalar:
     """Mass of all PCL together."""
     return pcl_volume * pcl_density
 
 
-@book.output("kg/m^3")
+@quantities.output("kg/m^3")
 def peltier_density(peltier_unit_mass: Scalar, peltier_area: Scalar, peltier_thickness: Scalar) -> Scalar:
     """Mass of the Peltier module over its volume."""
     return peltier_unit_mass / (peltier_area * peltier_thickness)
 
 
-@book.output("g")
+@quantities.output("g")
 def peltier_mass(peltier_volume: Scalar, peltier_density: Scalar) -> Scalar:
     """Mass of all Peltier pads together."""
     return peltier_volume * peltier_density
 
 
-@book.output("g", headline=True)
+@quantities.output("g", headline=True)
 def module_mass(
     housing_mass: Scalar,
     rotor_mass: Scalar,
@@ -260,19 +260,19 @@ def module_mass(
     return made + springs_mass + peltier_mass + fasteners + bearings_mass + adjusters_mass + drive_mass
 
 
-@book.output("kg*mm^2")
+@quantities.output("kg*mm^2")
 def rotor_inertia(rotor_moments: Section, structure_density: Scalar) -> Scalar:
     """Moment of inertia of the rotor about the axis."""
     return rotor_moments.polar * structure_density
 
 
-@book.output("kg*mm^2")
+@quantities.output("kg*mm^2")
 def link_inertia(link_section: Section, link_thickness: Scalar, structure_density: Scalar) -> Scalar:
     """Moment of inertia of the output link about the axis."""
     return link_section.polar * link_thickness * structure_density
 
 
-@book.output("kg*mm^2", headline=True)
+@quantities.output("kg*mm^2", headline=True)
 def parts_inertia(
     rotor_inertia: Scalar,
     link_inertia: Scalar,

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 
-book = Book("Materials")
+quantities = QuantityGroup("Materials")
 
-book.record("spring_material", "spring_materials", "music_wire", "Spring steel of the torsion springs")
-book.record("process", "processes", "print_petg", "How housing, rotor, link and retainer are made")
-book.record(
+quantities.record("spring_material", "spring_materials", "music_wire", "Spring steel of the torsion springs")
+quantities.record("process", "processes", "print_petg", "How housing, rotor, link and retainer are made")
+quantities.record(
     "structure_material",
     "structure_materials",
     ("process", "structure_material"),
     "Material of housing, rotor, link and retainer",
 )
-book.record("pcl_grade", "polymers", "pcl_80k", "Grade of polycaprolactone in the layer")
-book.record(
+quantities.record("pcl_grade", "polymers", "pcl_80k", "Grade of polycaprolactone in the layer")
+quantities.record(
     "peltier_module",
     "peltiers",
     "flexible_1600",
@@ -29,7 +29,7 @@ for name, unit, field, description in (
     ("spring_yield_ratio", "1", "yield_ratio", "Static yield in bending as a share of tensile strength"),
     ("spring_fatigue_ratio", "1", "fatigue_strength_ratio", "Repeated-bending strength at 1e6 cycles over tensile"),
 ):
-    book.property(name, unit, ("spring_material", field), description)
+    quantities.property(name, unit, ("spring_material", field), description)
 
 for name, unit, field, description in (
     ("structure_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the structure"),
@@ -41,7 +41,7 @@ for name, unit, field, description in (
     ("structure_layer_strength", "MPa", "yield_strength_across_layers", "Yield strength across the layers of a print"),
     ("structure_service_temperature", "degC", "service_temperature", "Highest continuous temperature of the structure"),
 ):
-    book.property(name, unit, ("structure_material", field), description)
+    quantities.property(name, unit, ("structure_material", field), description)
 
 for name, unit, field, description in (
     ("pcl_density", "kg/m^3", "density_solid", "Density of the frozen PCL"),
@@ -77,13 +77,13 @@ for name, unit, field, description in (
     ("pcl_glass_transition", "degC", "glass_transition", "Glass transition of the PCL"),
     ("pcl_transport_energy", "kJ/mol", "transport_energy", "Activation energy of transport to the growing crystal"),
 ):
-    book.property(name, unit, ("pcl_grade", field), description)
+    quantities.property(name, unit, ("pcl_grade", field), description)
 
 for name, unit, field, description in (
     ("pcl_bond_strength", "MPa", "bond_strength", "Traction the bond of layer and faces bears"),
     ("pcl_melt_strain_limit", "1", "melt_strain_limit", "Shear strain the molten layer bears without tearing"),
 ):
-    book.property(name, unit, ("pcl_grade", field), description, mode="shear")
+    quantities.property(name, unit, ("pcl_grade", field), description, mode="shear")
 
 for name, unit, field, description in (
     ("peltier_seebeck", "V/K", "seebeck", "Seebeck coefficient of one Peltier module"),
@@ -97,4 +97,4 @@ for name, unit, field, description in (
     ("peltier_max_temperature", "degC", "max_temperature", "Highest temperature the Peltier module is rated for"),
     ("peltier_max_current", "A", "max_current", "Highest current the Peltier module is rated for"),
 ):
-    book.property(name, unit, ("peltier_module", field), description)
+    quantities.property(name, unit, ("peltier_module", field), description)

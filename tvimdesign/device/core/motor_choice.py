@@ -5,21 +5,27 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tvimdesign.catalog import Record
-from tvimdesign.device.table.quantity import Extra, Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity import Feature, Scalar
+from tvimdesign.device.table.quantity_group import QuantityGroup
 
 WITHOUT = "none"
 
-WITH_MOTOR = (Extra("motor", WITHOUT),)
-WITH_ENCODER = (*WITH_MOTOR, Extra("encoder", WITHOUT))
+WITH_MOTOR = (Feature("motor", WITHOUT),)
+WITH_ENCODER = (*WITH_MOTOR, Feature("encoder", WITHOUT))
 
-book = Book("Layout", WITH_MOTOR)
+quantities = QuantityGroup("Layout", WITH_MOTOR)
 """The layout's own room asks for the motor, so its name is not taken from there."""
 
-book.record("motor", "motors", WITHOUT, "Frameless motor that turns the module's housing, or none", others=(WITHOUT,))
-book.record("encoder", "encoders", WITHOUT, "Encoder of that motor, or none", others=(WITHOUT,), extras=WITH_MOTOR)
-book.record("motor_bearing", "bearings", "ball_6802", "Ball bearings of that motor, two of a kind", extras=WITH_MOTOR)
-book.record("motor_screw", "screws", "iso_7380_m3", "Screw that holds that motor's retainer", extras=WITH_MOTOR)
+quantities.record(
+    "motor", "motors", WITHOUT, "Frameless motor that turns the module's housing, or none", others=(WITHOUT,)
+)
+quantities.record(
+    "encoder", "encoders", WITHOUT, "Encoder of that motor, or none", others=(WITHOUT,), requires=WITH_MOTOR
+)
+quantities.record(
+    "motor_bearing", "bearings", "ball_6802", "Ball bearings of that motor, two of a kind", requires=WITH_MOTOR
+)
+quantities.record("motor_screw", "screws", "iso_7380_m3", "Screw that holds that motor's retainer", requires=WITH_MOTOR)
 for screw, words in (("motor_screw", "motor's retainer screw"), ("mount_screw", "screws in the housing's feet")):
     for name, unit, field, description in (
         ("diameter", "mm", "nominal_diameter", "Nominal diameter"),
@@ -28,8 +34,8 @@ for screw, words in (("motor_screw", "motor's retainer screw"), ("mount_screw", 
         ("head_height", "mm", "head_height", "Head height"),
         ("density", "kg/m^3", "density", "Density"),
     ):
-        book.property(f"{screw}_{name}", unit, (screw, field), f"{description} of the {words}")
-book.property("motor_screw_clearance", "mm", ("motor_screw", "clearance_hole"), "Clearance hole of that screw")
+        quantities.property(f"{screw}_{name}", unit, (screw, field), f"{description} of the {words}")
+quantities.property("motor_screw_clearance", "mm", ("motor_screw", "clearance_hole"), "Clearance hole of that screw")
 
 
 class Motor(NamedTuple):
@@ -106,85 +112,85 @@ def encoder_of(encoder: Record) -> Encoder:
     )
 
 
-@book.helper(otherwise=None)
-def drive(motor: Record, motor_bearing: Record) -> Motor:
+@quantities.helper(default=None)
+def drive_motor(motor: Record, motor_bearing: Record) -> Motor:
     """The motor with its bearings; None without one."""
     return motor_of(motor, motor_bearing)
 
 
-@book.helper(extras=WITH_ENCODER, otherwise=None)
+@quantities.helper(requires=WITH_ENCODER, default=None)
 def angle_sensor(encoder: Record) -> Encoder:
     """The encoder; None without one, or without a motor."""
     return encoder_of(encoder)
 
 
-@book.output("mm")
-def stator_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def stator_radius(drive_motor: Motor) -> Scalar:
     """Outer radius of the motor's stator; zero without one."""
-    return drive.stator_radius
+    return drive_motor.stator_radius
 
 
-@book.output("mm")
-def stator_bore_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def stator_bore_radius(drive_motor: Motor) -> Scalar:
     """Inner radius of the motor's stator; zero without one."""
-    return drive.stator_bore
+    return drive_motor.stator_bore
 
 
-@book.output("mm")
-def motor_rotor_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_rotor_radius(drive_motor: Motor) -> Scalar:
     """Outer radius of the motor's rotor; zero without one."""
-    return drive.rotor_radius
+    return drive_motor.rotor_radius
 
 
-@book.output("mm")
-def motor_rotor_bore_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_rotor_bore_radius(drive_motor: Motor) -> Scalar:
     """Inner radius of the motor's rotor; zero without one."""
-    return drive.rotor_bore
+    return drive_motor.rotor_bore
 
 
-@book.output("mm")
-def motor_rotor_length(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_rotor_length(drive_motor: Motor) -> Scalar:
     """Length of the motor's rotor; zero without one."""
-    return drive.rotor_length
+    return drive_motor.rotor_length
 
 
-@book.output("mm")
-def motor_bearing_bore_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_bearing_bore_radius(drive_motor: Motor) -> Scalar:
     """Inner radius of the motor's bearings; zero without one."""
-    return drive.bearing_bore
+    return drive_motor.bearing_bore
 
 
-@book.output("mm")
-def motor_bearing_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_bearing_radius(drive_motor: Motor) -> Scalar:
     """Outer radius of the motor's bearings; zero without one."""
-    return drive.bearing_radius
+    return drive_motor.bearing_radius
 
 
-@book.output("mm")
-def motor_bearing_width(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_bearing_width(drive_motor: Motor) -> Scalar:
     """Width of one of the motor's bearings; zero without one."""
-    return drive.bearing_width
+    return drive_motor.bearing_width
 
 
-@book.output("mm", extras=WITH_ENCODER)
+@quantities.output("mm", requires=WITH_ENCODER)
 def encoder_magnet_radius(angle_sensor: Encoder) -> Scalar:
     """Radius of the encoder's magnet; zero without one."""
     return angle_sensor.magnet_radius
 
 
-@book.output("mm", extras=WITH_ENCODER)
+@quantities.output("mm", requires=WITH_ENCODER)
 def encoder_magnet_height(angle_sensor: Encoder) -> Scalar:
     """Height of the encoder's magnet; zero without one."""
     return angle_sensor.magnet_height
 
 
-@book.output("mm", extras=WITH_ENCODER)
+@quantities.output("mm", requires=WITH_ENCODER)
 def encoder_board_radius(angle_sensor: Encoder) -> Scalar:
     """Radius of the encoder's board; zero without one."""
     return angle_sensor.board_radius
 
 
-@book.output("mm", extras=WITH_ENCODER)
+@quantities.output("mm", requires=WITH_ENCODER)
 def encoder_board_height(angle_sensor: Encoder) -> Scalar:
     """Height of the encoder's board with its chip; zero without one."""
     return angle_sensor.board_height

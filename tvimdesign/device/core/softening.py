@@ -6,19 +6,19 @@ import numpy as np
 
 from tvimdesign.device.table.phases import SOFTENING
 from tvimdesign.device.table.quantity import Rule, Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import heat
 
-book = Book("Softening")
+quantities = QuantityGroup("Softening")
 
-book.inputs()
-book.option(
+quantities.inputs()
+quantities.option(
     "response_criterion",
     ("far_face", "mean", "near_face", "softening"),
     "What ends the switch: a face or the mean of the layer at the target temperature, or the joint's impedance",
 )
 
-book.option(
+quantities.option(
     "impedance_targets",
     ("operating_points", "stated"),
     "What soft and stiff mean: the joint at its hot and cold points, or `soft_impedance` and `stiff_impedance`",
@@ -27,25 +27,25 @@ book.option(
 # --- response times --------------------------------------------------------------------------------------------------
 
 
-@book.event(SOFTENING)
+@quantities.event(SOFTENING)
 def near_face_time(stack_profile: heat.Profile, target_temperature: Scalar) -> Scalar:
     """Time until the layer's face at the Peltier pads is at the target temperature."""
     return (stack_profile.near - target_temperature) / heat.TEMPERATURE_SCALE
 
 
-@book.event(SOFTENING)
+@quantities.event(SOFTENING)
 def mean_time(mean_temperature: Scalar, target_temperature: Scalar) -> Scalar:
     """Time until the layer's mean is at the target temperature."""
     return (mean_temperature - target_temperature) / heat.TEMPERATURE_SCALE
 
 
-@book.event(SOFTENING)
+@quantities.event(SOFTENING)
 def far_face_time(stack_profile: heat.Profile, target_temperature: Scalar) -> Scalar:
     """Time until the layer's face at the rotor is at the target temperature."""
     return (stack_profile.far - target_temperature) / heat.TEMPERATURE_SCALE
 
 
-@book.output("N*m/rad")
+@quantities.output("N*m/rad")
 def soft_threshold(
     impedance_targets: str, soft_impedance: Scalar, joint_impedance_at_hot: Scalar, softening_band: Scalar
 ) -> Scalar:
@@ -53,13 +53,13 @@ def soft_threshold(
     return softening_band * (soft_impedance if impedance_targets == "stated" else joint_impedance_at_hot)
 
 
-@book.output("1", Rule(sense=">=", value=0.0, reason="the joint never gets as soft as `soft_impedance` asks"))
+@quantities.output("1", Rule(sense=">=", value=0.0, reason="the joint never gets as soft as `soft_impedance` asks"))
 def soft_reach(soft_threshold: Scalar, joint_impedance_at_hot: Scalar) -> Scalar:
     """How far below the soft threshold the hot joint is, as the logarithm of the ratio."""
     return np.log(soft_threshold) - np.log(joint_impedance_at_hot)
 
 
-@book.event(SOFTENING)
+@quantities.event(SOFTENING)
 def softening_time(impedance_now: Scalar, soft_threshold: Scalar) -> Scalar:
     """Time until the joint's impedance is within the softening band of its target.
 
@@ -68,7 +68,7 @@ def softening_time(impedance_now: Scalar, soft_threshold: Scalar) -> Scalar:
     return np.log(soft_threshold) - np.log(impedance_now)
 
 
-@book.event(SOFTENING)
+@quantities.event(SOFTENING)
 def response_time(
     response_criterion: str,
     stack_profile: heat.Profile,
@@ -86,81 +86,81 @@ def response_time(
     return face(stack_profile, target_temperature)
 
 
-@book.output("s", advice=(Rule(sense=">=", value=0.0, reason="the joint is not yet soft when the switch ends"),))
-def softening_reserve(response_time: Scalar, softening_time: Scalar) -> Scalar:
+@quantities.output("s", advice=(Rule(sense=">=", value=0.0, reason="the joint is not yet soft when the switch ends"),))
+def softening_margin(response_time: Scalar, softening_time: Scalar) -> Scalar:
     """Time from the joint being soft to the end of the switch."""
     return response_time - softening_time
 
 
-# --- over the stage -------------------------------------------------------------------------------------------------
+# --- over the phase -------------------------------------------------------------------------------------------------
 
 
-@book.path(SOFTENING, "J", "integral", headline=True)
+@quantities.path(SOFTENING, "J", "integral", headline=True)
 def switch_energy(electrical_power: Scalar) -> Scalar:
     """Electrical energy of one switch."""
     return electrical_power
 
 
-@book.path(SOFTENING, "W", "maximum", headline=True)
+@quantities.path(SOFTENING, "W", "maximum", headline=True)
 def peak_power(electrical_power: Scalar) -> Scalar:
     """Highest electrical power during the switch."""
     return electrical_power
 
 
-@book.path(SOFTENING, "V", "maximum")
+@quantities.path(SOFTENING, "V", "maximum")
 def peak_voltage(supply_voltage: Scalar) -> Scalar:
     """Highest voltage over all pads in series during the switch."""
     return supply_voltage
 
 
-@book.path(SOFTENING, "A", "maximum")
+@quantities.path(SOFTENING, "A", "maximum")
 def peak_current(drive_current: Scalar) -> Scalar:
     """Highest current during the switch."""
     return drive_current
 
 
-@book.output("A", advice=(Rule(sense=">=", value=0.0, reason="above the Peltier module's rated current"),))
-def current_reserve(peltier_max_current: Scalar, peak_current: Scalar) -> Scalar:
+@quantities.output("A", advice=(Rule(sense=">=", value=0.0, reason="above the Peltier module's rated current"),))
+def current_margin(peltier_max_current: Scalar, peak_current: Scalar) -> Scalar:
     """Rated current of the Peltier module less the highest current of the switch."""
     return peltier_max_current - peak_current
 
 
-@book.path(SOFTENING, "degC", "maximum")
+@quantities.path(SOFTENING, "degC", "maximum")
 def peak_pcl_temperature(stack_profile: heat.Profile) -> Scalar:
     """Highest temperature in the PCL during the switch, at its face to the pads."""
     return stack_profile.near
 
 
-@book.path(SOFTENING, "degC", "maximum")
+@quantities.path(SOFTENING, "degC", "maximum")
 def peak_peltier_temperature(stack_profile: heat.Profile) -> Scalar:
     """Highest temperature of the pads' hot side during the switch."""
     return stack_profile.hot
 
 
-@book.path(SOFTENING, "degC", "maximum")
+@quantities.path(SOFTENING, "degC", "maximum")
 def peak_rotor_temperature(stack_profile: heat.Profile) -> Scalar:
     """Highest temperature of the rotor plate during the switch, at its face to the layer."""
     return stack_profile.plate_face
 
 
-@book.output(
+@quantities.output(
     "K", advice=(Rule(sense=">=", value=0.0, reason="the Peltier module is above the temperature it is rated for"),)
 )
-def peltier_temperature_reserve(peltier_max_temperature: Scalar, peak_peltier_temperature: Scalar) -> Scalar:
+def peltier_temperature_margin(peltier_max_temperature: Scalar, peak_peltier_temperature: Scalar) -> Scalar:
     """Rated temperature of the Peltier module less the highest it sees."""
     return peltier_max_temperature - peak_peltier_temperature
 
 
-@book.output("K", advice=(Rule(sense=">=", value=0.0, reason="the PCL decomposes"),))
-def pcl_temperature_reserve(pcl_decomposition_temperature: Scalar, peak_pcl_temperature: Scalar) -> Scalar:
+@quantities.output("K", advice=(Rule(sense=">=", value=0.0, reason="the PCL decomposes"),))
+def pcl_temperature_margin(pcl_decomposition_temperature: Scalar, peak_pcl_temperature: Scalar) -> Scalar:
     """Temperature at which the PCL starts to decompose less the highest it sees."""
     return pcl_decomposition_temperature - peak_pcl_temperature
 
 
-@book.output(
+@quantities.output(
     "K", advice=(Rule(sense=">=", value=0.0, reason="the structure is above its continuous service temperature"),)
 )
-def structure_temperature_reserve(structure_service_temperature: Scalar, peak_peltier_temperature: Scalar) -> Scalar:
+def structure_temperature_margin(structure_service_temperature: Scalar, peak_peltier_temperature: Scalar) -> Scalar:
     """Service temperature of the structure less the highest temperature of the pads that touch it."""
     return structure_service_temperature - peak_peltier_temperature
 
@@ -168,13 +168,13 @@ def structure_temperature_reserve(structure_service_temperature: Scalar, peak_pe
 # --- to stay soft ----------------------------------------------------------------------------------------------------
 
 
-@book.steady(SOFTENING, "A")
+@quantities.steady(SOFTENING, "A")
 def hold_current(drive_current: Scalar) -> Scalar:
     """Current that keeps the layer for good where the switch ended."""
     return drive_current
 
 
-@book.steady(SOFTENING, "W", headline=True)
+@quantities.steady(SOFTENING, "W", headline=True)
 def hold_power(electrical_power: Scalar) -> Scalar:
     """Electrical power that keeps the layer for good where the switch ended."""
     return electrical_power

@@ -1,4 +1,4 @@
-"""The thermal stack of the module, and what it is like at each instant of a stage.
+"""The thermal stack of the module, and what it is like at each instant of a phase.
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`; and by
@@ -10,41 +10,43 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.joint_impedance import joint_impedance
-from tvimdesign.device.table.quantity import Scalar, Stage
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity import Phase, Scalar
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import crystallization, heat, layer, peltier, polymer
 
 POWER_ROUNDING = 0.01  # W
 """Width of the corner where the pads stop generating."""
 
-book = Book("Switch")
+quantities = QuantityGroup("Switch")
 
-book.inputs()
-book.option("cold_side", ("open", "sink"), "What the pads' outer side gives its heat to: the air, or a sink of its own")
-book.option(
+quantities.inputs()
+quantities.option(
+    "cold_side", ("open", "sink"), "What the pads' outer side gives its heat to: the air, or a sink of its own"
+)
+quantities.option(
     "phase_model",
     ("kinetic", "equilibrium"),
     "How the layer freezes: late and supercooled as it does, or on its melting curve as is often assumed",
 )
 
 
-@book.output("1")
+@quantities.output("1")
 def peltier_scale(pcl_area: Scalar, peltier_area: Scalar) -> Scalar:
     """Area of the pads over the area of the catalogue module they are cut from."""
     return pcl_area / peltier_area
 
 
-@book.helper()
+@quantities.helper()
 def pads(
     peltier_scale: Scalar, peltier_seebeck: Scalar, peltier_resistance: Scalar, peltier_conductance: Scalar
-) -> peltier.Module:
+) -> peltier.PeltierModule:
     """All pads in series; Seebeck coefficient, resistance and conductance grow with the count of couples."""
-    return peltier.Module(
+    return peltier.PeltierModule(
         peltier_scale * peltier_seebeck, peltier_scale * peltier_resistance, peltier_scale * peltier_conductance
     )
 
 
-@book.helper()
+@quantities.helper()
 def core_and_link(
     core_radius: Scalar,
     pcl_inner_radius: Scalar,
@@ -64,7 +66,7 @@ def core_and_link(
     )
 
 
-@book.helper()
+@quantities.helper()
 def sink(
     cold_side: str,
     sink_contact: Scalar,
@@ -81,7 +83,7 @@ def sink(
     return heat.Lump(conductance=sink_contact * cold_area, capacity=sink_capacity, surface=surface)
 
 
-@book.helper()
+@quantities.helper()
 def stack(
     pcl_area: Scalar,
     pcl_depth: Scalar,
@@ -89,7 +91,7 @@ def stack(
     pcl_conductivity_solid: Scalar,
     pcl_conductivity_melt: Scalar,
     pcl_melting: polymer.Melting,
-    pads: peltier.Module,
+    pads: peltier.PeltierModule,
     peltier_mass: Scalar,
     peltier_specific_heat: Scalar,
     cold_side_coefficient: Scalar,
@@ -138,68 +140,68 @@ def stack(
 # --- at each instant -------------------------------------------------------------------------------------------------
 
 
-@book.helper(instant=True)
-def stack_now(stack: heat.Stack, stage: Stage, phase_model: str, pcl_kinetics: crystallization.Kinetics) -> heat.Stack:
-    """The stack as a stage sees it: where the layer freezes, with the kinetics of freezing."""
-    return stack._replace(freezing=pcl_kinetics) if stage.history and phase_model == "kinetic" else stack
+@quantities.helper(instant=True)
+def stack_now(stack: heat.Stack, phase: Phase, phase_model: str, pcl_kinetics: crystallization.Kinetics) -> heat.Stack:
+    """The stack as a phase sees it: where the layer freezes, with the kinetics of freezing."""
+    return stack._replace(freezing=pcl_kinetics) if phase.history and phase_model == "kinetic" else stack
 
 
-@book.helper(instant=True)
+@quantities.helper(instant=True)
 def stack_profile(state: Scalar, stack_now: heat.Stack) -> heat.Profile:
     """Temperatures and solid fractions through the stack."""
     return heat.profile(state, stack_now)
 
 
-@book.helper(instant=True)
+@quantities.helper(instant=True)
 def state_rates(state: Scalar, stack_now: heat.Stack, drive_current: Scalar) -> Scalar:
     """Time derivative of the thermal state."""
     return heat.rates(state, stack_now, drive_current)
 
 
-@book.output("W", instant=True)
+@quantities.output("W", instant=True)
 def terminal_power(stack_profile: heat.Profile, stack_now: heat.Stack, drive_current: Scalar) -> Scalar:
     """Electrical power at the pads' terminals, negative where they generate."""
     return heat.electrical_power(stack_profile, stack_now, drive_current)
 
 
-@book.output("W", instant=True)
+@quantities.output("W", instant=True)
 def electrical_power(terminal_power: Scalar) -> Scalar:
     """Power the supply gives; what the pads generate is not recovered."""
     return polymer.ramp(terminal_power, POWER_ROUNDING)
 
 
-@book.output("V", instant=True)
-def supply_voltage(stack_profile: heat.Profile, pads: peltier.Module, drive_current: Scalar) -> Scalar:
+@quantities.output("V", instant=True)
+def supply_voltage(stack_profile: heat.Profile, pads: peltier.PeltierModule, drive_current: Scalar) -> Scalar:
     """Voltage over all pads in series, in size."""
     return np.fabs(peltier.voltage(pads, drive_current, stack_profile.hot, stack_profile.cold))
 
 
-@book.output("degC", instant=True)
+@quantities.output("degC", instant=True)
 def mean_temperature(stack_profile: heat.Profile) -> Scalar:
     """Mean temperature of the layer."""
     return np.mean(stack_profile.cells)
 
 
-@book.helper(instant=True)
+@quantities.helper(instant=True)
 def slice_moduli(
     stack_profile: heat.Profile,
     pcl_rheology: polymer.Rheology,
-    stage: Stage,
+    phase: Phase,
     frequency_at_hot: Scalar,
     frequency_at_cold: Scalar,
 ) -> tuple[Scalar, Scalar]:
-    """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the stage leads."""
-    frequency = frequency_at_hot if stage.sign > 0.0 else frequency_at_cold
+    """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the phase leads."""
+    frequency = frequency_at_hot if phase.sign > 0.0 else frequency_at_cold
     return polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency, pcl_rheology)
 
 
-@book.helper(instant=True)
+@quantities.helper(instant=True)
 def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer [Pa], its slices in series."""
     return layer.series_modulus(*slice_moduli)
 
 
-@book.output("N*m/rad", instant=True)
+@quantities.output("N*m/rad", instant=True)
 def impedance_now(
     layer_moduli: tuple[Scalar, Scalar],
     moment_now: Scalar,
@@ -207,6 +209,6 @@ def impedance_now(
     elastic_support: Scalar,
     spring_stiffness: Scalar,
 ) -> Scalar:
-    """Magnitude of the joint's dynamic stiffness at the frequency of where the stage leads."""
+    """Magnitude of the joint's dynamic stiffness at the frequency of where the phase leads."""
     storage, loss = (modulus * moment_now / pcl_depth for modulus in layer_moduli)
     return joint_impedance(spring_stiffness, layer.series_stiffness(storage, loss, elastic_support))

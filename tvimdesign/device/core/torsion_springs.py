@@ -1,8 +1,8 @@
 """The torsion springs in the module: their rate, what they are to the output, and what they bear.
 
-Each function is a row of the table; its parameters are the rows it needs (see device/table/quantity.py). Kinematics are
-those of a right-hand spring, which winds up when the rotor turns in its negative sense; the other hand is its mirror image.
-"""
+Each function is a quantity of the table; its parameters are the quantities it needs (see device/table/quantity.py).
+Kinematics are those of a right-hand spring, which winds up when the rotor turns in its negative sense; the other hand
+is its mirror image."""
 
 from __future__ import annotations
 
@@ -10,30 +10,34 @@ import numpy as np
 
 from tvimdesign.catalog import Record
 from tvimdesign.device.table.quantity import Rule, Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import spring
 from tvimdesign.physics.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness
 
-book = Book("Springs")
+quantities = QuantityGroup("Springs")
 
-book.option("rate_model", ("bending", "smi"), "Spring rate: pure bending, or the handbook's, 6 % softer by friction")
-book.option("stress_factor", ("shigley", "en_13906"), "Rise of the stress at the inner fibre by the coil's curvature")
-book.option("leg_model", ("bending", "ignored"), "Whether the rotor-side leg bends with the coils")
-book.option(
+quantities.option(
+    "rate_model", ("bending", "smi"), "Spring rate: pure bending, or the handbook's, 6 % softer by friction"
+)
+quantities.option(
+    "stress_factor", ("shigley", "en_13906"), "Rise of the stress at the inner fibre by the coil's curvature"
+)
+quantities.option("leg_model", ("bending", "ignored"), "Whether the rotor-side leg bends with the coils")
+quantities.option(
     "transmission",
     ("unity", "geometry"),
     "Winding of a spring per angle of the rotor: the paper's ratio of one, or the leg on its pin",
 )
 
 
-@book.output("1")
+@quantities.output("1")
 def active_coils(coil_count: Scalar, coil_diameter: Scalar, leg_arm: Scalar, leg_model: str) -> Scalar:
     """Coils that bend, the rotor-side leg included."""
     # The tang on the other side is held by the floor right where it leaves the coil.
     return spring.active_coils(coil_count, coil_diameter, leg_arm if leg_model == "bending" else 0.0)
 
 
-@book.output("N*m/rad", headline=True)
+@quantities.output("N*m/rad", headline=True)
 def spring_rate(
     spring_youngs_modulus: Scalar,
     wire_diameter: Scalar,
@@ -45,14 +49,14 @@ def spring_rate(
     return spring.rate(spring_youngs_modulus, wire_diameter, coil_diameter, active_coils, rate_model)
 
 
-@book.output("1", Rule(sense=">=", value=4.0, reason="cold coiling, EN 13906-3", exists_above=1.2),
+@quantities.output("1", Rule(sense=">=", value=4.0, reason="cold coiling, EN 13906-3", exists_above=1.2),
              Rule(sense="<=", value=20.0, reason="cold coiling, EN 13906-3"))  # fmt: skip
 def spring_index(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
     """Coil diameter over wire diameter, C."""
     return spring.spring_index(wire_diameter, coil_diameter)
 
 
-@book.output("1")
+@quantities.output("1")
 def transmission_ratio(pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str) -> Scalar:
     """Winding of a spring per angle of the rotor at rest."""
     if transmission == "unity":
@@ -61,7 +65,7 @@ def transmission_ratio(pin_radius: Scalar, placement_radius: Scalar, leg_offset:
     return -leg_ratio(pin_radius, placement_radius, 0.0, leg_offset)
 
 
-@book.output("1/rad")
+@quantities.output("1/rad")
 def transmission_curvature(
     pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
 ) -> Scalar:
@@ -71,7 +75,7 @@ def transmission_curvature(
     return leg_curvature(pin_radius, placement_radius, 0.0, leg_offset)
 
 
-@book.output("N*m/rad", headline=True)
+@quantities.output("N*m/rad", headline=True)
 def spring_stiffness(
     spring_count: Scalar,
     spring_rate: Scalar,
@@ -83,7 +87,7 @@ def spring_stiffness(
     return output_stiffness(spring_count, spring_rate, preload_angle, transmission_ratio, transmission_curvature)
 
 
-@book.helper()
+@quantities.helper()
 def full_stroke(
     stroke: Scalar,
     preload_angle: Scalar,
@@ -108,13 +112,13 @@ def full_stroke(
     return torque, stiffness
 
 
-@book.output("N*m")
+@quantities.output("N*m")
 def spring_torque_full_stroke(spring_pairs: Scalar, spring_rate: Scalar, full_stroke: tuple[Scalar, Scalar]) -> Scalar:
     """Torque of all springs about the axis at full stroke."""
     return spring_pairs * spring_rate * full_stroke[0]
 
 
-@book.output("N*m/rad")
+@quantities.output("N*m/rad")
 def spring_stiffness_full_stroke(
     spring_pairs: Scalar, spring_rate: Scalar, full_stroke: tuple[Scalar, Scalar]
 ) -> Scalar:
@@ -125,7 +129,7 @@ def spring_stiffness_full_stroke(
 _BENT = "the springs' stiffness changes by more than a tenth over the stroke"
 
 
-@book.output(
+@quantities.output(
     "1", advice=(Rule(sense=">=", value=0.9, reason=_BENT), Rule(sense="<=", value=1.1, reason=_BENT)), headline=True
 )
 def stiffness_over_stroke(spring_stiffness_full_stroke: Scalar, spring_stiffness: Scalar) -> Scalar:
@@ -133,7 +137,7 @@ def stiffness_over_stroke(spring_stiffness_full_stroke: Scalar, spring_stiffness
     return spring_stiffness_full_stroke / spring_stiffness
 
 
-@book.output("rad")
+@quantities.output("rad")
 def spring_winding(
     stroke: Scalar,
     preload_angle: Scalar,
@@ -148,7 +152,7 @@ def spring_winding(
     return preload_angle + leg_turned(pin_radius, placement_radius, -stroke, leg_offset)
 
 
-@book.output("rad")
+@quantities.output("rad")
 def spring_unwinding(
     stroke: Scalar, pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
 ) -> Scalar:
@@ -158,42 +162,48 @@ def spring_unwinding(
     return -leg_turned(pin_radius, placement_radius, stroke, leg_offset)
 
 
-@book.output("rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act"))
-def preload_reserve(preload_angle: Scalar, spring_unwinding: Scalar) -> Scalar:
+@quantities.output(
+    "rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act")
+)
+def preload_margin(preload_angle: Scalar, spring_unwinding: Scalar) -> Scalar:
     """Preload that is left at the end of the stroke of the opposing springs."""
     return preload_angle - spring_unwinding
 
 
-@book.helper()
+@quantities.helper()
 def stress_per_angle(spring_rate: Scalar, wire_diameter: Scalar, spring_index: Scalar, stress_factor: str) -> Scalar:
     """Stress at the inner fibre per radian of winding [Pa]."""
     factor = {"shigley": spring.inner_fibre_factor, "en_13906": spring.inner_fibre_factor_en}[stress_factor]
     return spring.bending_stress(spring_rate, wire_diameter, factor(spring_index))
 
 
-@book.output("MPa")
+@quantities.output("MPa")
 def spring_stress(stress_per_angle: Scalar, spring_winding: Scalar) -> Scalar:
     """Largest stress in the springs, at the inner fibre at full winding."""
     return stress_per_angle * spring_winding
 
 
-@book.output("MPa")
+@quantities.output("MPa")
 def spring_tensile_strength(wire_diameter: Scalar, spring_material: Record) -> Scalar:
     """Tensile strength of the wire at its diameter."""
-    rows = spring_material.table("strength")
-    return spring.tensile_strength(wire_diameter, [(row["coefficient"], row["exponent"]) for row in rows])
+    quantities = spring_material.table("strength")
+    return spring.tensile_strength(
+        wire_diameter, [(quantity["coefficient"], quantity["exponent"]) for quantity in quantities]
+    )
 
 
-@book.output("1", advice=(Rule(sense=">=", value=1.0, reason="the strength of this wire is extrapolated to its size"),))
-def wire_range_reserve(wire_diameter: Scalar, spring_material: Record) -> Scalar:
+@quantities.output(
+    "1", advice=(Rule(sense=">=", value=1.0, reason="the strength of this wire is extrapolated to its size"),)
+)
+def wire_range_margin(wire_diameter: Scalar, spring_material: Record) -> Scalar:
     """Wire diameter against the nearer end of the range the material's strength is known for, above one inside."""
-    rows = spring_material.table("strength")
-    thinnest = min(row["wire_diameter_from"] for row in rows)
-    thickest = max(row["wire_diameter_to"] for row in rows)
+    quantities = spring_material.table("strength")
+    thinnest = min(quantity["wire_diameter_from"] for quantity in quantities)
+    thickest = max(quantity["wire_diameter_to"] for quantity in quantities)
     return np.fmin(wire_diameter / thinnest, thickest / wire_diameter)
 
 
-@book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield"), headline=True)
+@quantities.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield"), headline=True)
 def spring_static_safety(
     spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, spring_winding: Scalar
 ) -> Scalar:
@@ -201,7 +211,7 @@ def spring_static_safety(
     return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * spring_winding)
 
 
-@book.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield while the module is put together"))
+@quantities.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield while the module is put together"))
 def spring_assembly_safety(
     spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, preload_angle: Scalar
 ) -> Scalar:
@@ -209,31 +219,31 @@ def spring_assembly_safety(
     return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * 2.0 * np.fmax(preload_angle, 1e-6))
 
 
-@book.output(
+@quantities.output(
     "1", advice=(Rule(sense=">=", value=1.0, reason="the spring would break before 1e6 cycles"),), headline=True
 )
 def spring_fatigue_safety(
     stress_per_angle: Scalar,
     spring_winding: Scalar,
-    preload_reserve: Scalar,
+    preload_margin: Scalar,
     spring_tensile_strength: Scalar,
     spring_fatigue_ratio: Scalar,
 ) -> Scalar:
     """Fatigue safety of the springs for 1e6 full strokes to both sides, Gerber."""
-    least = np.fmax(preload_reserve, 0.0)  # a spring without preload lifts off; it does not unwind further
+    least = np.fmax(preload_margin, 0.0)  # a spring without preload lifts off; it does not unwind further
     amplitude = 0.5 * stress_per_angle * (spring_winding - least)
     mean = 0.5 * stress_per_angle * (spring_winding + least)
     endurance = spring.endurance_strength(spring_tensile_strength, spring_fatigue_ratio)
     return spring.gerber_safety(amplitude, mean, endurance, spring_tensile_strength)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def spring_wound_diameter(coil_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar) -> Scalar:
     """Mean coil diameter at full winding."""
     return spring.loaded_coil_diameter(coil_diameter, coil_count, spring_winding)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def spring_body_length(wire_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar, coil_gap: Scalar) -> Scalar:
     """Axial length of the coils at full winding."""
     return spring.body_length(wire_diameter, coil_count, spring_winding, coil_gap)
@@ -242,13 +252,13 @@ def spring_body_length(wire_diameter: Scalar, coil_count: Scalar, spring_winding
 _GRADE_2 = 1.0  # the factor Q of DIN 2194 for its middle grade
 
 
-@book.output("mm")
+@quantities.output("mm")
 def coil_diameter_tolerance(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
     """Tolerance of the coil diameter, DIN 2194 grade 2, to either side."""
     return spring.diameter_tolerance(wire_diameter, coil_diameter, _GRADE_2)
 
 
-@book.output("deg")
+@quantities.output("deg")
 def free_angle_tolerance(coil_count: Scalar, spring_index: Scalar) -> Scalar:
     """Tolerance of a spring's free angle, DIN 2194 grade 2, to either side."""
     return spring.free_angle_tolerance(coil_count, spring_index, _GRADE_2)
@@ -257,22 +267,20 @@ def free_angle_tolerance(coil_count: Scalar, spring_index: Scalar) -> Scalar:
 _SPREAD = "springs as bought spread more than the preload that is left: make it adjustable"
 
 
-@book.output("1", advice=(Rule(sense="<=", value=1.0, reason=_SPREAD),))
-def free_angle_over_preload(
-    free_angle_tolerance: Scalar, preload_adjustment: Scalar, preload_reserve: Scalar
-) -> Scalar:
+@quantities.output("1", advice=(Rule(sense="<=", value=1.0, reason=_SPREAD),))
+def free_angle_over_preload(free_angle_tolerance: Scalar, preload_adjustment: Scalar, preload_margin: Scalar) -> Scalar:
     """Free-angle tolerance of a spring that no adjustment takes out, over the preload that is left at full stroke."""
     left = np.fmax(free_angle_tolerance - 0.5 * preload_adjustment, 0.0)
-    return left / np.fmax(preload_reserve, 1e-3)
+    return left / np.fmax(preload_margin, 1e-3)
 
 
-@book.output("1")
+@quantities.output("1")
 def free_angle_over_stroke(free_angle_tolerance: Scalar, stroke: Scalar) -> Scalar:
     """Free-angle tolerance as a multiple of the stroke; above about one the preload must be adjustable."""
     return free_angle_tolerance / np.abs(stroke)
 
 
-@book.output(
+@quantities.output(
     "1", Rule(sense=">=", value=1.0, reason="the rotor's pins would break off between two layers of the print")
 )
 def pin_safety(

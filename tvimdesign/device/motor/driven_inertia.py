@@ -7,22 +7,22 @@ tangs count at the springs' axes, the rounding of pockets and windows at their m
 
 from __future__ import annotations
 
-from tvimdesign.device.core.mass_properties import book as shared
+from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.core.motor_choice import WITH_MOTOR, Motor
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.shapes import Section
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.output("kg*mm^2")
+@quantities.output("kg*mm^2")
 def housing_inertia(housing_moments: Section, structure_density: Scalar) -> Scalar:
     """Moment of inertia of the housing about the axis."""
     return housing_moments.polar * structure_density
 
 
-@book.output("kg*mm^2", extras=WITH_MOTOR)
+@quantities.output("kg*mm^2", requires=WITH_MOTOR)
 def driven_inertia(
     drive_inertia: Scalar,
     housing_inertia: Scalar,
@@ -50,7 +50,7 @@ def driven_inertia(
     return drive_inertia + housing_inertia + cover + carried
 
 
-@book.output("rad/s^2", extras=WITH_MOTOR)
-def motor_acceleration(drive: Motor, driven_inertia: Scalar) -> Scalar:
+@quantities.output("rad/s^2", requires=WITH_MOTOR)
+def motor_acceleration(drive_motor: Motor, driven_inertia: Scalar) -> Scalar:
     """Acceleration of the housing by the motor's continuous torque while the link is free; zero without a motor."""
-    return drive.continuous_torque / driven_inertia
+    return drive_motor.continuous_torque / driven_inertia

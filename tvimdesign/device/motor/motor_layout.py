@@ -22,88 +22,88 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.layout import book as layout
+from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
 from tvimdesign.device.fixtures.sensor_flange import Pattern
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 
 BASE_SCREWS = 4
 """Screws that fix the motor's housing from below."""
 
-book = Book(layout.group, WITH_MOTOR)
+quantities = QuantityGroup(layout.group, WITH_MOTOR)
 
 
 # --- radii: all zero without a motor ---------------------------------------------------------------------------------
 
 
-@book.output("mm")
-def motor_disc_radius(drive: Motor, slip_clearance: Scalar) -> Scalar:
+@quantities.output("mm")
+def motor_disc_radius(drive_motor: Motor, slip_clearance: Scalar) -> Scalar:
     """Radius of the motor hub's disc and barrel, on which the rotor is bonded; zero without a motor."""
-    return drive.rotor_bore - slip_clearance
+    return drive_motor.rotor_bore - slip_clearance
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_corner_radius(corner_radius: Scalar, corner_depth_ratio: Scalar, motor_plate_thickness: Scalar) -> Scalar:
     """Radius of the corners between the hub's disc and its spokes, which are as deep as it; zero without a motor."""
     return np.fmax(corner_radius, motor_plate_thickness / corner_depth_ratio)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_barrel_radius(motor_disc_radius: Scalar, motor_hub_wall: Scalar) -> Scalar:
     """Inner radius of that barrel; zero without a motor."""
     return motor_disc_radius - motor_hub_wall
 
 
-@book.output("mm")
-def motor_journal_radius(drive: Motor, seat_clearance: Scalar) -> Scalar:
+@quantities.output("mm")
+def motor_journal_radius(drive_motor: Motor, seat_clearance: Scalar) -> Scalar:
     """Radius of the motor hub's journal in its bearings; zero without a motor."""
-    return drive.bearing_bore - seat_clearance
+    return drive_motor.bearing_bore - seat_clearance
 
 
-@book.output("mm")
-def motor_collar_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_collar_radius(drive_motor: Motor) -> Scalar:
     """Radius of what presses on the bearings' inner rings, collar above and retainer below; zero without a motor."""
-    return drive.inner_shoulder
+    return drive_motor.inner_shoulder
 
 
-@book.output("mm")
-def motor_seat_radius(drive: Motor, seat_clearance: Scalar) -> Scalar:
+@quantities.output("mm")
+def motor_seat_radius(drive_motor: Motor, seat_clearance: Scalar) -> Scalar:
     """Radius of the seats of the motor's bearings; zero without a motor."""
-    return drive.bearing_radius + seat_clearance
+    return drive_motor.bearing_radius + seat_clearance
 
 
-@book.output("mm")
-def motor_lip_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_lip_radius(drive_motor: Motor) -> Scalar:
     """Inner radius of the lip between them; zero without a motor."""
-    return drive.outer_shoulder
+    return drive_motor.outer_shoulder
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_tube_radius(motor_seat_radius: Scalar, motor_wall: Scalar) -> Scalar:
     """Outer radius of the tube that holds the bearings; zero without a motor."""
     return motor_seat_radius + motor_wall
 
 
-@book.output("mm")
-def stator_seat_radius(drive: Motor, slip_clearance: Scalar) -> Scalar:
+@quantities.output("mm")
+def stator_seat_radius(drive_motor: Motor, slip_clearance: Scalar) -> Scalar:
     """Inner radius of the motor housing's wall, to which the stator is bonded; zero without a motor."""
-    return drive.stator_radius + slip_clearance
+    return drive_motor.stator_radius + slip_clearance
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_outer_radius(stator_seat_radius: Scalar, motor_wall: Scalar) -> Scalar:
     """Outer radius of the motor's housing; zero without a motor."""
     return stator_seat_radius + motor_wall
 
 
-@book.output("mm")
-def motor_base_hole_radius(drive: Motor) -> Scalar:
+@quantities.output("mm")
+def motor_base_hole_radius(drive_motor: Motor) -> Scalar:
     """Radius of the circle of the base's screws, under the middle of the stator's ring; zero without a motor."""
-    return 0.5 * (drive.stator_bore + drive.stator_radius)
+    return 0.5 * (drive_motor.stator_bore + drive_motor.stator_radius)
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_sink_radius(
     angle_sensor: Encoder | None,
     motor_screw_head: Scalar,
@@ -115,7 +115,7 @@ def motor_sink_radius(
     return head if angle_sensor is None else np.fmax(head, angle_sensor.magnet_radius + slip_clearance)
 
 
-@book.output("mm", extras=WITH_ENCODER)
+@quantities.output("mm", requires=WITH_ENCODER)
 def encoder_recess_radius(angle_sensor: Encoder, slip_clearance: Scalar) -> Scalar:
     """Radius of the recess for the encoder's board; zero without an encoder."""
     return angle_sensor.board_radius + slip_clearance
@@ -124,57 +124,57 @@ def encoder_recess_radius(angle_sensor: Encoder, slip_clearance: Scalar) -> Scal
 # --- levels: zero without a motor ------------------------------------------------------------------------------------
 
 
-@book.output("mm")
+@quantities.output("mm")
 def drive_height(
-    drive: Motor, motor_plate_thickness: Scalar, axial_clearance: Scalar, motor_base_thickness: Scalar
+    drive_motor: Motor, motor_plate_thickness: Scalar, axial_clearance: Scalar, motor_base_thickness: Scalar
 ) -> Scalar:
     """Height the motor adds below the housing's feet: disc, gap, stator and base; zero without a motor."""
-    return motor_plate_thickness + axial_clearance + drive.stator_length + motor_base_thickness
+    return motor_plate_thickness + axial_clearance + drive_motor.stator_length + motor_base_thickness
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_plate_level(floor_thickness: Scalar, foot_height: Scalar, motor_plate_thickness: Scalar) -> Scalar:
     """Lower face of the motor hub's disc and spokes, which the housing stands on; zero without a motor."""
     return -floor_thickness - foot_height - motor_plate_thickness
 
 
-@book.output("mm")
+@quantities.output("mm")
 def stator_top_level(motor_plate_level: Scalar, axial_clearance: Scalar) -> Scalar:
     """Upper end of stator, motor housing and upper bearing; zero without a motor."""
     return motor_plate_level - axial_clearance
 
 
-@book.output("mm")
-def stator_bottom_level(drive: Motor, stator_top_level: Scalar) -> Scalar:
+@quantities.output("mm")
+def stator_bottom_level(drive_motor: Motor, stator_top_level: Scalar) -> Scalar:
     """Lower end of the stator, on the base of the motor's housing; zero without a motor."""
-    return stator_top_level - drive.stator_length
+    return stator_top_level - drive_motor.stator_length
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_bottom_level(stator_bottom_level: Scalar, motor_base_thickness: Scalar) -> Scalar:
     """Lower face of the motor's housing; zero without a motor."""
     return stator_bottom_level - motor_base_thickness
 
 
-@book.output("mm")
+@quantities.output("mm")
 def encoder_board_level(motor_bottom_level: Scalar, sensor_recess_depth: Scalar) -> Scalar:
     """Lower face of the encoder's board, if any: the base's, or over a sensor's spigot; zero without a motor."""
     return motor_bottom_level + sensor_recess_depth
 
 
-@book.output("mm")
-def motor_rotor_bottom_level(drive: Motor, stator_top_level: Scalar, stator_bottom_level: Scalar) -> Scalar:
+@quantities.output("mm")
+def motor_rotor_bottom_level(drive_motor: Motor, stator_top_level: Scalar, stator_bottom_level: Scalar) -> Scalar:
     """Lower end of the motor's rotor and of the barrel: rotor and stator have one middle; zero without a motor."""
-    return 0.5 * (stator_top_level + stator_bottom_level - drive.rotor_length)
+    return 0.5 * (stator_top_level + stator_bottom_level - drive_motor.rotor_length)
 
 
-@book.output("mm", extras=WITH_ENCODER)
+@quantities.output("mm", requires=WITH_ENCODER)
 def magnet_room(angle_sensor: Encoder, encoder_magnet_spacing: Scalar) -> Scalar:
     """Height of magnet and gap below the head of the retainer's screw; zero without an encoder."""
     return angle_sensor.magnet_height + encoder_magnet_spacing
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_retainer_thickness(
     motor_retainer_floor: Scalar, motor_screw_head_height: Scalar, magnet_room: Scalar
 ) -> Scalar:
@@ -182,7 +182,7 @@ def motor_retainer_thickness(
     return motor_retainer_floor + motor_screw_head_height + magnet_room
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_retainer_level(
     angle_sensor: Encoder | None,
     encoder_board_level: Scalar,
@@ -194,13 +194,13 @@ def motor_retainer_level(
     return encoder_board_level + below + motor_retainer_thickness
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_journal_level(motor_retainer_level: Scalar, running_clearance: Scalar) -> Scalar:
     """Lower end of the motor hub's journal, short of the lower inner ring's; zero without a motor."""
     return motor_retainer_level + running_clearance
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_screw_depth(
     motor_screw_length: Scalar,
     motor_retainer_floor: Scalar,
@@ -211,7 +211,7 @@ def motor_screw_depth(
     return motor_screw_length - motor_retainer_floor - running_clearance + screw_tip_room
 
 
-@book.output("mm")
+@quantities.output("mm")
 def motor_base_hole_depth(base_pattern: Pattern, motor_base_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
     """Depth of the base's holes: they leave it the least wall; zero without a motor, or where a sensor bears it."""
     return 0.0 if base_pattern.screws else motor_base_thickness - minimum_wall

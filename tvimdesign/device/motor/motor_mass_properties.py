@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from tvimdesign.catalog import Record
-from tvimdesign.device.core.mass_properties import book as shared
+from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
 from tvimdesign.device.fixtures.bearing import BEARINGS, bearing_inner_section, bearings_inertia
 from tvimdesign.device.fixtures.bearing import bearing_density as density_as_a_ring
-from tvimdesign.device.fixtures.fastening import its_screw_moments
+from tvimdesign.device.fixtures.fastening import template_screw_moments
 from tvimdesign.device.fixtures.sensor_flange import Pattern, pattern_holes
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.shapes import NOTHING, Section, disc_at, inner_corner, notch, ring, spoke, stacked
 
-book = Book(shared.group, WITH_MOTOR)
+quantities = QuantityGroup(shared.group, WITH_MOTOR)
 
 
-@book.helper(otherwise=NOTHING)
+@quantities.helper(default=NOTHING)
 def motor_hub_moments(
     motor_disc_radius: Scalar,
     motor_barrel_radius: Scalar,
@@ -52,15 +52,15 @@ def motor_hub_moments(
     )
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def motor_hub_volume(motor_hub_moments: Section) -> Scalar:
     """Volume of the motor's hub."""
     return motor_hub_moments.area
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def motor_housing_volume(
-    drive: Motor,
+    drive_motor: Motor,
     angle_sensor: Encoder | None,
     motor_outer_radius: Scalar,
     stator_seat_radius: Scalar,
@@ -82,14 +82,16 @@ def motor_housing_volume(
     sensor_recess_depth: Scalar,
 ) -> Scalar:
     """Volume of the motor's housing: base, wall and tube, less bore, seats, holes, recesses and wires' ways."""
-    lower = motor_retainer_level + drive.bearing_width - motor_bottom_level
-    lip = stator_top_level - drive.bearing_width - motor_bottom_level - lower
+    lower = motor_retainer_level + drive_motor.bearing_width - motor_bottom_level
+    lip = stator_top_level - drive_motor.bearing_width - motor_bottom_level - lower
     solid = (
         ring(0.0, motor_outer_radius).area * motor_base_thickness
-        + ring(stator_seat_radius, motor_outer_radius).area * drive.stator_length
-        + ring(0.0, motor_tube_radius).area * drive.stator_length
+        + ring(stator_seat_radius, motor_outer_radius).area * drive_motor.stator_length
+        + ring(0.0, motor_tube_radius).area * drive_motor.stator_length
     )
-    bore = ring(0.0, motor_seat_radius).area * (lower + drive.bearing_width) + ring(0.0, motor_lip_radius).area * lip
+    bore = (
+        ring(0.0, motor_seat_radius).area * (lower + drive_motor.bearing_width) + ring(0.0, motor_lip_radius).area * lip
+    )
     screws = BASE_SCREWS * ring(0.0, 0.5 * mount_screw_pilot).area * motor_base_hole_depth
     wires = notch(0.5 * motor_wire_width, stator_seat_radius, motor_outer_radius).area * motor_wire_depth
     whole = solid - bore - screws - wires - pattern_holes(base_pattern, flange_screw_depth)
@@ -102,7 +104,7 @@ def motor_housing_volume(
     return whole
 
 
-@book.helper(otherwise=NOTHING)
+@quantities.helper(default=NOTHING)
 def motor_retainer_moments(
     motor_collar_radius: Scalar,
     motor_screw_clearance: Scalar,
@@ -117,13 +119,13 @@ def motor_retainer_moments(
     )
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def motor_retainer_volume(motor_retainer_moments: Section) -> Scalar:
     """Volume of the motor's retainer."""
     return motor_retainer_moments.area
 
 
-@book.helper(otherwise=NOTHING)
+@quantities.helper(default=NOTHING)
 def motor_screw_moments(
     motor_screw_pilot: Scalar,
     motor_screw_length: Scalar,
@@ -131,16 +133,18 @@ def motor_screw_moments(
     motor_screw_head_height: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the motor retainer's screw."""
-    return its_screw_moments(1.0, 0.0, motor_screw_pilot, motor_screw_length, motor_screw_head, motor_screw_head_height)
+    return template_screw_moments(
+        1.0, 0.0, motor_screw_pilot, motor_screw_length, motor_screw_head, motor_screw_head_height
+    )
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def motor_screw_volume(motor_screw_moments: Section) -> Scalar:
     """Volume of the motor retainer's screw."""
     return motor_screw_moments.area
 
 
-@book.helper(otherwise=NOTHING)
+@quantities.helper(default=NOTHING)
 def mount_screw_moments(
     spring_count: Scalar,
     placement_radius: Scalar,
@@ -150,80 +154,80 @@ def mount_screw_moments(
     mount_screw_head_height: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the screws between housing and motor hub."""
-    return its_screw_moments(
+    return template_screw_moments(
         spring_count, placement_radius, mount_screw_pilot, mount_screw_length, mount_screw_head, mount_screw_head_height
     )
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def mount_screw_volume(mount_screw_moments: Section) -> Scalar:
     """Volume of the screws between housing and motor hub together; without a motor they are not the module's."""
     return mount_screw_moments.area
 
 
-@book.output("mm^3")
-def motor_rotor_volume(drive: Motor) -> Scalar:
+@quantities.output("mm^3")
+def motor_rotor_volume(drive_motor: Motor) -> Scalar:
     """Volume of the motor's rotor as a ring."""
-    return ring(drive.rotor_bore, drive.rotor_radius).area * drive.rotor_length
+    return ring(drive_motor.rotor_bore, drive_motor.rotor_radius).area * drive_motor.rotor_length
 
 
-@book.output("mm^3")
-def motor_stator_volume(drive: Motor) -> Scalar:
+@quantities.output("mm^3")
+def motor_stator_volume(drive_motor: Motor) -> Scalar:
     """Volume of the motor's stator with its windings as a ring."""
-    return ring(drive.stator_bore, drive.stator_radius).area * drive.stator_length
+    return ring(drive_motor.stator_bore, drive_motor.stator_radius).area * drive_motor.stator_length
 
 
-@book.output("mm^3")
-def motor_bearing_volume(drive: Motor) -> Scalar:
+@quantities.output("mm^3")
+def motor_bearing_volume(drive_motor: Motor) -> Scalar:
     """Volume of the motor's two bearings as rings without gaps."""
-    return BEARINGS * ring(drive.bearing_bore, drive.bearing_radius).area * drive.bearing_width
+    return BEARINGS * ring(drive_motor.bearing_bore, drive_motor.bearing_radius).area * drive_motor.bearing_width
 
 
-@book.output("mm^3", extras=WITH_ENCODER)
+@quantities.output("mm^3", requires=WITH_ENCODER)
 def encoder_magnet_volume(angle_sensor: Encoder) -> Scalar:
     """Volume of the encoder's magnet."""
     return ring(0.0, angle_sensor.magnet_radius).area * angle_sensor.magnet_height
 
 
-@book.output("mm^3", extras=WITH_ENCODER)
+@quantities.output("mm^3", requires=WITH_ENCODER)
 def encoder_board_volume(angle_sensor: Encoder) -> Scalar:
     """Volume of the encoder's board as a disc as high as board and chip."""
     return ring(0.0, angle_sensor.board_radius).area * angle_sensor.board_height
 
 
-@book.output("kg/m^3")
-def motor_rotor_density(drive: Motor, motor_rotor_volume: Scalar) -> Scalar:
+@quantities.output("kg/m^3")
+def motor_rotor_density(drive_motor: Motor, motor_rotor_volume: Scalar) -> Scalar:
     """Mass of the motor's rotor over that volume; zero without a motor."""
-    return drive.rotor_mass / motor_rotor_volume
+    return drive_motor.rotor_mass / motor_rotor_volume
 
 
-@book.output("kg/m^3")
-def motor_stator_density(drive: Motor, motor_stator_volume: Scalar) -> Scalar:
+@quantities.output("kg/m^3")
+def motor_stator_density(drive_motor: Motor, motor_stator_volume: Scalar) -> Scalar:
     """Mass of the motor's stator over that volume; zero without a motor."""
-    return drive.stator_mass / motor_stator_volume
+    return drive_motor.stator_mass / motor_stator_volume
 
 
-@book.output("kg/m^3")
+@quantities.output("kg/m^3")
 def motor_bearing_density(motor_bearing: Record) -> Scalar:
     """Mass of one of the motor's bearings over its volume; zero without a motor."""
     return density_as_a_ring(motor_bearing)
 
 
-@book.output("kg/m^3", extras=WITH_ENCODER)
+@quantities.output("kg/m^3", requires=WITH_ENCODER)
 def encoder_magnet_density(angle_sensor: Encoder) -> Scalar:
     """Density of the encoder's magnet; zero without an encoder."""
     return angle_sensor.magnet_density
 
 
-@book.output("kg/m^3", extras=WITH_ENCODER)
+@quantities.output("kg/m^3", requires=WITH_ENCODER)
 def encoder_board_density(angle_sensor: Encoder, encoder_board_volume: Scalar) -> Scalar:
     """Mass of the encoder's board over its volume; zero without an encoder."""
     return angle_sensor.board_mass / encoder_board_volume
 
 
-@book.output("g")
+@quantities.output("g")
 def drive_mass(
-    drive: Motor,
+    drive_motor: Motor,
     structure_density: Scalar,
     motor_hub_volume: Scalar,
     motor_housing_volume: Scalar,
@@ -242,20 +246,20 @@ def drive_mass(
     """Mass of motor, its hub, housing, retainer, bearings and screws, and encoder; zero without a motor."""
     made = (motor_hub_volume + motor_housing_volume + motor_retainer_volume) * structure_density
     screws = motor_screw_volume * motor_screw_density + mount_screw_volume * mount_screw_density
-    bought = drive.stator_mass + drive.rotor_mass + motor_bearing_volume * motor_bearing_density
+    bought = drive_motor.stator_mass + drive_motor.rotor_mass + motor_bearing_volume * motor_bearing_density
     encoder = encoder_magnet_volume * encoder_magnet_density + encoder_board_volume * encoder_board_density
     return made + screws + bought + encoder
 
 
-@book.output("kg*mm^2")
+@quantities.output("kg*mm^2")
 def motor_hub_inertia(motor_hub_moments: Section, structure_density: Scalar) -> Scalar:
     """Moment of inertia of the motor's hub about the axis; zero without a motor."""
     return motor_hub_moments.polar * structure_density
 
 
-@book.output("kg*mm^2")
+@quantities.output("kg*mm^2")
 def drive_inertia(
-    drive: Motor,
+    drive_motor: Motor,
     motor_hub_inertia: Scalar,
     motor_retainer_moments: Section,
     structure_density: Scalar,
@@ -274,7 +278,7 @@ def drive_inertia(
     """
     retainer = motor_retainer_moments.polar * structure_density
     screws = motor_screw_moments.polar * motor_screw_density + mount_screw_moments.polar * mount_screw_density
-    inner = bearing_inner_section(drive.bearing_bore, drive.bearing_radius)
-    rings = bearings_inertia(inner, drive.bearing_width, motor_bearing_density)
+    inner = bearing_inner_section(drive_motor.bearing_bore, drive_motor.bearing_radius)
+    rings = bearings_inertia(inner, drive_motor.bearing_width, motor_bearing_density)
     magnet = ring(0.0, encoder_magnet_radius).polar * encoder_magnet_height * encoder_magnet_density
-    return drive.rotor_inertia + motor_hub_inertia + retainer + screws + rings + magnet
+    return drive_motor.rotor_inertia + motor_hub_inertia + retainer + screws + rings + magnet

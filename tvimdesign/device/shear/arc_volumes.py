@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-from tvimdesign.device.core.mass_properties import book as shared
+from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.shapes import Section, corners, sector, stacked
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.helper()
+@quantities.helper()
 def pcl_section(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Section:
     """Plan view of all PCL arcs together."""
     return sector(arc_count * arc_span, pcl_inner_radius, pcl_outer_radius)
 
 
-@book.output("mm^2", headline=True)
+@quantities.output("mm^2", headline=True)
 def pcl_area(pcl_section: Section) -> Scalar:
     """Contact area of all PCL arcs together."""
     return pcl_section.area
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar, key_moments: Section) -> Scalar:
     """Volume of all PCL arcs together, keys included."""
     return pcl_area * pcl_thickness + key_moments.area
@@ -35,7 +35,7 @@ def _rounded_sector(span: Scalar, inner_radius: Scalar, outer_radius: Scalar, co
     return sector(span, inner_radius, outer_radius) - Section(taken, taken * mean_radius**2)
 
 
-@book.helper()
+@quantities.helper()
 def pad_section(
     arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar, corner_radius: Scalar
 ) -> Section:
@@ -43,13 +43,13 @@ def pad_section(
     return _rounded_sector(arc_span, pcl_inner_radius, pcl_outer_radius, corner_radius).times(arc_count)
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def peltier_volume(pad_section: Section, peltier_thickness: Scalar) -> Scalar:
     """Volume of all Peltier pads together: the outline of the PCL, its corners as round as those of the pockets."""
     return pad_section.area * peltier_thickness
 
 
-@book.helper()
+@quantities.helper()
 def window_section(
     arc_count: Scalar,
     arc_span: Scalar,
@@ -64,7 +64,7 @@ def window_section(
     return _rounded_sector(span, inner, outer, corner_radius).times(arc_count)
 
 
-@book.helper()
+@quantities.helper()
 def floor_openings(
     pad_section: Section, peltier_thickness: Scalar, window_section: Section, floor_web: Scalar
 ) -> Section:
@@ -72,25 +72,25 @@ def floor_openings(
     return stacked((pad_section, peltier_thickness), (window_section, floor_web))
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def floor_volume(floor_moments: Section) -> Scalar:
     """Volume of the housing's floor around the hub, less pad pockets, windows, tang holes and mounting holes."""
     return floor_moments.area
 
 
-@book.helper()
+@quantities.helper()
 def housing_moments(bare_housing_moments: Section) -> Section:
     """Volume and its polar moment about the axis, of the housing: nothing is added to what all modes have."""
     return bare_housing_moments
 
 
-@book.output("mm^3")
+@quantities.output("mm^3")
 def housing_volume(housing_moments: Section) -> Scalar:
     """Volume of the housing: skirt and floor, wall, hub and spring posts."""
     return housing_moments.area
 
 
-@book.helper()
+@quantities.helper()
 def rotor_moments(bare_rotor_moments: Section, key_moments: Section) -> Section:
     """Volume and its polar moment about the axis, of the rotor less the pockets for the keys."""
     return bare_rotor_moments - key_moments

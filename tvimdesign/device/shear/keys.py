@@ -10,22 +10,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.clearances import book as gaps
-from tvimdesign.device.core.joint_impedance import book as impedance
-from tvimdesign.device.core.layout import book as layout
-from tvimdesign.device.core.mass_properties import book as bodies
+from tvimdesign.device.core.clearances import quantities as gaps
+from tvimdesign.device.core.joint_impedance import quantities as impedance
+from tvimdesign.device.core.layout import quantities as layout
+from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import peg, structure
 from tvimdesign.physics.shapes import Section, disc_at
 
 places, strengths, weights, rules = (
-    Book(layout.group),
-    Book(impedance.group),
-    Book(bodies.group),
-    Book(gaps.group),
+    QuantityGroup(layout.group),
+    QuantityGroup(impedance.group),
+    QuantityGroup(bodies.group),
+    QuantityGroup(gaps.group),
 )
-books = (places, strengths, weights, rules)
+groups = (places, strengths, weights, rules)
 
 
 @places.helper()
@@ -93,25 +93,25 @@ rules.after("arc_width")
 
 
 @rules.output("mm", at_least(0.0, "the keys are thinner than the process can make them"))
-def key_reserve(key_diameter: Scalar, has_keys: Scalar, minimum_feature: Scalar) -> Scalar:
+def key_margin(key_diameter: Scalar, has_keys: Scalar, minimum_feature: Scalar) -> Scalar:
     """Diameter of the keys beyond the process's least pin."""
     return key_diameter - has_keys * minimum_feature
 
 
 @rules.output("mm", at_least(0.0, "the rotor plate is too thin for keys: a thicker plate, or key_count 0"))
-def key_depth_reserve(rotor_thickness: Scalar, has_keys: Scalar, minimum_wall: Scalar, key_diameter: Scalar) -> Scalar:
+def key_depth_margin(rotor_thickness: Scalar, has_keys: Scalar, minimum_wall: Scalar, key_diameter: Scalar) -> Scalar:
     """Rotor plate beyond the least wall and keys a quarter of their diameter deep."""
     return rotor_thickness - has_keys * (minimum_wall + 0.25 * key_diameter)
 
 
 @rules.output("mm", at_least(0.0, "the arcs are too narrow for their keys: thinner ones, or key_count 0"))
-def key_width_reserve(arc_width: Scalar, has_keys: Scalar, key_diameter: Scalar, minimum_wall: Scalar) -> Scalar:
+def key_width_margin(arc_width: Scalar, has_keys: Scalar, key_diameter: Scalar, minimum_wall: Scalar) -> Scalar:
     """Radial width of the arcs beyond a key with half of the least wall on either side."""
     return arc_width - has_keys * (key_diameter + minimum_wall)
 
 
 @rules.output("mm", at_least(0.0, "the keys stand too close in their arcs: fewer or thinner ones"))
-def key_pitch_reserve(
+def key_pitch_margin(
     key_circle_radius: Scalar,
     arc_span: Scalar,
     key_count: Scalar,

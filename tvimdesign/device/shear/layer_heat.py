@@ -4,46 +4,46 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.thermal_stack import book as shared
+from tvimdesign.device.core.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import heat
 from tvimdesign.physics.shapes import Section
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.helper()
+@quantities.helper()
 def cold_area(window_section: Section) -> Scalar:
     """Open area of the pads' cold sides [m^2]: the windows below them."""
     return window_section.area
 
 
-@book.helper(instant=True)
+@quantities.helper(instant=True)
 def moment_now(pcl_moment: Scalar) -> Scalar:
     """The layer's moment at an instant [m^4]: sheared, a molten film is as soft as its thickness says."""
     return pcl_moment
 
 
-@book.helper()
+@quantities.helper()
 def plate_depth(rotor_thickness: Scalar) -> Scalar:
     """Thickness of what is behind the layer [m]: the rotor plate."""
     return rotor_thickness
 
 
-@book.helper()
+@quantities.helper()
 def plate_outside(pcl_area: Scalar, rotor_coefficient: Scalar, surface_emissivity: Scalar) -> heat.Surface:
     """The rotor plate's upper face above the arcs."""
     return heat.Surface(pcl_area, rotor_coefficient, surface_emissivity)
 
 
-@book.helper()
+@quantities.helper()
 def plate_mass(rotor_radius: Scalar, rotor_thickness: Scalar, structure_density: Scalar) -> Scalar:
     """Mass of the rotor plate [kg]: above the arcs, and beside them."""
     return np.pi * rotor_radius**2 * rotor_thickness * structure_density
 
 
-@book.helper()
+@quantities.helper()
 def rotor_beside(
     rotor_radius: Scalar,
     pcl_area: Scalar,

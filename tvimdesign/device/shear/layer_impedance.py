@@ -4,35 +4,35 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.joint_impedance import book as shared
+from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import hold, layer, structure
 from tvimdesign.physics.motion import Modes
 from tvimdesign.physics.shapes import Section
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.output("m^4")
+@quantities.output("m^4")
 def layer_polar_moment(pcl_section: Section) -> Scalar:
     """Polar second moment of area of the PCL layer."""
     return pcl_section.polar
 
 
-@book.output("N*m/rad", per_point=True, headline=True)
+@quantities.output("N*m/rad", per_point=True, headline=True)
 def pcl_stiffness(storage_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar) -> Scalar:
     """Stiffness of the PCL layer alone, K_PCL."""
     return storage_modulus * layer_polar_moment / pcl_thickness
 
 
-@book.output("N*m*s/rad", per_point=True, headline=True)
+@quantities.output("N*m*s/rad", per_point=True, headline=True)
 def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness: Scalar, frequency: Scalar) -> Scalar:
     """Damping of the PCL layer alone, b_PCL."""
     return loss_modulus * layer_polar_moment / pcl_thickness / (2.0 * np.pi * frequency)
 
 
-@book.output("N*m/rad")
+@quantities.output("N*m/rad")
 def structure_stiffness(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
@@ -53,31 +53,31 @@ def structure_stiffness(
     )
 
 
-@book.helper()
+@quantities.helper()
 def pcl_moment(layer_polar_moment: Scalar) -> Scalar:
     """What the PCL's shear modulus over its depth is multiplied with [m^4]: the layer's polar moment."""
     return layer_polar_moment
 
 
-@book.helper()
+@quantities.helper()
 def elastic_support(structure_stiffness: Scalar) -> Scalar:
     """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure."""
     return structure_stiffness
 
 
-@book.output("1", headline=True)
+@quantities.output("1", headline=True)
 def layer_strain(pcl_outer_radius: Scalar, stroke: Scalar, pcl_thickness: Scalar) -> Scalar:
     """Shear strain of the molten layer at its outer radius at full stroke."""
     return layer.shear_strain(pcl_outer_radius, stroke, pcl_thickness)
 
 
-@book.output("1", Rule(sense=">=", value=1.0, reason="the molten layer would tear or slip"))
+@quantities.output("1", Rule(sense=">=", value=1.0, reason="the molten layer would tear or slip"))
 def layer_strain_safety(pcl_melt_strain_limit: Scalar, layer_strain: Scalar) -> Scalar:
     """Strain the molten layer bears over the strain it sees."""
     return pcl_melt_strain_limit / layer_strain
 
 
-@book.output("N*m")
+@quantities.output("N*m")
 def layer_holding_torque(
     pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
 ) -> Scalar:
@@ -86,13 +86,15 @@ def layer_holding_torque(
     return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
 
 
-@book.output("N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque"))
+@quantities.output(
+    "N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque")
+)
 def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
     """Torque the frozen joint holds: the least of what the layer, the core and the link's screws bear."""
     return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
 
 
-@book.output("1", headline=True)
+@quantities.output("1", headline=True)
 def parting_share() -> Scalar:
     """Share of the PCL that can part from what presses on it: none, the layer is bonded to both its faces.
 
@@ -101,7 +103,7 @@ def parting_share() -> Scalar:
     return 0.0
 
 
-@book.output("N*m", per_point=True)
+@quantities.output("N*m", per_point=True)
 def layer_torque(
     hold_torque: Scalar, spring_stiffness: Scalar, structure_stiffness: Scalar, pcl_modes: Modes
 ) -> Scalar:
@@ -109,7 +111,7 @@ def layer_torque(
     return hold.first_torque(hold_torque, spring_stiffness, structure_stiffness, pcl_modes)
 
 
-@book.output("MPa", per_point=True)
+@quantities.output("MPa", per_point=True)
 def bond_traction(layer_torque: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar) -> Scalar:
     """Highest traction on the layer's bond in a hold: at its outer rim, when the load has just come on."""
     return layer.traction(layer_torque, layer_polar_moment, pcl_outer_radius)

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from tvimdesign.device.core.layout import book as shared
+from tvimdesign.device.core.layout import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import Book
+from tvimdesign.device.table.quantity_group import QuantityGroup
 
-book = Book(shared.group)
+quantities = QuantityGroup(shared.group)
 
 
-@book.output("mm", hidden=True)
+@quantities.output("mm", hidden=True)
 def rotor_bottom_level(pcl_thickness: Scalar) -> Scalar:
     """Lower face of the rotor plate, which lies on the layer."""
     return pcl_thickness
 
 
-@book.helper()
+@quantities.helper()
 def pcl_depth(pcl_thickness: Scalar) -> Scalar:
     """Way of heat and load through the PCL [m]."""
     return pcl_thickness

@@ -1,4 +1,5 @@
-"""How a room of the device writes its rows: the function's name is the row's name, its docstring the description."""
+"""How a room of the device writes its quantities: the function's name is the quantity's name, its docstring the
+description."""
 
 from __future__ import annotations
 
@@ -13,42 +14,45 @@ from tvimdesign.base.units import to_si
 from tvimdesign.device.table.quantity import (
     Choice,
     Event,
-    Extra,
+    Feature,
+    FirstOscillation,
     Input,
     Output,
     Path,
-    Row,
+    Phase,
+    Quantity,
     Rule,
-    Stage,
     Steady,
-    Swing,
-    its_name,
+    template_name,
 )
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-class Book:
-    """Collects the rows of one group in the order they are written."""
+class QuantityGroup:
+    """Collects the quantities of one group in the order they are written."""
 
-    def __init__(self, group: str, extras: tuple[Extra, ...] = ()) -> None:
-        """`group` is the heading under which reports list the rows, `extras` what they are of unless they say it."""
+    def __init__(self, group: str, requires: tuple[Feature, ...] = ()) -> None:
+        """`group` is the heading under which reports list the quantities, `features` what they are of unless they say
+        it."""
         self.group = group
-        self.extras = extras
-        self.rows: list[Row] = []
+        self.requires = requires
+        self.quantities: list[Quantity] = []
         self.anchors: dict[int, str] = {}
-        """Of the rows that stand after a certain row of the group, by their place here, that row's name."""
+        """Of the quantities that stand after a certain quantity of the group, by their place here, that quantity's
+        name."""
 
     def after(self, name: str) -> None:
-        """Let the next rows stand after a row that another book of the group wrote, where reports list them."""
-        self.anchors[len(self.rows)] = name
+        """Let the next quantities stand after a quantity that another group of the group wrote, where reports list
+        them."""
+        self.anchors[len(self.quantities)] = name
 
     def inputs(self) -> None:
         """Add the inputs that `inputs.yaml` lists under this group."""
         for name, entry in _all_inputs()[self.group].items():
             unit = str(entry["unit"])
             record = (str(entry["record"][0]), str(entry["record"][1])) if "record" in entry else None
-            self.rows.append(
+            self.quantities.append(
                 Input(
                     name=name,
                     unit=unit,
@@ -63,7 +67,7 @@ class Book:
                     source=_of_record(record) if record else f"{entry['status']}: {entry['source']}",
                     record=record,
                     mode=entry.get("mode"),
-                    extras=(Extra(*entry["extra"]),) if "extra" in entry else (),
+                    requires=(Feature(*entry["feature"]),) if "feature" in entry else (),
                 )
             )
 
@@ -71,21 +75,21 @@ class Book:
         self, name: str, unit: str, record: tuple[str, str], description: str, mode: str | None = None
     ) -> None:
         """Add a number that comes from a chosen record, (choice, field), unless the study sets it."""
-        row = Input(
+        quantity = Input(
             name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record,
             source=_of_record(record), mode=mode,
         )  # fmt: skip
-        self.rows.append(row)
+        self.quantities.append(quantity)
 
     def record(
         self,
         name: str,
-        shelf: str,
+        category: str,
         default: str | tuple[str, str],
         description: str,
         only: tuple[str, str, str] | None = None,
         others: tuple[str, ...] = (),
-        extras: tuple[Extra, ...] = (),
+        requires: tuple[Feature, ...] = (),
     ) -> None:
         """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit.
 
@@ -93,21 +97,28 @@ class Book:
         stand for no record at all.
         """
         word, record = (default, None) if isinstance(default, str) else ("", default)
-        row = Choice(
-            name=name, description=description, group=self.group, default=word, record=record, shelf=shelf, only=only,
-            options=others, extras=extras,
-        )  # fmt: skip
-        self.rows.append(row)
+        quantity = Choice(
+            name=name,
+            description=description,
+            group=self.group,
+            default=word,
+            record=record,
+            category=category,
+            only=only,
+            options=others,
+            requires=requires,
+        )
+        self.quantities.append(quantity)
 
     def option(
         self, name: str, options: tuple[str, ...], description: str, record: tuple[str, str] | None = None
     ) -> None:
         """Add a choice among words; the default is the first, or the word `record` of (choice, word) names."""
         default = "" if record else options[0]
-        row = Choice(
+        quantity = Choice(
             name=name, description=description, group=self.group, default=default, options=options, record=record
         )
-        self.rows.append(row)
+        self.quantities.append(quantity)
 
     def output(
         self,
@@ -119,13 +130,13 @@ class Book:
         hidden: bool = False,
         headline: bool = False,
         least_of: tuple[str, ...] = (),
-        extras: tuple[Extra, ...] | None = None,
-        otherwise: Any = 0.0,
+        requires: tuple[Feature, ...] | None = None,
+        default: Any = 0.0,
     ) -> Callable[[F], F]:
-        """Add a function as a row; in a module that lacks one of its extras it is `otherwise`."""
+        """Add a function as a quantity; in a module that lacks one of its features it is `default`."""
 
         def add(function: F) -> F:
-            row = Output(
+            quantity = Output(
                 name=function.__name__,
                 unit=unit,
                 description=_summary(function),
@@ -139,41 +150,41 @@ class Book:
                 rules=rules,
                 advice=advice,
                 better=directions().get(function.__name__),
-                extras=self.extras if extras is None else extras,
-                otherwise=otherwise,
+                requires=self.requires if requires is None else requires,
+                default=default,
             )
-            self.rows.append(row)
+            self.quantities.append(quantity)
             return function
 
         return add
 
-    def event(self, stage: Stage, *, headline: bool = True) -> Callable[[F], F]:
-        """Add a time: the first instant of a stage at which the function, which rises, passes zero."""
+    def event(self, phase: Phase, *, headline: bool = True) -> Callable[[F], F]:
+        """Add a time: the first instant of a phase at which the function, which rises, passes zero."""
 
         def add(function: F) -> F:
-            row = Event(name=function.__name__, unit="s", description=_summary(function), group=self.group,
-                        function=function, stage=stage.name, headline=headline,
+            quantity = Event(name=function.__name__, unit="s", description=_summary(function), group=self.group,
+                        function=function, phase=phase.name, headline=headline,
                         better=directions().get(function.__name__))  # fmt: skip
-            self.rows.append(row)
+            self.quantities.append(quantity)
             return function
 
         return add
 
-    def alike(
+    def from_template(
         self,
         of: str,
         words: str,
         function: Callable[..., Any],
         unit: str = "",
         *rules: Rule,
-        extras: tuple[Extra, ...] = (),
+        requires: tuple[Feature, ...] = (),
     ) -> None:
-        """Add a row that several things have alike, for one of them; without a unit it is an intermediate result.
+        """Add a quantity that several things have alike, for one of them; without a unit it is an intermediate result.
 
-        The function is written with `its_` for the thing in its name and in its parameters, and {it} for `words`.
+        The function is written with `template_` for the thing in its name and in its parameters, and {it} for `words`.
         """
-        row = Output(
-            name=its_name(function.__name__, of),
+        quantity = Output(
+            name=template_name(function.__name__, of),
             unit=unit or "1",
             description=_summary(function).format(it=words),
             group=self.group,
@@ -181,73 +192,81 @@ class Book:
             hidden=not unit,
             rules=rules,
             of=of,
-            extras=extras,
+            requires=requires,
         )
-        self.rows.append(row)
+        self.quantities.append(quantity)
 
     def helper(
         self,
         *,
         per_point: bool = False,
         instant: bool = False,
-        extras: tuple[Extra, ...] | None = None,
-        otherwise: Any = 0.0,
+        requires: tuple[Feature, ...] | None = None,
+        default: Any = 0.0,
     ) -> Callable[[F], F]:
-        """Add an intermediate result that other rows use and nobody asks for."""
-        return self.output("1", per_point=per_point, instant=instant, hidden=True, extras=extras, otherwise=otherwise)
+        """Add an intermediate result that other quantities use and nobody asks for."""
+        return self.output("1", per_point=per_point, instant=instant, hidden=True, requires=requires, default=default)
 
     def path(
-        self, stage: Stage, unit: str, reduce: Literal["integral", "maximum"], *, headline: bool = False
+        self, phase: Phase, unit: str, reduce: Literal["integral", "maximum"], *, headline: bool = False
     ) -> Callable[[F], F]:
-        """Add what an instant's value adds up to, or reaches, over a stage."""
+        """Add what an instant's value adds up to, or reaches, over a phase."""
 
         def add(function: F) -> F:
-            row = Path(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                       function=function, stage=stage.name, reduce=reduce, headline=headline,
+            quantity = Path(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
+                       function=function, phase=phase.name, reduce=reduce, headline=headline,
                        better=directions().get(function.__name__))  # fmt: skip
-            self.rows.append(row)
+            self.quantities.append(quantity)
             return function
 
         return add
 
-    def steady(self, stage: Stage, unit: str, *, headline: bool = False) -> Callable[[F], F]:
-        """Add what an instant's value is when everything stays where a stage ends."""
+    def steady(self, phase: Phase, unit: str, *, headline: bool = False) -> Callable[[F], F]:
+        """Add what an instant's value is when everything stays where a phase ends."""
 
         def add(function: F) -> F:
-            row = Steady(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                         function=function, stage=stage.name, headline=headline,
+            quantity = Steady(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
+                         function=function, phase=phase.name, headline=headline,
                          better=directions().get(function.__name__))  # fmt: skip
-            self.rows.append(row)
+            self.quantities.append(quantity)
             return function
 
         return add
 
-    def swing(self, unit: str, *, headline: bool = True) -> Callable[[F], F]:
+    def first_oscillation(self, unit: str, *, headline: bool = True) -> Callable[[F], F]:
         """Add what is seen at each operating point in the first swing of a released link, on average over it."""
 
         def add(function: F) -> F:
-            row = Swing(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                        function=function, per_point=True, headline=headline,
-                        better=directions().get(function.__name__))  # fmt: skip
-            self.rows.append(row)
+            quantity = FirstOscillation(
+                name=function.__name__,
+                unit=unit,
+                description=_summary(function),
+                group=self.group,
+                function=function,
+                per_point=True,
+                headline=headline,
+                better=directions().get(function.__name__),
+            )
+            self.quantities.append(quantity)
             return function
 
         return add
 
 
-def gather(books: Iterable[Book], mode: str) -> tuple[Row, ...]:
-    """Rows of a mode from the books of its rooms, books of one group together where its first one stands."""
-    rows: dict[str, list[Row]] = {}
-    for book in books:
-        group = rows.setdefault(book.group, [])
-        place = len(group)
-        for i, row in enumerate(book.rows):
-            if i in book.anchors:
-                place = 1 + next(k for k, other in enumerate(group) if other.name == book.anchors[i])
-            if not (isinstance(row, Input) and row.mode not in {None, mode}):
-                group.insert(place, row)
+def gather(groups: Iterable[QuantityGroup], mode: str) -> tuple[Quantity, ...]:
+    """Quantities of a mode from the groups of its rooms, those under one heading together where its first one
+    stands."""
+    headings: dict[str, list[Quantity]] = {}
+    for group in groups:
+        together = headings.setdefault(group.group, [])
+        place = len(together)
+        for i, quantity in enumerate(group.quantities):
+            if i in group.anchors:
+                place = 1 + next(k for k, other in enumerate(together) if other.name == group.anchors[i])
+            if not (isinstance(quantity, Input) and quantity.mode not in {None, mode}):
+                together.insert(place, quantity)
                 place += 1
-    return tuple(row for group in rows.values() for row in group)
+    return tuple(quantity for together in headings.values() for quantity in together)
 
 
 def _of_record(record: tuple[str, str]) -> str:

@@ -16,12 +16,12 @@ from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import print_comparison, summary_text
 from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.figures.plot_process import PlotProcess
-from tvimdesign.report.output.progress import talk, wide_console
+from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.run_study import catalog_of, check_study
 from tvimdesign.study.conditions import Entrant, refuse_unequal
 from tvimdesign.study.design import Design, design_json
-from tvimdesign.study.text.mistakes import Problem, StudyError
+from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.named_file import printable
 
 
@@ -33,7 +33,7 @@ def compare_studies(
     entrants = labelled(_read(paths))
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite))
-        progress = stack.enter_context(talk())
+        progress = stack.enter_context(progress_output())
         asked = [Asked(label, entrant.path) for label, entrant in entrants.items()]
         drawing: PlotProcess | None = None
 
@@ -59,13 +59,13 @@ def compare_studies(
                 troubles.append(str(error))
         progress("")
         outcome.seconds["whole"] = time.perf_counter() - began
-        told = outcome.plain()
-        folder.write_json("compare.json", told)
+        reported = outcome.plain()
+        folder.write_json("compare.json", reported)
         studies = {label: entrant.study.model_dump(mode="json") for label, entrant in entrants.items()}
         inputs = {label: entrant.path for label, entrant in entrants.items()}
         folder.finish("partly done" if troubles else "compared", inputs, studies, outcome.seconds)
     if as_json:
-        print(json.dumps({**told, "folder": str(folder.path), "not_done": troubles}, indent=2, allow_nan=False))
+        print(json.dumps({**reported, "folder": str(folder.path), "not_done": troubles}, indent=2, allow_nan=False))
     else:
         wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
     if troubles:
@@ -88,7 +88,7 @@ def _read(paths: Sequence[Path]) -> list[Entrant]:
     """All studies, read and found comparable. Raises StudyError with everything that is wrong with any of them."""
     if len(paths) < 2:
         raise InputError("compare takes two studies or more; `tvimdesign run` answers one")
-    problems: list[Problem] = []
+    problems: list[Mistake] = []
     found = []
     for path in paths:
         try:
@@ -97,7 +97,7 @@ def _read(paths: Sequence[Path]) -> list[Entrant]:
             problems += error.problems
         except InputError as error:
             shown = printable(path)
-            problems.append(Problem(shown, 0, 0, "", str(error).removeprefix(f"{shown}: ").removeprefix(f"{shown} ")))
+            problems.append(Mistake(shown, 0, 0, "", str(error).removeprefix(f"{shown}: ").removeprefix(f"{shown} ")))
         else:
             found.append(Entrant(path, study, catalog_of(study), table_for(study.mode)))
     if problems:

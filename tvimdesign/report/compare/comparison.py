@@ -118,7 +118,7 @@ class Outcome:
 
     def _point(self, point: dict[str, Any]) -> dict[str, Any]:
         values = {name: self._in_unit(name, value) for name, value in point["values"].items()}
-        return {"where": point["where"], "values": values, "drives": point["drives"]}
+        return {"where": point["where"], "values": values, "current_profiles": point["current_profiles"]}
 
     def _in_unit(self, name: str, value: float | None) -> float | None:
         return None if value is None else from_si(value, self.unit(name))
@@ -145,9 +145,9 @@ class Outcome:
     def sentence(self) -> str:
         """The answer with its conditions: how the others stand against the first, and for what each of them wins."""
         which = "optimised" if any(entrant.study.vary for entrant in self.entrants.values()) else "drawn"
-        told = [*self._without_design(), *self._against(which)]
-        told += [wins(label, self.contests) for label in self.entrants] if self.contests else []
-        return f"With {', '.join(conditions(self.entrants))}, {COMPARISONS[which]}: {'; '.join(told)}."
+        reported = [*self._without_design(), *self._against(which)]
+        reported += [wins(label, self.contests) for label in self.entrants] if self.contests else []
+        return f"With {', '.join(conditions(self.entrants))}, {COMPARISONS[which]}: {'; '.join(reported)}."
 
     def _without_design(self) -> list[str]:
         return [

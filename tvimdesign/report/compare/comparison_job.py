@@ -28,12 +28,12 @@ from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.report.run.why import binding
 from tvimdesign.report.simulate_study import figure_data, findings
-from tvimdesign.simulation.resolved_module import rig_of_design
+from tvimdesign.simulation.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
-from tvimdesign.solve.result import Answer, answer
+from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_study
 from tvimdesign.virtual_tests.registry import find_test
 
@@ -49,7 +49,7 @@ def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
     return (times or ["response_time"])[0], "module_mass", (sizes or ["envelope_diameter"])[0]
 
 
-class Job:
+class ComparisonJob:
     """One study on its way: what was found, what failed, how long each step took."""
 
     def __init__(self, path: Path, points: int, others: Sequence[Path], say: Say) -> None:
@@ -64,7 +64,7 @@ class Job:
 
     def run(self) -> dict[str, Any]:
         """Do every step that can be done."""
-        best: Answer | None = None
+        best: StudyResult | None = None
         with self._step("as drawn"):
             self.say("as drawn")
             best = answer(drawn(self.study, self.catalog, self.table), self.catalog, self.table)
@@ -93,11 +93,11 @@ class Job:
         finally:
             self.found["seconds"][name] = time.perf_counter() - began
 
-    def _optimised(self) -> Answer:
+    def _optimised(self) -> StudyResult:
         starts = [normalization.at_its_start(study) for study in (self.study, *map(read_study, self.others))]
         common = normalization.common(starts)
-        traded = front_outputs(self.study, self.table) if self.points else ()
-        answered = answer(self.study, self.catalog, self.table, self.say, common, self._keep, traded)
+        objectives = front_outputs(self.study, self.table) if self.points else ()
+        answered = answer(self.study, self.catalog, self.table, self.say, common, self._keep, objectives)
         if not answered.found:
             raise InfeasibleError(complaint(answered, self.table))
         self.found["optimised"] = self._told(answered)
@@ -106,7 +106,7 @@ class Job:
     def _keep(self, built: Optimizer, runs: list[Run]) -> None:
         self._built.append((built, runs))
 
-    def _told(self, answered: Answer) -> dict[str, Any]:
+    def _told(self, answered: StudyResult) -> dict[str, Any]:
         checks = [check_row(check, self.table) for check in answered.checks]
         solution = answered.solution
         return {
@@ -116,7 +116,7 @@ class Job:
                 {"output": check.output, "value": check.value, "because": check.origin} for check in answered.warnings
             ],
             "held": [
-                {"limit": held.text, "because": held.origin, "price": held.price}
+                {"limit": held.text, "because": held.origin, "price": held.shadow_price}
                 for held in binding(answered)[:HELD_TOLD]
             ],
             "starts": len(solution.free_starts) if solution else 0,
@@ -125,7 +125,7 @@ class Job:
             if solution else [],
         }  # fmt: skip
 
-    def _trade(self, best: Answer) -> None:
+    def _trade(self, best: StudyResult) -> None:
         assert best.solution is not None
         trade = Tradeoff(self.study, best.solution, *self._built[0], self.say)
         first, *others = front_outputs(self.study, self.table)
@@ -138,22 +138,27 @@ class Job:
         """A front in SI, with the study's own optimum where it is on it; null where something never happens."""
         first, second = front.outputs
         points = sorted(undominated([*front.points, optimum], front.outputs), key=lambda point: point.values[first])
-        told = {
-            "first": first, "second": second, "notes": front.notes, "dominated": front.dominated,
+        reported = {
+            "first": first,
+            "second": second,
+            "notes": front.notes,
+            "dominated": front.dominated,
             "failures": [asdict(failure) for failure in front.failures],
-            "points": [{"where": one.where, "values": one.values, "drives": one.drives} for one in points],
-        }  # fmt: skip
-        plain: dict[str, Any] = json.loads(json.dumps(told), parse_constant=lambda _: None)
+            "points": [
+                {"where": one.where, "values": one.values, "current_profiles": one.current_profiles} for one in points
+            ],
+        }
+        plain: dict[str, Any] = json.loads(json.dumps(reported), parse_constant=lambda _: None)
         return plain
 
-    def _release(self, best: Answer) -> None:
-        trial = find_test("release")(rig_of_design(best.design, self.catalog, self.table))
+    def _release(self, best: StudyResult) -> None:
+        trial = find_test("release")(resolve_design(best.design, self.catalog, self.table))
         panel = next(panel for panel in figure_data(trial)["panels"] if panel["title"] == "Angle")
         lines = [line for line in panel["lines"] if not line["dashed"]]
         self.found["release"] = {**findings(trial), "x_label": panel["x_label"], "y_label": panel["y_label"],
                                  "lines": lines}  # fmt: skip
 
-    def _heat(self, best: Answer) -> dict[str, Any]:
+    def _heat(self, best: StudyResult) -> dict[str, Any]:
         """Temperatures [degC] through the polymer while it heats: a row for each depth [mm]."""
         history = best.histories["softening"]
         cells = [name for name in history if name.startswith("cell_")]
@@ -172,7 +177,7 @@ def main(arguments: list[str]) -> int:
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     path, out, points, *others = arguments
-    found = Job(Path(path), int(points), [Path(other) for other in others], say).run()
+    found = ComparisonJob(Path(path), int(points), [Path(other) for other in others], say).run()
     write_whole(Path(out), json.dumps(found).encode())
     return 0
 

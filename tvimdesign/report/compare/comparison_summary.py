@@ -85,13 +85,13 @@ def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
 
 def _print_searches(outcome: Outcome, console: Console) -> None:
     for label, found in outcome.found.items():
-        told: dict[str, Any] | None = found.get("optimised")
-        if told is None:
+        reported: dict[str, Any] | None = found.get("optimised")
+        if reported is None:
             continue
-        optima = [f"{optimum['objective']:.5g}" for optimum in told["optima"]]
+        optima = [f"{optimum['objective']:.5g}" for optimum in reported["optima"]]
         agree = "all at one optimum" if len(optima) == 1 else f"at {len(optima)} optima"
         console.print(
-            f"[dim]{escape(label)}: {told['converged']} of {told['starts']} starts converged, {agree}, "
+            f"[dim]{escape(label)}: {reported['converged']} of {reported['starts']} starts converged, {agree}, "
             f"objective {', '.join(optima)} over what is drawn on average; "
             f"{found['seconds']['optimised']:.1f} s.[/dim]"
         )
@@ -100,8 +100,8 @@ def _print_searches(outcome: Outcome, console: Console) -> None:
 def _print_warnings(outcome: Outcome, console: Console) -> None:
     """The advice that designs do not follow: of the optima, or of what is drawn where nothing is optimised."""
     for label, found in outcome.found.items():
-        told: dict[str, Any] = found.get("optimised") or found.get("drawn") or {"warnings": []}
-        for warning in told["warnings"]:
+        reported: dict[str, Any] = found.get("optimised") or found.get("drawn") or {"warnings": []}
+        for warning in reported["warnings"]:
             value = format_quantity(warning["value"], outcome.unit(warning["output"]))
             console.print(
                 f"[yellow]Mind[/yellow] {escape(label)}: {warning['output']} is {value}: {escape(warning['because'])}."
@@ -111,7 +111,9 @@ def _print_warnings(outcome: Outcome, console: Console) -> None:
 def _print_fronts(outcome: Outcome, console: Console) -> None:
     for (first, second), fronts in outcome.fronts.items():
         for label, front in fronts.items():
-            told = [f"{len(front['points'])} points", *front["notes"]]
-            told += [f"{front['dominated']} more are no better in anything"] if front["dominated"] else []
-            told += [f"no design at {failure['where']}: {failure['reason']}" for failure in front["failures"]]
-            console.print(f"[dim]Front of {first} against {second}, {escape(label)}: {escape('; '.join(told))}.[/dim]")
+            reported = [f"{len(front['points'])} points", *front["notes"]]
+            reported += [f"{front['dominated']} more are no better in anything"] if front["dominated"] else []
+            reported += [f"no design at {failure['where']}: {failure['reason']}" for failure in front["failures"]]
+            console.print(
+                f"[dim]Front of {first} against {second}, {escape(label)}: {escape('; '.join(reported))}.[/dim]"
+            )

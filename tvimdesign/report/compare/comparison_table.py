@@ -85,12 +85,12 @@ def lone_values(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> l
 
 def _outputs(design: Design, table: Table) -> list[str]:
     points = design.study["operating_points"]
-    swings = [f"{row.name}@{point}" for row in table.swings for point in points]
+    swings = [f"{row.name}@{point}" for row in table.first_oscillations for point in points]
     return [name for name in (*table.names(points), *swings) if name in design.values]
 
 
 def _row(name: str, designs: Mapping[str, Design], table: Table) -> Row:
-    row = table.row(name)
+    row = table.quantity(name)
     assert isinstance(row, Output)
     return Row(
         name, row.unit, row.description, row.headline, row.better,
@@ -127,10 +127,10 @@ def compare_csv(rows: Mapping[str, Sequence[Row]], alone: Mapping[str, Sequence[
     writer.writeheader()
     for comparison, each in rows.items():
         for row in (*each, *(row for _, row in alone.get(comparison, ()))):
-            told = plain(row)
-            entry = {"comparison": comparison, "output": row.name, "unit": told["unit"], "meaning": row.description}
-            entry |= {label: "never" if value is None else value for label, value in told["values"].items()}
-            entry |= {f"ratio {label}": "" if r is None else r for label, r in told["ratio"].items()}
-            entry |= {f"verdict {label}": verdict for label, verdict in told["verdict"].items()}
+            reported = plain(row)
+            entry = {"comparison": comparison, "output": row.name, "unit": reported["unit"], "meaning": row.description}
+            entry |= {label: "never" if value is None else value for label, value in reported["values"].items()}
+            entry |= {f"ratio {label}": "" if r is None else r for label, r in reported["ratio"].items()}
+            entry |= {f"verdict {label}": verdict for label, verdict in reported["verdict"].items()}
             writer.writerow(entry)
     return stream.getvalue()

@@ -13,7 +13,7 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.device import table_for
 from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.study import Study, given
 
 Values = Mapping[str, float]
@@ -23,7 +23,7 @@ def at_its_start(study: Study) -> dict[str, float] | None:
     """The minimised outputs of a study as it is drawn, SI; None where that cannot be simulated."""
     table, catalog = table_for(study.mode), catalog_of(study)
     try:
-        model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
         values = model.values(model.start, Simulator(model).run(model.start).values)
     except TvimError:
         return None

@@ -153,8 +153,8 @@ def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
 
 def held_back(label: str, held: Sequence[Mapping[str, Any]]) -> str:
     """The limits that hold a design back most, the machine's own with their reasons; nothing where there are none."""
-    told = [
+    reported = [
         one["limit"] if one["because"] in {"require", "vary", "module"} else f"{one['limit']} ({one['because']})"
         for one in held
     ]
-    return f"{label} is held back most by {'; '.join(told)}" if told else ""
+    return f"{label} is held back most by {'; '.join(reported)}" if reported else ""

@@ -58,7 +58,7 @@ def cycle(data: dict[str, Any]) -> Figure:
 
 
 def _joined(soft: dict[str, Any], stiff: dict[str, Any] | None, name: str) -> tuple[list[float], list[float]]:
-    """Times and values of a column over both stages."""
+    """Times and values of a column over both phases."""
     if not stiff:
         return soft["time"], soft[name]
     end = soft["time"][-1]
@@ -78,13 +78,13 @@ def _temperatures(axes: Any, soft: dict[str, Any], stiff: dict[str, Any] | None,
 def _impedance_over_time(axes: Any, soft: dict[str, Any], data: dict[str, Any]) -> None:
     end = soft["time"][-1]
     axes.semilogy(soft["time"], soft["joint_impedance"], color="tab:red", label="heating")
-    for stage, label, style in (
+    for phase, label, style in (
         ("stiffening", "cooling: freezes supercooled", "-"),
         ("equilibrium_stiffening", "cooling, as the melting curve would claim", "--"),
     ):
-        if stage in data:
-            times = [end + time for time in data[stage]["time"]]
-            axes.semilogy(times, data[stage]["joint_impedance"], color="tab:blue", linestyle=style, label=label)
+        if phase in data:
+            times = [end + time for time in data[phase]["time"]]
+            axes.semilogy(times, data[phase]["joint_impedance"], color="tab:blue", linestyle=style, label=label)
     for threshold in ("soft", "stiff"):
         axes.axhline(data[threshold], color="black", linewidth=0.8, linestyle=":")
         axes.text(0.0, data[threshold], f"{threshold} ", va="bottom", fontsize=8)

@@ -87,7 +87,7 @@ def choosing_data(choosing: Choosing | None, table: Table) -> dict[str, Any]:
     if choosing is None:
         return {}
     best, between = choosing.best[0] if choosing.best else None, choosing.between
-    price = _shares(best, between) if best and between else {}
+    shadow_price = _shares(best, between) if best and between else {}
     return {
         "combinations": choosing.combinations,
         "solved": choosing.solved,
@@ -101,7 +101,7 @@ def choosing_data(choosing: Choosing | None, table: Table) -> dict[str, Any]:
         "iterations": choosing.work.warm_iterations + choosing.work.cold_iterations,
         "best": [_plain(one, table) for one in choosing.best],
         "between_sizes": _plain(between, table) if between else None,
-        "price": price | ({"objective": best.objective / between.objective - 1.0} if best and between else {}),
+        "price": shadow_price | ({"objective": best.objective / between.objective - 1.0} if best and between else {}),
     }
 
 

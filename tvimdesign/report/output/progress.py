@@ -21,7 +21,7 @@ def wide_console() -> Console:
 
 
 @contextmanager
-def talk() -> Iterator[Progress]:
+def progress_output() -> Iterator[Progress]:
     """Say on standard error what is going on: one moving line on a terminal, plain lines elsewhere.
 
     An interrupt that a library swallows is raised again at the next thing said; CasADi swallows some. An empty text

@@ -12,8 +12,8 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Output, Table
 from tvimdesign.report.output.choices_tables import choosing_data
-from tvimdesign.solve.nlp.solution import Held
-from tvimdesign.solve.result import Answer, Check
+from tvimdesign.solve.nlp.solution import ActiveConstraint
+from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import Design
 
 NOTHING = 5e-4
@@ -28,7 +28,7 @@ def number(value: float, digits: int = 4) -> str:
     return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
 
 
-def value_text(answer: Answer, name: str, table: Table) -> str:
+def value_text(answer: StudyResult, name: str, table: Table) -> str:
     """The value of an output for people: one number, or `low to high` where history leaves it open."""
     unit = table.unit(name)
     if name not in answer.intervals:
@@ -37,7 +37,7 @@ def value_text(answer: Answer, name: str, table: Table) -> str:
     return f"{low} to {high}"
 
 
-def headline_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str, str]]:
+def headline_rows(answer: StudyResult, table: Table) -> list[tuple[str, str, str, str, str]]:
     """(group, name, value, unit, description) of the rows with one value that stand in a summary."""
     return [
         (row.group, row.name, value_text(answer, row.name, table), pretty(row.unit), row.description)
@@ -46,7 +46,7 @@ def headline_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str
     ]
 
 
-def point_rows(answer: Answer, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
+def point_rows(answer: StudyResult, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
     """Names of the operating points, and (name, one value a point, unit, description) of the rows that have several."""
     points = list(answer.design.study["operating_points"])
     shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
@@ -63,7 +63,7 @@ def point_rows(answer: Answer, table: Table) -> tuple[list[str], list[tuple[str,
     return points, rows
 
 
-def variable_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str, str]]:
+def variable_rows(answer: StudyResult, table: Table) -> list[tuple[str, str, str, str, str]]:
     """(name, start, optimum, unit, range) of what the study varied."""
     if answer.solution is None:
         return []
@@ -83,11 +83,11 @@ def variable_rows(answer: Answer, table: Table) -> list[tuple[str, str, str, str
     return rows
 
 
-def drive_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]]:
-    """(stage, moment [s], current [A], what that is of the range) of the currents that follow a profile."""
+def current_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]]:
+    """(phase, moment [s], current [A], what that is of the range) of the currents that follow a profile."""
     rows = []
-    for name, plain in design.drives.items():
-        vary = design.study["vary"][table.stage(name).drive]
+    for name, plain in design.current_profiles.items():
+        vary = design.study["vary"][table.phase(name).current_input]
         currents = plain["currents"]
         for i, (seconds, exact) in enumerate(zip(plain["moments"], currents, strict=True)):
             size = abs(exact)
@@ -99,7 +99,7 @@ def drive_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]]:
     return rows
 
 
-def margin_of(check: Check | Held, table: Table) -> tuple[float, str]:
+def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[float, str]:
     """What is left of a limit: a share with the unit 1, or in the row's unit where the limit has no size of its own."""
     if not check.absolute:
         return check.margin, "1"
@@ -108,7 +108,7 @@ def margin_of(check: Check | Held, table: Table) -> tuple[float, str]:
     return from_si(check.margin * check.scale, unit), unit
 
 
-def margin_text(check: Check | Held, table: Table) -> str:
+def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
     """The margin for people: in percent or in the row's unit; rounding is not a margin."""
     if not math.isfinite(check.margin):
         return "never"
@@ -119,7 +119,7 @@ def margin_text(check: Check | Held, table: Table) -> str:
     return f"{margin:+.3g} {pretty(unit)}".rstrip()
 
 
-def check_row(check: Check, table: Table) -> dict[str, Any]:
+def check_row(check: ConstraintCheck, table: Table) -> dict[str, Any]:
     """One check as plain data, in the row's unit."""
     unit = table.unit(check.output)
     margin, margin_unit = margin_of(check, table)
@@ -134,7 +134,7 @@ def check_row(check: Check, table: Table) -> dict[str, Any]:
     }
 
 
-def results(answer: Answer, table: Table) -> dict[str, Any]:
+def results(answer: StudyResult, table: Table) -> dict[str, Any]:
     """Everything a script wants to know: every number in its unit, every check, how it was found."""
     design, reached = answer.design, answer.solution.yield_reached if answer.solution else None
     return {
@@ -149,7 +149,7 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
         },
         "checks": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.checks],
         "warnings": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.warnings],
-        "drives": design.drives,
+        "current_profiles": design.current_profiles,
         "at_default_currents": {
             name: _entry(name, value, design, table) for name, value in answer.constant_current.items()
         },
@@ -162,7 +162,7 @@ def results(answer: Answer, table: Table) -> dict[str, Any]:
 
 def _origin(name: str, design: Design, table: Table) -> str:
     """Where a value comes from: computed, found, set by the study, or the source of the row's default."""
-    row, base = table.row(name), name.partition("@")[0]
+    row, base = table.quantity(name), name.partition("@")[0]
     if not isinstance(row, Input):
         return "computed"
     if base in design.study["vary"]:
@@ -173,7 +173,7 @@ def _origin(name: str, design: Design, table: Table) -> str:
 
 
 def _entry(name: str, value: float, design: Design, table: Table) -> dict[str, Any]:
-    row = table.row(name)
+    row = table.quantity(name)
     unit = table.unit(name)
     return {
         "value": _finite(from_si(value, unit)),
@@ -185,7 +185,7 @@ def _entry(name: str, value: float, design: Design, table: Table) -> dict[str, A
     }
 
 
-def _best_constant(answer: Answer, table: Table) -> dict[str, Any]:
+def _best_constant(answer: StudyResult, table: Table) -> dict[str, Any]:
     constant, design = answer.solution.constant if answer.solution else None, answer.design
     if constant is None:
         return {}
@@ -193,7 +193,7 @@ def _best_constant(answer: Answer, table: Table) -> dict[str, Any]:
     return {"objective": constant.objective, "values": values}
 
 
-def _ends(answer: Answer, name: str, table: Table) -> dict[str, Any]:
+def _ends(answer: StudyResult, name: str, table: Table) -> dict[str, Any]:
     """`low` and `high` of an output that history leaves open; its value is that of the equilibrium curve on heating."""
     if name not in answer.intervals:
         return {}

@@ -17,12 +17,12 @@ import numpy as np
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.progress import talk, wide_console
+from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.paper_check import published_model
 from tvimdesign.report.paper.paper_claims import from_paper
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, level_set
 
 THICKNESSES = np.geomspace(0.2e-3, 2e-3, 8)  # m
@@ -36,7 +36,7 @@ AGAINST = {
 def write_level_sets(out: Path, overwrite: bool) -> Path:
     """Compute and draw them, and write the folder; returns it. Raises InputError where the folder is in use."""
     model, wanted, thin = published_model(), from_paper("response_time"), list(THICKNESSES)
-    with ResultsFolder(out, overwrite) as folder, talk() as say, PlotProcess() as drawing:
+    with ResultsFolder(out, overwrite) as folder, progress_output() as say, PlotProcess() as drawing:
         sets = [level_set(model, name, list(values), thin, wanted, say) for name, values in AGAINST.items()]
         say("what the ratio of compression to shear hangs on: every assumed input through its range")
         case = Drawing("paper_case", "virtual_test_figures.tornado", paper_case.figure_data())
@@ -62,15 +62,15 @@ def print_level_sets(out: Path, overwrite: bool, as_json: bool) -> None:
         wide_console().print(f"\nWhat gives the paper's response times is in [bold]{folder}[/bold]", soft_wrap=True)
 
 
-def _figure_data(sets: list[LevelSet], model: Model, wanted: float) -> dict[str, Any]:
+def _figure_data(sets: list[LevelSet], model: DeviceFunctions, wanted: float) -> dict[str, Any]:
     """Plain data for the process that draws, in the units people read."""
     ends = [1e3 * float(end) for end in (THICKNESSES[0], THICKNESSES[-1])]
     return {"wanted": wanted, "range": ends, "panels": [_panel(one, model) for one in sets]}
 
 
-def _panel(one: LevelSet, model: Model) -> dict[str, Any]:
+def _panel(one: LevelSet, model: DeviceFunctions) -> dict[str, Any]:
     """One parameter's lines, a gap being None, and the module as assumed here."""
-    row, unit = model.table.row(one.parameter), model.table.unit(one.parameter)
+    row, unit = model.table.quantity(one.parameter), model.table.unit(one.parameter)
     start = {name: float(model.start[model.index[name]]) for name in (one.parameter, "pcl_thickness")}
     return {
         "label": f"{row.description.partition(',')[0]} ({pretty(unit)})",

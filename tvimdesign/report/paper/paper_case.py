@@ -21,7 +21,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.catalog.record import Entry
 from tvimdesign.device import Input, table_for
 from tvimdesign.report.paper.paper_claims import from_paper
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.ratio_sensitivity import Array, Influence, Pair, Span, ratio
 from tvimdesign.study import given, read_study_text
 
@@ -44,11 +44,11 @@ def case() -> dict[str, Any]:
     return loaded
 
 
-def _model(mode: str, **choices: str) -> Model:
+def _model(mode: str, **choices: str) -> DeviceFunctions:
     study = read_study_text(case()["studies"][mode], f"the calibrated {mode} module")
     study = study.model_copy(update={"module": {**study.module, **choices}})
     table = table_for(mode)
-    return Model(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+    return DeviceFunctions(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
 
 
 @cache
@@ -59,7 +59,7 @@ def pair(**choices: str) -> Pair:
 
 def _row(name: str) -> Input:
     mode = "shear" if name in pair().models[0].index else "compression"
-    row = table_for(mode).row(name)
+    row = table_for(mode).quantity(name)
     assert isinstance(row, Input)
     return row
 
@@ -144,7 +144,7 @@ def table_rows() -> Iterator[dict[str, str | float]]:
     for influence in influences():
         name = influence.span.name
         entry, unit = ranges()[name], _row(name).unit
-        first, second = pair().elasticities(event, name)
+        first, second = pair().output_sensitivities(event, name)
         low, high = influence.ratios
         yield {
             "input": name, "value": from_si(influence.value, unit), "low": from_si(influence.span.low, unit),

@@ -18,11 +18,11 @@ from tvimdesign.physics import dynamics, layer, spring, transmission
 from tvimdesign.report.paper.paper_claims import claims, from_paper
 
 if TYPE_CHECKING:
-    from tvimdesign.simulation.device_functions import Model
+    from tvimdesign.simulation.device_functions import DeviceFunctions
 
 
 @dataclass(frozen=True)
-class Finding:
+class PaperFinding:
     """One row of the ledger."""
 
     claim: str
@@ -113,16 +113,16 @@ _INSULATED = {"rotor_contact": 1e-3}
 
 
 @cache
-def published_model() -> Model:
+def published_model() -> DeviceFunctions:
     """The paper's module as published, compiled."""
     from tvimdesign.catalog import Catalog
     from tvimdesign.device import table_for
-    from tvimdesign.simulation.device_functions import Model
+    from tvimdesign.simulation.device_functions import DeviceFunctions
     from tvimdesign.study import given, read_study_text
 
     study = read_study_text(claims()["study"], "the paper's module")
     table = table_for(study.mode)
-    return Model(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+    return DeviceFunctions(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
 
 
 def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
@@ -194,10 +194,10 @@ _COMPUTED: dict[str, Callable[[], str]] = {
 }
 
 
-def findings() -> list[Finding]:
+def findings() -> list[PaperFinding]:
     """Compute every row of the ledger."""
     return [
-        Finding(claim=row["claim"], where=row["where"], computed=_COMPUTED[row["row"]](), verdict=row["verdict"])
+        PaperFinding(claim=row["claim"], where=row["where"], computed=_COMPUTED[row["row"]](), verdict=row["verdict"])
         for row in claims()["rows"]
     ]
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import Choice, table_for
-from tvimdesign.report.output.progress import Progress, talk, wide_console
+from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.run.infeasible_report import endings
 from tvimdesign.report.run.run_study import catalog_of, check_study, describe
 
 if TYPE_CHECKING:
-    from tvimdesign.solve.infeasibility.inspection import Conditioning, Derivatives, Spread, Structure
+    from tvimdesign.solve.infeasibility.inspection import Conditioning, DerivativeCheck, Structure, ValueRange
     from tvimdesign.solve.infeasibility.lower_bound import LowerBound
     from tvimdesign.solve.nlp.solution import Start
     from tvimdesign.study import Study
@@ -29,13 +29,13 @@ _SHOWN = 12
 
 
 @dataclass(frozen=True)
-class Deep:
+class Diagnostics:
     """Everything the check found."""
 
-    rows: Spread
-    columns: Spread
+    rows: ValueRange
+    columns: ValueRange
     conditioning: Conditioning
-    derivatives: Derivatives
+    derivatives: DerivativeCheck
     structure: Structure
     start: Start
     """One run of the solver from the first point."""
@@ -55,7 +55,7 @@ class Deep:
 def check_deep(path: Path, *, as_json: bool) -> None:
     """Check a study, build its problem and look at that. Raises InputError, InfeasibleError."""
     study = check_study(path)
-    with talk() as progress:
+    with progress_output() as progress:
         found = inspect_study(study, progress)
         progress("")
     if as_json:
@@ -67,7 +67,7 @@ def check_deep(path: Path, *, as_json: bool) -> None:
         console.print(line, markup=False, soft_wrap=True)
 
 
-def inspect_study(study: Study, progress: Progress) -> Deep:
+def inspect_study(study: Study, progress: Progress) -> Diagnostics:
     """Build the problem of a study at its start's records, inspect it, and solve it once. Raises InputError."""
     from tvimdesign.solve.infeasibility.infeasibility_proof import ranges_of
     from tvimdesign.solve.infeasibility.inspection import Inspection
@@ -78,7 +78,7 @@ def inspect_study(study: Study, progress: Progress) -> Deep:
     table, catalog = table_for(study.mode), catalog_of(study)
     if not any(isinstance(vary, Range) for vary in study.vary.values()):
         raise InputError(f"{study.name}: varies no number between limits, so there is no problem to look at deeper")
-    numbers = {name: vary for name, vary in study.vary.items() if not isinstance(table.row(name), Choice)}
+    numbers = {name: vary for name, vary in study.vary.items() if not isinstance(table.quantity(name), Choice)}
     words = {
         name: str(vary.values[0])
         for name, vary in study.vary.items()
@@ -99,10 +99,10 @@ def inspect_study(study: Study, progress: Progress) -> Deep:
     start = optimizer.solve(begin=inspection.begin).start
     progress("bounding from below")
     bound = lower_bound(optimizer, ranges, start.objective if start.converged else None, SECONDS)
-    return Deep(rows, columns, conditioning, derivatives, structure, start, bound)
+    return Diagnostics(rows, columns, conditioning, derivatives, structure, start, bound)
 
 
-def in_words(found: Deep) -> list[str]:
+def in_words(found: Diagnostics) -> list[str]:
     """The check for people, every finding with what to do about it."""
     lines = [*_scaling(found), *_conditioning(found.conditioning), *_derivatives(found.derivatives)]
     lines += _structure(found.structure)
@@ -116,7 +116,7 @@ def _mark(good: bool) -> str:
     return " " if good else "!"
 
 
-def _scaling(found: Deep) -> list[str]:
+def _scaling(found: Diagnostics) -> list[str]:
     lines = []
     for what, spread in (("rows", found.rows), ("unknowns", found.columns)):
         (most, greatest), (least, smallest) = spread.largest, spread.smallest
@@ -136,7 +136,7 @@ def _conditioning(found: Conditioning) -> list[str]:
     lines += [
         f"  {' and '.join(names)} can be traded for each other at the start, and no limit or goal notices; "
         "fix one of them, or minimise something that tells them apart."
-        for names in found.traded
+        for names in found.objectives
         if names
     ]
     return lines
@@ -146,7 +146,7 @@ def _number(value: float) -> str:
     return f"{value:.1e}" if math.isfinite(value) else "not determined"
 
 
-def _derivatives(found: Derivatives) -> list[str]:
+def _derivatives(found: DerivativeCheck) -> list[str]:
     row, by, error = found.worst[0]
     lines = [f"{_mark(found.right)} derivatives: exact and differenced agree to {error:.0e} ({row} by {by})."]
     if not found.right:
@@ -185,12 +185,12 @@ def bound_in_words(found: LowerBound) -> str:
     )
 
 
-def plain(found: Deep) -> dict[str, Any]:
+def plain(found: Diagnostics) -> dict[str, Any]:
     """The check as plain data; null for what is infinite."""
-    told = asdict(found) | {"sound": found.sound}
-    told["bound"]["gap"] = found.bound.gap
-    told["start"].pop("seconds")
-    finite: dict[str, Any] = _finite(told)
+    reported = asdict(found) | {"sound": found.sound}
+    reported["bound"]["gap"] = found.bound.gap
+    reported["start"].pop("seconds")
+    finite: dict[str, Any] = _finite(reported)
     return finite
 
 

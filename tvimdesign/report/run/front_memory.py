@@ -12,7 +12,7 @@ import numpy as np
 from tvimdesign import __version__
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Trace
 from tvimdesign.solve.pareto.tradeoff import Failure, Point
 from tvimdesign.study import Study
@@ -30,7 +30,7 @@ class FolderMemory:
             raise InputError(f"{folder.path}: holds the front of another study or version; --overwrite to begin anew")
         folder.write_json(f"{PROGRESS}/asked.json", asked)
 
-    def recall(self, number: int, goal: Goal) -> Point | Failure | None:
+    def recall(self, number: int, goal: Objective) -> Point | Failure | None:
         """The answer to a question; None where it is not there, or was of another goal."""
         known = _read(self._folder.path / PROGRESS / f"{number:04d}.json")
         if known is None or known["goal"] != _plain_goal(goal):
@@ -38,22 +38,22 @@ class FolderMemory:
         if "reason" in known:
             return Failure(known["where"], known["reason"])
         trace = Trace(*(np.array(known["trace"][name]) for name in Trace._fields))
-        kept = {name: known[name] for name in ("where", "values", "drives", "cost", "root")}
+        kept = {name: known[name] for name in ("where", "values", "current_profiles", "cost", "root")}
         return Point(**kept, trace=trace, goal=goal)
 
-    def keep(self, number: int, goal: Goal, found: Point | Failure) -> None:
+    def keep(self, number: int, goal: Objective, found: Point | Failure) -> None:
         """Write an answer, every digit of it."""
-        told: dict[str, Any] = {"goal": _plain_goal(goal), "where": found.where}
+        reported: dict[str, Any] = {"goal": _plain_goal(goal), "where": found.where}
         if isinstance(found, Failure):
-            told["reason"] = found.reason
+            reported["reason"] = found.reason
         else:
             assert found.trace is not None  # whatever was sought has one
-            told |= {name: getattr(found, name) for name in ("values", "drives", "cost", "root")}
-            told["trace"] = {name: getattr(found.trace, name).tolist() for name in Trace._fields}
-        self._folder.write(f"{PROGRESS}/{number:04d}.json", json.dumps(told))
+            reported |= {name: getattr(found, name) for name in ("values", "current_profiles", "cost", "root")}
+            reported["trace"] = {name: getattr(found.trace, name).tolist() for name in Trace._fields}
+        self._folder.write(f"{PROGRESS}/{number:04d}.json", json.dumps(reported))
 
 
-def _plain_goal(goal: Goal) -> dict[str, Any]:
+def _plain_goal(goal: Objective) -> dict[str, Any]:
     return {"weights": dict(goal.weights), "bounds": [asdict(bound) for bound in goal.bounds]}
 
 

@@ -25,7 +25,7 @@ from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, completed, trace_front
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
-from tvimdesign.solve.result import Answer
+from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design, design_json
 
@@ -51,7 +51,9 @@ class FrontOfRun:
         """Take what found the study's optimum: the front is sought with it."""
         self._built.append((built, runs))
 
-    def seek(self, found: Answer, progress: Progress, told: dict[str, Any], troubles: list[TvimError]) -> list[Drawing]:
+    def seek(
+        self, found: StudyResult, progress: Progress, reported: dict[str, Any], troubles: list[TvimError]
+    ) -> list[Drawing]:
         """Seek the front and write all of it but its figure, which is returned; nothing where none is asked for.
 
         What is to be told goes into `told`, points without a design into `troubles`.
@@ -64,9 +66,9 @@ class FrontOfRun:
         front = self.front = completed(sought, trade)
         self.kept = kept_at(trade.optimizer, front) if self.study.robust else []
         folder, names = self._folder, shown_names(self.study, front)
-        told["front"] = plain(front, names, self.table, self.kept)
+        reported["front"] = plain(front, names, self.table, self.kept)
         folder.write("front.csv", front_csv(front, names, self.table, self.kept))
-        folder.write_json("front.json", told["front"])
+        folder.write_json("front.json", reported["front"])
         for number, point in enumerate(front.points, start=1):
             design = design_of(point, number, found)
             folder.write(f"front/{number:02d}.design.json", design_json(design))
@@ -84,14 +86,19 @@ class FrontOfRun:
             print_front(self.front, self.table, console, self.kept)
 
 
-def design_of(point: Point, number: int, found: Answer) -> Design:
+def design_of(point: Point, number: int, found: StudyResult) -> Design:
     """A point as a design of its own, as `tvimdesign cad` takes it."""
     return found.design.model_copy(
         update={
-            "tvimdesign": __version__, "name": f"{found.design.name}, point {number} of its front", "status": "optimal",
-            "values": point.values, "drives": point.drives, "intervals": {}, "solution": {"front": point.where},
+            "tvimdesign": __version__,
+            "name": f"{found.design.name}, point {number} of its front",
+            "status": "optimal",
+            "values": point.values,
+            "current_profiles": point.current_profiles,
+            "intervals": {},
+            "solution": {"front": point.where},
         }
-    )  # fmt: skip
+    )
 
 
 def shown_names(study: Study, front: Front) -> list[str]:

@@ -1,4 +1,4 @@
-"""What a run says where there is no design, and of starts that found none: the quarrel, and every ending in words."""
+"""What a run says where there is no design, and of starts that found none: the conflict, and every ending in words."""
 
 from __future__ import annotations
 
@@ -9,32 +9,34 @@ from typing import Any
 
 from tvimdesign.device import Table
 from tvimdesign.report.output.tables import NOTHING, margin_text
-from tvimdesign.solve.nlp.solution import Quarrel, Side, Start
+from tvimdesign.solve.nlp.solution import ConflictSet, Side, Start
 from tvimdesign.solve.optimizer.statuses import meaning
-from tvimdesign.solve.result import Answer
+from tvimdesign.solve.result import StudyResult
 
 
-def complaint(answer: Answer, table: Table) -> str:
+def complaint(answer: StudyResult, table: Table) -> str:
     """What to say where no design was found: what cannot hold together, what is broken least, and what to do."""
     solution = answer.solution
-    quarrel = solution.quarrel if solution else None
+    conflict_set = solution.conflict_set if solution else None
     lines = [f"{answer.design.name}: no design found that keeps every limit ({answer.design.status})."]
-    if quarrel:
-        lines += _quarrel_in_words(quarrel)
+    if conflict_set:
+        lines += _conflict_in_words(conflict_set)
     broken = sorted((check for check in answer.checks if not check.kept), key=lambda check: check.margin)
     if broken:
         lines.append(
-            "The design that comes closest breaks these:" if quarrel else "Where the solver ended, these are broken:"
+            "The design that comes closest breaks these:"
+            if conflict_set
+            else "Where the solver ended, these are broken:"
         )
         lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-+')}" for check in broken]
-    if not quarrel:
+    if not conflict_set:
         held = [h.text for h in solution.held if abs(h.residual) <= NOTHING] if solution else []
         lines += ["These stand in the way there, at their limits:", *(f"  {text}" for text in held)] if held else []
     if math.isinf(answer.design.value("response_time")):
         lines.append("The switch does not end there within `horizon`.")
     if answer.design.study.get("robust"):
         lines.append("Limits are to be kept by so many standard deviations (`robust`): ask for fewer, or spread less.")
-    if quarrel:
+    if conflict_set:
         lines.append(
             "Ease a limit, or widen a range under `vary`. The design.json written is the one that comes closest."
         )
@@ -44,14 +46,14 @@ def complaint(answer: Answer, table: Table) -> str:
     return "\n".join(lines)
 
 
-def _quarrel_in_words(quarrel: Quarrel) -> list[str]:
-    how = "bounds prove it" if quarrel.proved else "as far as the solver sees from its starts"
-    alone = len(quarrel.sides) == 1
+def _conflict_in_words(conflict_set: ConflictSet) -> list[str]:
+    how = "bounds prove it" if conflict_set.proved else "as far as the solver sees from its starts"
+    alone = len(conflict_set.sides) == 1
     lines = [f"This cannot hold within the ranges, {how}:" if alone else f"These cannot hold together, {how}:"]
-    for side in quarrel.sides:
+    for side in conflict_set.sides:
         lines.append(f"  {_named(side)}: {_place(side)}")
-    if quarrel.ends:
-        lines.append(f"Ends of ranges that keep {'it' if alone else 'them'} from it: {', '.join(quarrel.ends)}.")
+    if conflict_set.ends:
+        lines.append(f"Ends of ranges that keep {'it' if alone else 'them'} from it: {', '.join(conflict_set.ends)}.")
     return lines
 
 
@@ -78,7 +80,7 @@ def endings(starts: Sequence[Start]) -> list[str]:
     return lines
 
 
-def optima(answer: Answer) -> list[dict[str, Any]]:
+def optima(answer: StudyResult) -> list[dict[str, Any]]:
     """Every distinct optimum: its objective, the first start that found it, how many did, and its free numbers (SI)."""
     solution = answer.solution
     if solution is None:
@@ -89,7 +91,7 @@ def optima(answer: Answer) -> list[dict[str, Any]]:
     ]
 
 
-def starts_told(answer: Answer) -> dict[str, Any]:
+def starts_reported(answer: StudyResult) -> dict[str, Any]:
     """Share of the free starts that converged, every optimum, and what became of the others."""
     starts = answer.solution.free_starts if answer.solution else ()
     failed = [start for start in starts if not start.converged]
@@ -104,15 +106,15 @@ def starts_told(answer: Answer) -> dict[str, Any]:
     }
 
 
-def quarrel_told(quarrel: Quarrel | None) -> dict[str, Any] | None:
-    """The quarrel as plain data, SI; None where there is none."""
-    if quarrel is None:
+def conflicts_reported(conflict_set: ConflictSet | None) -> dict[str, Any] | None:
+    """The conflict as plain data, SI; None where there is none."""
+    if conflict_set is None:
         return None
     return {
-        "cannot_hold_together": [_plain(side) for side in quarrel.sides],
-        "least_violation": [_plain(side) for side in quarrel.broken],
-        "ends_of_ranges": list(quarrel.ends),
-        "proved_by_bounds": quarrel.proved,
+        "cannot_hold_together": [_plain(side) for side in conflict_set.sides],
+        "least_violation": [_plain(side) for side in conflict_set.broken],
+        "ends_of_ranges": list(conflict_set.ends),
+        "proved_by_bounds": conflict_set.proved,
     }
 
 

@@ -12,10 +12,10 @@ ALIKE = 0.1
 _RATED = ("seebeck", "resistance", "conductance", "hot_side_temperature", "max_cooling_power")
 
 
-def doubts(study: Study, catalog: Catalog, table: Table) -> list[str]:
+def record_checks(study: Study, catalog: Catalog, table: Table) -> list[str]:
     """A sentence for each chosen record that contradicts itself."""
     records = [record for record in given(study, catalog, table).values() if isinstance(record, Record)]
-    return [said for record in records if record.shelf == "peltiers" and (said := _of_module(record))]
+    return [said for record in records if record.category == "peltiers" and (said := _of_module(record))]
 
 
 def _of_module(record: Record) -> str:
@@ -23,7 +23,7 @@ def _of_module(record: Record) -> str:
     if not set(_RATED) <= record.entries.keys():
         return ""
     *parameters, hot, stated = (record.value(name) for name in _RATED)
-    computed = float(peltier.max_cooling_power(peltier.Module(*parameters), hot))
+    computed = float(peltier.max_cooling_power(peltier.PeltierModule(*parameters), hot))
     if abs(computed / stated - 1.0) <= ALIKE:
         return ""
     return (

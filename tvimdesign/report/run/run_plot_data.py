@@ -10,7 +10,7 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Output, Table
 from tvimdesign.report.output.tables import margin_text
 from tvimdesign.simulation.curves import Curves
-from tvimdesign.solve.result import Answer
+from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.design import Design
 
 _OVER_TIME = ("time", "hot_side", "near_face", "far_face", "cold_side", "joint_impedance", "current")
@@ -19,7 +19,7 @@ _NEAR = 0.25
 """Margin below which a rule of the machine is worth a bar."""
 
 
-def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
+def plot_data(answer: StudyResult, table: Table) -> dict[str, Any]:
     """Data of every figure by the figure's name."""
     design = answer.design
 
@@ -29,7 +29,7 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
     melting = [shown("pcl_melting_start"), shown("pcl_melting_end")]
     return {
         "cycle": {
-            **{stage: _history(curves) for stage, curves in answer.histories.items()},
+            **{phase: _history(curves) for phase, curves in answer.histories.items()},
             "melting": melting,
             "soft": shown("soft_threshold"),
             "stiff": shown("stiff_threshold"),
@@ -48,14 +48,14 @@ def plot_data(answer: Answer, table: Table) -> dict[str, Any]:
 
 
 def _history(curves: Curves) -> dict[str, Any]:
-    """What is drawn of a stage: columns over its time, and the temperatures through the polymer at some moments."""
+    """What is drawn of a phase: columns over its time, and the temperatures through the polymer at some moments."""
     time, through = curves["time"], ["near_face", *(name for name in curves if name.startswith("cell_")), "far_face"]
     moments = [min(bisect_left(time, time[-1] * i / (_PROFILES - 1)), len(time) - 1) for i in range(_PROFILES)]
     profiles = [{"time": time[at], "temperatures": [curves[name][at] for name in through]} for at in moments]
     return {name: curves[name] for name in _OVER_TIME} | {"profiles": profiles}
 
 
-def _depths(answer: Answer, table: Table) -> list[float]:
+def _depths(answer: StudyResult, table: Table) -> list[float]:
     """Depths [mm] from the Peltier side at which a profile has its temperatures: both faces, the cells between them."""
     depth = from_si(table.evaluate(answer.design.values, ["pcl_depth"])["pcl_depth"], "mm")
     cells = sum(name.startswith("cell_") for name in answer.histories["softening"])
@@ -64,12 +64,12 @@ def _depths(answer: Answer, table: Table) -> list[float]:
 
 def _parts(design: Design, table: Table) -> dict[str, float]:
     """Mass [g] of each part: the rows the module's mass is the sum of."""
-    total = table.row("module_mass")
+    total = table.quantity("module_mass")
     assert isinstance(total, Output)
     return {name.removesuffix("_mass"): from_si(design.value(name), "g") for name in total.needs}
 
 
-def _free(answer: Answer, table: Table) -> list[dict[str, Any]]:
+def _free(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
     if answer.solution is None:
         return []
     rows = []
@@ -83,7 +83,7 @@ def _free(answer: Answer, table: Table) -> list[dict[str, Any]]:
     return rows
 
 
-def _limits(answer: Answer, table: Table) -> list[dict[str, Any]]:
+def _limits(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
     """The study's limits, the machine's where they are near, and the advice the design does not follow."""
     near = [check for check in answer.checks if check.origin == "require" or check.margin < _NEAR]
     return [

@@ -14,16 +14,16 @@ from tvimdesign.base.errors import GeometryError, InfeasibleError, InputError, T
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Table, table_for
-from tvimdesign.report.output.progress import Progress, talk, wide_console
+from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.run.record_checks import doubts
+from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.study import Study, read_study
 from tvimdesign.study.design import Design, read_design, write_design
 
 if TYPE_CHECKING:
     from tvimdesign.report.figures.plot_process import Drawing
     from tvimdesign.report.run.front_report import FrontOfRun
-    from tvimdesign.solve.result import Answer
+    from tvimdesign.solve.result import StudyResult
 
 CAD_TIME_LIMIT = 300.0  # s
 
@@ -33,14 +33,14 @@ def check_study(path: Path, *, proof: bool = True) -> Study:
 
     Limits that bounds prove impossible are looked for as well, which takes half a second, unless `proof` is not asked.
     """
-    from tvimdesign.solve.infeasibility.infeasibility_proof import refuse_contradiction
+    from tvimdesign.solve.infeasibility.infeasibility_proof import refuse_infeasible
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
     study = read_study(path)
     catalog, table = catalog_of(study), table_for(study.mode)
     refuse_impossible(study, catalog, table)
     if proof:
-        refuse_contradiction(study, catalog, table)
+        refuse_infeasible(study, catalog, table)
     return study
 
 
@@ -48,7 +48,7 @@ def describe(study: Study) -> str:
     """One line on what a valid study asks, then one for each of its records that contradicts itself."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
     asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
-    return "\n".join([asked, *doubts(study, catalog_of(study), table_for(study.mode))])
+    return "\n".join([asked, *record_checks(study, catalog_of(study), table_for(study.mode))])
 
 
 def run_study(
@@ -68,25 +68,25 @@ def run_study(
     troubles: list[TvimError] = []
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
-        progress = stack.enter_context(talk())
+        progress = stack.enter_context(progress_output())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         front = FrontOfRun(study, table, folder)
-        found = answer(study, catalog, table, progress, keep=front.keep, traded=front.outputs)
+        found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs)
         shown = plot_data(found, table) if drawing and found.found else {}
         plotted = [Drawing(name, name, data) for name, data in shown.items()]
-        told = _told(found, table) | {"doubts": doubts(study, catalog, table)}
+        reported = _told(found, table) | {"doubts": record_checks(study, catalog, table)}
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
-                plotted += _sensitivities(folder, found, catalog, table, told)
-        plotted += front.seek(found, progress, told, troubles)
+                plotted += _sensitivities(folder, found, catalog, table, reported)
+        plotted += front.seek(found, progress, reported, troubles)
         if drawing and found.found:
             drawing.begin(folder.path / "plots", plotted)
-        design = _write(folder, path, study, found, told, table)
+        design = _write(folder, path, study, found, reported, table)
         progress("")
         if not as_json:
             print_summary(found, table, wide_console())
-            _print_rest(told, front)
+            _print_rest(reported, front)
         if drawing and found.found:
             progress("drawing the plots")
             folder.look_up_versions()
@@ -94,12 +94,12 @@ def run_study(
                 drawing.finish()
         if cad and study.write.cad and found.found:
             with _noting(troubles):
-                told["cad"] = _parts(design, folder.path / "cad", progress, as_json)
+                reported["cad"] = _parts(design, folder.path / "cad", progress, as_json)
         inputs = {"study": path, **_records(found.design, catalog, table)}
         folder.finish(found.design.status, inputs, found.design.study, found.seconds)
     if as_json:
-        told |= {"folder": str(folder.path), "not_done": [str(trouble) for trouble in troubles]}
-        print(json.dumps(told, indent=2, allow_nan=False))
+        reported |= {"folder": str(folder.path), "not_done": [str(trouble) for trouble in troubles]}
+        print(json.dumps(reported, indent=2, allow_nan=False))
     else:
         wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
     if not found.found:
@@ -113,55 +113,57 @@ def _proving(study: Study) -> Study:
     return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
 
 
-def _told(found: Answer, table: Table) -> dict[str, Any]:
+def _told(found: StudyResult, table: Table) -> dict[str, Any]:
     """Everything a script wants to know of an answer."""
     from tvimdesign.report.output.tables import results
-    from tvimdesign.report.run.infeasible_report import quarrel_told, starts_told
+    from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
     from tvimdesign.report.run.why import why
 
-    told = results(found, table) | {"why": why(found, table)}
+    reported = results(found, table) | {"why": why(found, table)}
     if found.solution:
-        told |= {"starts": starts_told(found), "quarrel": quarrel_told(found.solution.quarrel)}
-    return told
+        reported |= {"starts": starts_reported(found), "conflict_set": conflicts_reported(found.solution.conflict_set)}
+    return reported
 
 
-def _write(folder: ResultsFolder, path: Path, study: Study, found: Answer, told: dict[str, Any], table: Table) -> Path:
+def _write(
+    folder: ResultsFolder, path: Path, study: Study, found: StudyResult, reported: dict[str, Any], table: Table
+) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
     from tvimdesign.report.output.tables import curves_csv, results_csv
     from tvimdesign.report.run.why import why_csv
 
     folder.write("study.yaml", path.read_bytes())
     folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
-    folder.write_json("results.json", told)
-    folder.write("results.csv", results_csv(told["values"]))
+    folder.write_json("results.json", reported)
+    folder.write("results.csv", results_csv(reported["values"]))
     if found.solution and found.found:
         folder.write("why.csv", why_csv(found, table))
     units = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
-    for stage, history in found.histories.items():
-        folder.write(f"{stage}.csv", curves_csv(history, units, "degC"))
+    for phase, history in found.histories.items():
+        folder.write(f"{phase}.csv", curves_csv(history, units, "degC"))
     units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in found.sweep}
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     return write_design(found.design, folder.path / "design.json")
 
 
 def _sensitivities(
-    folder: ResultsFolder, found: Answer, catalog: Catalog, table: Table, told: dict[str, Any]
+    folder: ResultsFolder, found: StudyResult, catalog: Catalog, table: Table, reported: dict[str, Any]
 ) -> list[Drawing]:
     """Write the table of sensitivities, tell what is not in it; returns the heat map. Raises SimulationError."""
     from tvimdesign.report.figures.plot_process import Drawing
     from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
 
-    derivatives, rig = sensitivities(found, catalog, table)
-    folder.write("sensitivities.csv", sensitivities_csv(derivatives, rig))
-    told["sensitivities_left_out"] = list(derivatives.left_out)
-    data = heat_map(derivatives, rig)
+    derivatives, resolved = sensitivities(found, catalog, table)
+    folder.write("sensitivities.csv", sensitivities_csv(derivatives, resolved))
+    reported["sensitivities_left_out"] = list(derivatives.left_out)
+    data = heat_map(derivatives, resolved)
     return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
 
 
-def _print_rest(told: dict[str, Any], front: FrontOfRun) -> None:
-    for doubt in told["doubts"]:
+def _print_rest(reported: dict[str, Any], front: FrontOfRun) -> None:
+    for doubt in reported["doubts"]:
         wide_console().print(f"[yellow]In doubt:[/yellow] {escape(doubt)}", soft_wrap=True)
-    names = told.get("sensitivities_left_out")
+    names = reported.get("sensitivities_left_out")
     if names:
         said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(names)}."
         wide_console().print(f"[dim]{said}[/dim]")
@@ -177,7 +179,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     troubles: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder:
         kept = write_design(design, folder.path / "design.json")
-        with talk() as progress, _noting(troubles):
+        with progress_output() as progress, _noting(troubles):
             report = _parts(kept, folder.path, progress, as_json)
             if as_json:
                 print(json.dumps(report, indent=2))
@@ -195,8 +197,8 @@ def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> dict[s
 
     progress("parts: starting the CAD kernel")
     report = make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
-    told = {"checks": [check.plain() for check in report.checks], "files": report.files, "notes": report.notes}
-    write_whole(out / "checks.json", (json.dumps(told, indent=2) + "\n").encode())
+    reported = {"checks": [check.plain() for check in report.checks], "files": report.files, "notes": report.notes}
+    write_whole(out / "checks.json", (json.dumps(reported, indent=2) + "\n").encode())
     progress("")
     if not as_json:
         print_solid_checks(report.checks, wide_console())
@@ -211,7 +213,7 @@ def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> dict[s
             + "\n".join(lines)
             + f"\nSee {out / 'checks.json'}, and which rules the design breaks."
         )
-    return told
+    return reported
 
 
 def catalog_of(study: Study) -> Catalog:
@@ -222,9 +224,9 @@ def catalog_of(study: Study) -> Catalog:
 def _records(design: Design, catalog: Catalog, table: Table) -> dict[str, Path]:
     """Files of the catalogue records a design uses."""
     return {
-        f"{row.shelf}/{design.choices[row.name]}": catalog.path(row.shelf, design.choices[row.name])
-        for row in table.rows
-        if isinstance(row, Choice) and row.shelf and design.choices[row.name] not in row.options
+        f"{row.category}/{design.choices[row.name]}": catalog.path(row.category, design.choices[row.name])
+        for row in table.quantities
+        if isinstance(row, Choice) and row.category and design.choices[row.name] not in row.options
     }
 
 

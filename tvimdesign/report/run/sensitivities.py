@@ -9,30 +9,30 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
-from tvimdesign.simulation.resolved_module import Rig, rig_of_design
-from tvimdesign.solve.result import Answer
-from tvimdesign.solve.sensitivity.output_sensitivity import FINER, Elasticities, elasticities, entries
+from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.solve.result import StudyResult
+from tvimdesign.solve.sensitivity.output_sensitivity import FINER, OutputSensitivities, entries, output_sensitivities
 
 _SHOWN = 5e-3
 """Elasticity below which a row or a column of the heat map has nothing to say."""
 
 
-def sensitivities(answer: Answer, catalog: Catalog, table: Table) -> tuple[Elasticities, Rig]:
+def sensitivities(answer: StudyResult, catalog: Catalog, table: Table) -> tuple[OutputSensitivities, ResolvedModule]:
     """Differentiate what a summary shows and what the study limits or minimises. Raises SimulationError."""
-    rig = rig_of_design(answer.design, catalog, table)
+    resolved = resolve_design(answer.design, catalog, table)
     asked = {*answer.design.study["minimize"], *(one["output"] for one in answer.design.study["require"])}
-    wanted = [name for name in table.names(rig.points) if table.output(name).headline or name in asked]
+    wanted = [name for name in table.names(resolved.points) if table.output(name).headline or name in asked]
     options = answer.design.study["solver"]
-    return elasticities(rig, FINER * options["elements"], options["cells"], wanted), rig
+    return output_sensitivities(resolved, FINER * options["elements"], options["cells"], wanted), resolved
 
 
-def sensitivities_csv(found: Elasticities, rig: Rig) -> str:
+def sensitivities_csv(found: OutputSensitivities, resolved: ResolvedModule) -> str:
     """One line for each output and variable: d ln output / d ln variable, the derivative, and what 1 % more adds."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    table = rig.table
+    table = resolved.table
     writer.writerow(["output", "variable", "log_derivative", "derivative", "derivative_unit", "per_percent", "unit"])
-    for one in entries(found, rig):
+    for one in entries(found, resolved):
         of, by = (_difference(table.unit(name)) for name in (one.output, one.variable))
         derivative = from_si(one.derivative, of) * to_si(1.0, by)
         share = "" if one.logarithmic is None else f"{one.logarithmic:.6g}"
@@ -46,11 +46,11 @@ def _difference(unit: str) -> str:
     return "K" if unit == "degC" else unit
 
 
-def heat_map(found: Elasticities, rig: Rig) -> dict[str, Any]:
+def heat_map(found: OutputSensitivities, resolved: ResolvedModule) -> dict[str, Any]:
     """Elasticities, one row an output, without the rows and columns in which nothing stands."""
-    cells = {(one.output, one.variable): one.logarithmic for one in entries(found, rig)}
-    told = {place for place, value in cells.items() if value is not None and abs(value) >= _SHOWN}
-    outputs = [name for name in found.outputs if any(name == output for output, _ in told)]
-    variables = [name for name in found.variables if any(name == variable for _, variable in told)]
+    cells = {(one.output, one.variable): one.logarithmic for one in entries(found, resolved)}
+    reported = {place for place, value in cells.items() if value is not None and abs(value) >= _SHOWN}
+    outputs = [name for name in found.outputs if any(name == output for output, _ in reported)]
+    variables = [name for name in found.variables if any(name == variable for _, variable in reported)]
     values = [[cells[output, variable] or 0.0 for variable in variables] for output in outputs]
     return {"outputs": outputs, "variables": variables, "values": values}

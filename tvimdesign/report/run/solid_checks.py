@@ -9,13 +9,13 @@ from rich.console import Console
 from rich.table import Table
 
 from tvimdesign.base.units import pretty
-from tvimdesign.cad.cad_report import Check
+from tvimdesign.cad.cad_report import SolidCheck
 
 _COLOURS = {"failure": "red", "warning": "yellow"}
 _SHOWN = 15
 
 
-def print_solid_checks(checks: Sequence[Check], console: Console) -> None:
+def print_solid_checks(checks: Sequence[SolidCheck], console: Console) -> None:
     """Print what did not pass, worst first, and count the rest."""
     found = worst_first(checks)
     if found:
@@ -31,19 +31,19 @@ def print_solid_checks(checks: Sequence[Check], console: Console) -> None:
     console.print(_count(checks, max(0, len(found) - _SHOWN)), soft_wrap=True)
 
 
-def worst_first(checks: Sequence[Check]) -> list[Check]:
+def worst_first(checks: Sequence[SolidCheck]) -> list[SolidCheck]:
     """Failures, then warnings, those that miss their limit by the most first."""
     rank = {"failure": 0, "warning": 1}
-    told = [check for check in checks if check.level in rank]
-    return sorted(told, key=lambda check: (rank[check.level], -_missed(check), check.name))
+    reported = [check for check in checks if check.level in rank]
+    return sorted(reported, key=lambda check: (rank[check.level], -_missed(check), check.name))
 
 
-def _missed(check: Check) -> float:
+def _missed(check: SolidCheck) -> float:
     """By what share of it a value misses its limit."""
     return abs(check.value - check.limit) / max(abs(check.limit), 1e-9)
 
 
-def _count(checks: Sequence[Check], hidden: int) -> str:
+def _count(checks: Sequence[SolidCheck], hidden: int) -> str:
     passed = sum(check.level == "pass" for check in checks)
     sampled = sum(check.resolution > 0.0 for check in checks)
     more = f"; {hidden} more that did not are in checks.json" if hidden else ""

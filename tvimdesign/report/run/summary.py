@@ -15,7 +15,7 @@ from tvimdesign.device import Input, Table
 from tvimdesign.report.output.choices_tables import best_rows, price_in_words, tally_in_words
 from tvimdesign.report.output.tables import (
     NOTHING,
-    drive_rows,
+    current_rows,
     headline_rows,
     margin_text,
     number,
@@ -25,7 +25,7 @@ from tvimdesign.report.output.tables import (
 )
 from tvimdesign.report.run.infeasible_report import endings
 from tvimdesign.report.run.why import binding, sentences, slack_in_words
-from tvimdesign.solve.result import Answer, Check
+from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 _LOOSE = 0.05
 """Share of the first swing without contact from which on small motions say little of the joint."""
@@ -33,7 +33,7 @@ _SENTENCES_SHOWN = 3
 _ROUND = 1e-5  # of any unit a limit is written in
 
 
-def print_summary(answer: Answer, table: Table, console: Console) -> None:
+def print_summary(answer: StudyResult, table: Table, console: Console) -> None:
     """Print an answer for people."""
     design = answer.design
     console.print(f"[bold]{escape(design.name)}[/bold]  ({design.mode} mode)")
@@ -61,7 +61,7 @@ def print_summary(answer: Answer, table: Table, console: Console) -> None:
     _print_prices(answer, table, console)
 
 
-def _robustness(answer: Answer) -> list[str]:
+def _robustness(answer: StudyResult) -> list[str]:
     """How far within its limits a robust design is, and what modules drawn at random keep of them."""
     robust, reached = answer.design.study.get("robust"), answer.solution.yield_reached if answer.solution else None
     if not robust or not answer.found:
@@ -78,7 +78,7 @@ def _robustness(answer: Answer) -> list[str]:
     ]
 
 
-def _print_variables(answer: Answer, table: Table, console: Console, title: str) -> None:
+def _print_variables(answer: StudyResult, table: Table, console: Console, title: str) -> None:
     rows = variable_rows(answer, table)
     if not rows:
         return
@@ -88,7 +88,7 @@ def _print_variables(answer: Answer, table: Table, console: Console, title: str)
     console.print(grid)
 
 
-def _print_choosing(answer: Answer, table: Table, console: Console) -> None:
+def _print_choosing(answer: StudyResult, table: Table, console: Console) -> None:
     """The best combinations of what is listed, the price of going standard, and how the search went."""
     choosing = answer.solution.choosing if answer.solution else None
     if choosing is None or not choosing.best:
@@ -98,15 +98,15 @@ def _print_choosing(answer: Answer, table: Table, console: Console) -> None:
     for row in rows:
         grid.add_row(*row)
     console.print(grid)
-    price = price_in_words(choosing, table)
-    if price:
-        console.print(escape(price))
+    shadow_price = price_in_words(choosing, table)
+    if shadow_price:
+        console.print(escape(shadow_price))
     console.print(f"[dim]{escape(tally_in_words(choosing))}[/dim]")
 
 
-def _print_drives(answer: Answer, table: Table, console: Console) -> None:
+def _print_drives(answer: StudyResult, table: Table, console: Console) -> None:
     """Currents that follow a profile, and what the same module does at the constant current of the paper."""
-    rows = drive_rows(answer.design, table)
+    rows = current_rows(answer.design, table)
     if not rows:
         return
     grid = _grid("What the current does, straight between these moments", ("", "s", "A", ""), right=(1, 2))
@@ -119,9 +119,9 @@ def _print_drives(answer: Answer, table: Table, console: Console) -> None:
     for name, value in answer.constant_current.items():
         unit = table.unit(name)
         values = (answer.design.value(name), *([best.values[name]] if best else []), value)
-        grid.add_row(name, *(number(from_si(v, unit)) for v in values), pretty(unit), table.row(name).description)
+        grid.add_row(name, *(number(from_si(v, unit)) for v in values), pretty(unit), table.quantity(name).description)
     console.print(grid)
-    driven = [table.stage(stage).drive for stage in answer.design.drives]
+    driven = [table.phase(phase).current_input for phase in answer.design.current_profiles]
 
     def said(values: Mapping[str, float]) -> str:
         return ", ".join(f"{name} {format_quantity(values[name], table.unit(name))}" for name in driven)
@@ -134,13 +134,13 @@ def _print_drives(answer: Answer, table: Table, console: Console) -> None:
 
 
 def _default(table: Table, name: str) -> float:
-    row = table.row(name)
+    row = table.quantity(name)
     assert isinstance(row, Input)
     assert row.default is not None
     return row.default
 
 
-def _print_points(answer: Answer, table: Table, console: Console) -> None:
+def _print_points(answer: StudyResult, table: Table, console: Console) -> None:
     points, rows = point_rows(answer, table)
     right = tuple(range(1, len(points) + 1))
     grid = _grid("At the operating points", ("", *points, "unit", "meaning"), right=right)
@@ -169,7 +169,7 @@ def _grid(title: str, columns: tuple[str, ...], right: tuple[int, ...] = ()) -> 
     return grid
 
 
-def _verdict(answer: Answer) -> str:
+def _verdict(answer: StudyResult) -> str:
     broken = sum(not check.kept for check in answer.checks)
     warned = f", with {len(answer.warnings)} warnings" if answer.warnings else ""
     solution = answer.solution
@@ -201,7 +201,7 @@ def _verdict(answer: Answer) -> str:
     )
 
 
-def _in_short(answer: Answer, table: Table) -> str:
+def _in_short(answer: StudyResult, table: Table) -> str:
     """The answer in one line."""
 
     def shown(name: str) -> str:
@@ -214,7 +214,7 @@ def _in_short(answer: Answer, table: Table) -> str:
     )
 
 
-def _print_checks(answer: Answer, table: Table, console: Console) -> None:
+def _print_checks(answer: StudyResult, table: Table, console: Console) -> None:
     """Requirements always; the machine's own rules only where they bind or break."""
     grid = _grid("What must hold", ("", "limit", "value", "unit", "margin", "because"), right=(2, 4))
     hidden = 0
@@ -237,16 +237,16 @@ def _print_checks(answer: Answer, table: Table, console: Console) -> None:
         console.print(f"[dim]{hidden} rules of the machine hold with room to spare.[/dim]")
 
 
-def _worst(check: Check, table: Table) -> str:
+def _worst(check: ConstraintCheck, table: Table) -> str:
     """The margin for people, with the history that leaves the least."""
     return margin_text(replace(check, margin=check.worst), table)
 
 
-def _binds(check: Check) -> bool:
+def _binds(check: ConstraintCheck) -> bool:
     return abs(check.margin) <= NOTHING
 
 
-def _print_prices(answer: Answer, table: Table, console: Console) -> None:
+def _print_prices(answer: StudyResult, table: Table, console: Console) -> None:
     """What binds, with its cost in the objective and in each output; the costliest in sentences; what is slack."""
     held = binding(answer)
     if held:
@@ -254,8 +254,8 @@ def _print_prices(answer: Answer, table: Table, console: Console) -> None:
         columns = ("limit", "relaxed by", "lowers the objective by", *outputs)
         grid = _grid("What holds the design back", columns, right=tuple(range(1, len(columns))))
         for row in held:
-            each = (_saved(row.savings[name]) if name in row.savings else "" for name in outputs)
-            grid.add_row(row.text, row.step, _saved(row.price), *each)
+            each = (_saved(row.sensitivity[name]) if name in row.sensitivity else "" for name in outputs)
+            grid.add_row(row.text, row.step, _saved(row.shadow_price), *each)
         console.print(grid)
         for sentence in sentences(answer)[:_SENTENCES_SHOWN]:
             console.print(escape(sentence))
@@ -269,7 +269,7 @@ def _saved(percent: float) -> str:
     return f"{percent:.2g} %" if abs(percent) >= 1e-4 else "0 %"
 
 
-def _print_warnings(answer: Answer, table: Table, console: Console) -> None:
+def _print_warnings(answer: StudyResult, table: Table, console: Console) -> None:
     for check in answer.warnings:
         value = format_quantity(check.value, table.unit(check.output))
         console.print(f"[yellow]Mind[/yellow] {check.output} is {value}: {check.origin}.")

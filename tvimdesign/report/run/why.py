@@ -11,8 +11,8 @@ from typing import Any
 from tvimdesign.base.units import pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
-from tvimdesign.solve.nlp.solution import Held
-from tvimdesign.solve.result import Answer
+from tvimdesign.solve.nlp.solution import ActiveConstraint
+from tvimdesign.solve.result import StudyResult
 
 PRICE_SHOWN = 1e-3
 """Percent of the objective below which a step of a limit is not worth a line."""
@@ -20,32 +20,33 @@ _SAVING_SHOWN = 5e-3
 _RULES_SHOWN = 5
 
 
-def binding(answer: Answer) -> list[Held]:
+def binding(answer: StudyResult) -> list[ActiveConstraint]:
     """The limits that hold the design, the costliest first."""
     held = answer.solution.held if answer.solution and answer.found else ()
-    return sorted((one for one in held if one.price > PRICE_SHOWN), key=lambda one: -one.price)
+    return sorted((one for one in held if one.shadow_price > PRICE_SHOWN), key=lambda one: -one.shadow_price)
 
 
-def slack(answer: Answer) -> list[Held]:
+def slack(answer: StudyResult) -> list[ActiveConstraint]:
     """The limits that could be somewhat tighter and change nothing, those with the least room first."""
     held = answer.solution.held if answer.solution and answer.found else ()
-    found = [one for one in held if one.price <= PRICE_SHOWN and one.margin > NOTHING]
+    found = [one for one in held if one.shadow_price <= PRICE_SHOWN and one.margin > NOTHING]
     return sorted(found, key=lambda one: one.margin)
 
 
-def sentences(answer: Answer) -> list[str]:
+def sentences(answer: StudyResult) -> list[str]:
     """What each binding limit costs, in words."""
     return [_sentence(held) for held in binding(answer)]
 
 
-def _sentence(held: Held) -> str:
+def _sentence(held: ActiveConstraint) -> str:
     """`1 % more spring_stiffness (now >= 5.2 N·m/rad) costs 0.11 % module_mass and saves 0.01 % response_time.`"""
     more = "more" if ">=" in held.name else "less"
     subject = f"{held.step} {more} {held.output} (now{held.text.removeprefix(held.output)})"
-    if not held.savings:
-        return f"{subject} costs {held.price:.2g} % of the objective; what of which output is not settled: {_WHY_NOT}."
-    costs = [f"{saving:.2g} % {name}" for name, saving in held.savings.items() if saving >= _SAVING_SHOWN]
-    saves = [f"{-saving:.2g} % {name}" for name, saving in held.savings.items() if saving <= -_SAVING_SHOWN]
+    if not held.sensitivity:
+        share = f"{held.shadow_price:.2g} % of the objective"
+        return f"{subject} costs {share}; what of which output is not settled: {_WHY_NOT}."
+    costs = [f"{saving:.2g} % {name}" for name, saving in held.sensitivity.items() if saving >= _SAVING_SHOWN]
+    saves = [f"{-saving:.2g} % {name}" for name, saving in held.sensitivity.items() if saving <= -_SAVING_SHOWN]
     said = [f"{verb} {_listed(parts)}" for verb, parts in (("costs", costs), ("saves", saves)) if parts]
     return f"{subject} {' and '.join(said)}." if said else f"{subject} costs next to nothing."
 
@@ -57,7 +58,7 @@ def _listed(parts: Sequence[str]) -> str:
     return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
 
 
-def slack_in_words(answer: Answer, table: Table) -> str:
+def slack_in_words(answer: StudyResult, table: Table) -> str:
     """The study's slack requirements with their room, and the machine's rules that have the least."""
     found = slack(answer)
     own = [one for one in found if one.origin == "require"]
@@ -68,11 +69,11 @@ def slack_in_words(answer: Answer, table: Table) -> str:
     return f"Slack: {'; '.join(shown)}{more}." if shown else ""
 
 
-def _room(held: Held, table: Table) -> str:
+def _room(held: ActiveConstraint, table: Table) -> str:
     return margin_text(held, table).lstrip("+")
 
 
-def why_rows(answer: Answer, table: Table) -> list[dict[str, Any]]:
+def why_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
     """Every limit and end of a range at the optimum: how it stands, its room, and what a step of it costs."""
     rows = []
     tight, loose = binding(answer), slack(answer)
@@ -84,17 +85,17 @@ def why_rows(answer: Answer, table: Table) -> list[dict[str, Any]]:
             rows.append({
                 "limit": one.text, "stands": stands, "origin": one.origin,
                 "room": room if math.isfinite(room) else None, "room_unit": pretty(unit),
-                "step": one.step, "objective": one.price, "outputs": dict(one.savings),
+                "step": one.step, "objective": one.shadow_price, "outputs": dict(one.sensitivity),
             })  # fmt: skip
     return rows
 
 
-def why(answer: Answer, table: Table) -> dict[str, Any]:
+def why(answer: StudyResult, table: Table) -> dict[str, Any]:
     """Everything this page says, as plain data; costs are percent of each output for a step of the limit."""
     return {"limits": why_rows(answer, table), "sentences": sentences(answer)}
 
 
-def why_csv(answer: Answer, table: Table) -> str:
+def why_csv(answer: StudyResult, table: Table) -> str:
     """The rows as CSV, one column for each minimised output."""
     outputs = list(answer.design.study["minimize"])
     stream = io.StringIO()

@@ -80,7 +80,7 @@ def as_csv(rows: Sequence[Mapping[str, Any]]) -> str:
     return stream.getvalue()
 
 
-def told(found: Spread, preload: Preload | None, table: Table, study: Study, samples: int) -> dict[str, Any]:
+def reported(found: Spread, preload: Preload | None, table: Table, study: Study, samples: int) -> dict[str, Any]:
     """Everything as plain data."""
     return {
         "samples": samples,

@@ -18,15 +18,22 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.progress import Progress, talk, wide_console
+from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.report.tolerate.tolerance_plot_data import figure_data
-from tvimdesign.report.tolerate.tolerance_tables import as_csv, contributor_rows, limit_rows, output_rows, spreads, told
+from tvimdesign.report.tolerate.tolerance_tables import (
+    as_csv,
+    contributor_rows,
+    limit_rows,
+    output_rows,
+    reported,
+    spreads,
+)
 from tvimdesign.report.tolerate.words import of_concern, sentences
-from tvimdesign.simulation.resolved_module import Rig, rig_for, rig_of_design
+from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
@@ -39,13 +46,13 @@ FEWEST, MOST = 1 << 8, 1 << 22
 
 
 @dataclass(frozen=True)
-class Subject:
+class TolerancedModule:
     """What is analysed: the module, the design it was found as, and what is to be said of where it came from."""
 
-    rig: Rig
+    resolved: ResolvedModule
     design: Design | None
     notes: tuple[str, ...]
-    nominal: Rig | None = None
+    nominal: ResolvedModule | None = None
     """The optimum without the robustness the study asks for."""
 
 
@@ -58,12 +65,12 @@ def tolerate_study(path: Path, out: Path, samples: int, workers: int, *, overwri
     with ExitStack() as stack:
         study = _study(source)
         folder = stack.enter_context(ResultsFolder(out, overwrite))
-        progress = stack.enter_context(talk())
+        progress = stack.enter_context(progress_output())
         drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
         subject = _subject(source, study, progress)
-        found, preload = _analysed(subject.rig, count, threads, progress)
-        table, study = subject.rig.table, subject.rig.study
-        data = told(found, preload, table, study, count) | {"notes": list(subject.notes)}
+        found, preload = _analysed(subject.resolved, count, threads, progress)
+        table, study = subject.resolved.table, subject.resolved.study
+        data = reported(found, preload, table, study, count) | {"notes": list(subject.notes)}
         data["sentences"] = sentences(found, preload, table)
         if subject.nominal is not None:
             before, _ = _analysed(subject.nominal, count, threads, progress)
@@ -86,7 +93,7 @@ def _study(source: Path) -> Study:
     return Study.model_validate(read_design(source).study) if source.suffix == ".json" else read_study(source)
 
 
-def _subject(source: Path, study: Study, progress: Progress) -> Subject:
+def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule:
     """The module to analyse: a design as it is, a study evaluated, or the optimum of one."""
     table, catalog = table_for(study.mode), catalog_of(study)
     notes = []
@@ -95,11 +102,14 @@ def _subject(source: Path, study: Study, progress: Progress) -> Subject:
         notes.append("The study gives no tolerances: the standard ones are taken.")
     if source.suffix == ".json":
         design = read_design(source)
-        rig = rig_of_design(design, catalog, table)
-        return Subject(replace(rig, study=rig.study.model_copy(update={"tolerances": study.tolerances})), None, (
-            f"Module: the design {source}.", *notes))  # fmt: skip
+        resolved = resolve_design(design, catalog, table)
+        return TolerancedModule(
+            replace(resolved, study=resolved.study.model_copy(update={"tolerances": study.tolerances})),
+            None,
+            (f"Module: the design {source}.", *notes),
+        )
     if not study.vary:
-        return Subject(rig_for(study, catalog, table), None, (f"Module: {source}.", *notes))
+        return TolerancedModule(resolve_study(study, catalog, table), None, (f"Module: {source}.", *notes))
     progress("seeking the optimum")
     design = _optimum(study, progress)
     notes.insert(0, f"Module: the optimum of {source}{', robust as it asks' if study.robust else ''}.")
@@ -107,8 +117,8 @@ def _subject(source: Path, study: Study, progress: Progress) -> Subject:
     if study.robust:
         progress("seeking the optimum that is not robust")
         plain = _optimum(study.model_copy(update={"robust": None}), progress)
-        nominal = rig_of_design(plain, catalog, table)
-    return Subject(rig_of_design(design, catalog, table), design, tuple(notes), nominal)
+        nominal = resolve_design(plain, catalog, table)
+    return TolerancedModule(resolve_design(design, catalog, table), design, tuple(notes), nominal)
 
 
 def _optimum(study: Study, progress: Progress) -> Design:
@@ -119,9 +129,11 @@ def _optimum(study: Study, progress: Progress) -> Design:
     return found.design
 
 
-def _analysed(rig: Rig, samples: int, workers: int, progress: Progress) -> tuple[Spread, Preload | None]:
-    analysis = Tolerancing(rig, progress, workers)
-    seed = rig.study.solver.seed
+def _analysed(
+    resolved: ResolvedModule, samples: int, workers: int, progress: Progress
+) -> tuple[Spread, Preload | None]:
+    analysis = Tolerancing(resolved, progress, workers)
+    seed = resolved.study.solver.seed
     return analysis.analyse(samples, seed), analysis.preload(samples, seed)
 
 
@@ -136,15 +148,16 @@ def _price(before: Spread, after: Spread, table: Table, study: Study) -> list[di
     return [*rows, {"output": "yield of all limits", "unit": "", "nominal": shares[0], "robust": shares[1]}]
 
 
-def _write(folder: ResultsFolder, source: Path, subject: Subject, data: dict[str, Any], found: Spread, table: Table
-           ) -> None:  # fmt: skip
+def _write(
+    folder: ResultsFolder, source: Path, subject: TolerancedModule, data: dict[str, Any], found: Spread, table: Table
+) -> None:
     folder.write(f"tolerated{source.suffix}", source.read_bytes())
     if subject.design is not None:
         write_design(subject.design, folder.path / "design.json")
     folder.write_json("tolerances.json", data)
     folder.write("outputs.csv", as_csv(list(output_rows(found, table))))
     folder.write("limits.csv", as_csv(list(limit_rows(found, table))))
-    folder.write("contributors.csv", as_csv(list(contributor_rows(found, table, subject.rig.study))))
+    folder.write("contributors.csv", as_csv(list(contributor_rows(found, table, subject.resolved.study))))
 
 
 def _print(found: Spread, data: dict[str, Any], table: Table, console: Console) -> None:

@@ -8,27 +8,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.resolved_module import Rig
-from tvimdesign.solve.batch.cycle_kernel import Pace, SwitchKernel
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
 
 Array = NDArray[np.float64]
 
 _SLOW = 0.1
-"""Share of the horizon that a stage is paced by which never ends as drawn."""
+"""Share of the horizon that a phase is paced by which never ends as drawn."""
 
 
-class ManyModules:
+class BatchModel:
     """Some outputs of one module as a function of some of its inputs, compiled for columns of them."""
 
-    def __init__(self, rig: Rig, moving: Sequence[str], outputs: Sequence[str]) -> None:
+    def __init__(self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str]) -> None:
         """Simulate the module as drawn, which sets the pace, and compile. All inputs but the `moving` are constants."""
-        model = Model(rig.table, rig.values, rig.points, rig.study.solver.cells)
-        needed = {base for name in outputs for base in (name.partition("@")[0], *rig.table.ancestors(name))}
+        model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
+        needed = {base for name in outputs for base in (name.partition("@")[0], *resolved.table.ancestors(name))}
         supplied = [name for name in model.switch_names if name in needed]
-        self.switch = SwitchKernel(model, moving, supplied) if supplied else None
-        names = self.switch.names if self.switch else ()
+        self.cycle = CycleKernel(model, moving, supplied) if supplied else None
+        names = self.cycle.names if self.cycle else ()
         seen = np.ones(len(model.switch_names))
         places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
         self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
@@ -37,12 +37,12 @@ class ManyModules:
 
     def pace_at(self, inputs: Array) -> Pace | None:
         """How the design with these inputs goes through its cycle; None where nothing hangs on that."""
-        if self.switch is None:
+        if self.cycle is None:
             return None
         model = self._simulator.model
-        cycle = self._simulator.run(inputs, stages=list(self.switch.stages))
+        cycle = self._simulator.run(inputs, phases=list(self.cycle.phases))
         slow = _SLOW * float(inputs[model.index["horizon"]])
-        ends = {name: cycle.values[stage.stage.ends] for name, stage in model.stages.items()}
+        ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
         return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
 
     def __call__(self, columns: Array, workers: int = 1, pace: Pace | None = None) -> Array:
@@ -51,6 +51,6 @@ class ManyModules:
         `pace` is that of another design than the one it was compiled at, where the columns are modules of that.
         """
         pace = pace or self._pace
-        if self.switch is None or pace is None:
+        if self.cycle is None or pace is None:
             return self._arithmetic(columns, workers)
-        return self._arithmetic(stacked(columns, self.switch(columns, pace, workers)), workers)
+        return self._arithmetic(stacked(columns, self.cycle(columns, pace, workers)), workers)

@@ -1,6 +1,6 @@
 """The working cycle of many designs at once: the same heat equation, events and paths as the simulator's, compiled.
 
-Time runs in fixed steps of SDIRK2 (Alexander 1977, L-stable), one exact Newton step a stage. Where an event is passed
+Time runs in fixed steps of SDIRK2 (Alexander 1977, L-stable), one exact Newton step a phase. Where an event is passed
 the step is gone through once more in smaller ones. Every design is on its own: its bits do not hang on its neighbours.
 """
 
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Event, Path, Steady
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.solve.batch.phase_kernel import Passage, StageKernel, Steps
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.batch.phase_kernel import Passage, PhaseKernel, Steps
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ BLOCK = 512
 """Designs that go through the cycle together."""
 STEPS = Steps(of_pace=20, in_window=4, close=4, first=0.25)
 FREEZING = Steps(of_pace=40, in_window=4, close=4, first=1.0 / 16.0)
-"""Steps of a stage in which the polymer has a history."""
+"""Steps of a phase in which the polymer has a history."""
 """With these, times are within 0.2 % of the converged simulation (tests hold that for all shipped studies)."""
 
 
@@ -32,17 +32,17 @@ class Pace:
     """How the study's own design goes through the cycle: what the steps of all others are measured by."""
 
     times: Mapping[str, float]
-    """About how long each stage takes [s], by name."""
+    """About how long each phase takes [s], by name."""
     balances: Mapping[str, Array]
-    """State and current that stay where a stage ended, by stage."""
+    """State and current that stay where a phase ended, by phase."""
 
 
-class SwitchKernel:
+class CycleKernel:
     """The supplied rows of many designs of one model, as functions of some of its inputs."""
 
     def __init__(
         self,
-        model: Model,
+        model: DeviceFunctions,
         moving: Sequence[str],
         wanted: Collection[str],
         steps: Steps = STEPS,
@@ -52,24 +52,24 @@ class SwitchKernel:
         self.model = model
         rows = {row.name: row for row in model.table.supplied if row.name in wanted}
         self.names = tuple(rows)
-        ending = {s.stage.ends for s in model.stages.values() if self._must_end(s.stage.name, rows.values())}
-        self.stages = {
-            name: StageKernel(
-                model, stage, moving,
-                [row.name for row in stage.events if row.name in rows or row.name in ending],
-                [row.name for row in stage.paths if row.name in rows],
-                [row.name for row in stage.steadies if row.name in rows],
-                freezing if stage.stage.after else steps,
+        ending = {s.phase.ends for s in model.phases.values() if self._must_end(s.phase.name, rows.values())}
+        self.phases = {
+            name: PhaseKernel(
+                model, phase, moving,
+                [row.name for row in phase.events if row.name in rows or row.name in ending],
+                [row.name for row in phase.paths if row.name in rows],
+                [row.name for row in phase.steadies if row.name in rows],
+                freezing if phase.phase.after else steps,
             )
-            for name, stage in model.stages.items()
-            if any(row.stage == name for row in rows.values()) or stage.stage.ends in ending
+            for name, phase in model.phases.items()
+            if any(row.phase == name for row in rows.values()) or phase.phase.ends in ending
         }  # fmt: skip
 
     def _must_end(self, name: str, rows: Collection[Event | Path | Steady]) -> bool:
-        """Whether the end of a stage is needed: by its own paths and steady rows, or by a stage that comes after."""
-        mine = any(not isinstance(row, Event) for row in rows if row.stage == name)
-        after = [other.stage for other in self.model.stages.values() if other.stage.after == name]
-        return mine or any(self._must_end(s.name, rows) or any(r.stage == s.name for r in rows) for s in after)
+        """Whether the end of a phase is needed: by its own paths and steady rows, or by a phase that comes after."""
+        mine = any(not isinstance(row, Event) for row in rows if row.phase == name)
+        after = [other.phase for other in self.model.phases.values() if other.phase.after == name]
+        return mine or any(self._must_end(s.name, rows) or any(r.phase == s.name for r in rows) for s in after)
 
     def __call__(self, columns: Array, pace: Pace, workers: int = 1) -> Array:
         """Values of `names`, one row each, for designs whose moving inputs are the columns; infinite where never."""
@@ -91,9 +91,9 @@ class SwitchKernel:
         never = np.full(columns.shape[1], np.inf)
         values = dict.fromkeys(self.names, never)
         passed: dict[str, Passage] = {}
-        for name, stage in self.stages.items():
-            before = passed[stage.after].end if stage.after else None
-            passed[name] = stage.run(columns, before, pace.times[name], pace.balances.get(name))
+        for name, phase in self.phases.items():
+            before = passed[phase.after].end if phase.after else None
+            passed[name] = phase.run(columns, before, pace.times[name], pace.balances.get(name))
             ended = ~np.isnan(before[0]) if before is not None else np.ones(columns.shape[1], dtype=bool)
             values |= {row: np.where(ended, found, np.inf) for row, found in passed[name].values.items()}
         return {name: values[name] for name in self.names}

@@ -1,4 +1,4 @@
-"""One stage of the working cycle for a block of designs: compiled steps, events found by halving, paths added up."""
+"""One phase of the working cycle for a block of designs: compiled steps, events found by halving, paths added up."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.phase_model import StageModel
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.phase_model import PhaseFunctions
 from tvimdesign.solve.batch.elimination import newton_step
 from tvimdesign.solve.batch.kernel import Kernel, stacked
 
@@ -39,59 +39,59 @@ class Steps:
     first: float = 1.0
     """Length of the first window's steps over the others'; each window after it doubles them."""
     newton: int = 1
-    """Newton steps for each stage of the method."""
+    """Newton steps for each phase of the method."""
 
 
 @dataclass
 class Passage:
-    """A block of designs at the end of a stage."""
+    """A block of designs at the end of a phase."""
 
     values: dict[str, Array]
     """Events, paths and steady rows by name."""
     end: Array
-    """State at the event that ends the stage, a column each; NaN where that never happens."""
+    """State at the event that ends the phase, a column each; NaN where that never happens."""
 
 
-class StageKernel:
-    """One stage of one model as a function of its moving inputs, compiled."""
+class PhaseKernel:
+    """One phase of one model as a function of its moving inputs, compiled."""
 
     def __init__(
         self,
-        model: Model,
-        stage: StageModel,
+        model: DeviceFunctions,
+        phase: PhaseFunctions,
         moving: Sequence[str],
         events: Sequence[str],
         paths: Sequence[str],
         steadies: Sequence[str],
         steps: Steps,
     ) -> None:
-        """Write and compile the Newton step, what is watched, and what stays the same all through the stage."""
-        self.steps, self.after, self.size = steps, stage.stage.after, stage.state_size
+        """Write and compile the Newton step, what is watched, and what stays the same all through the phase."""
+        self.steps, self.after, self.size = steps, phase.phase.after, phase.state_size
         self.events, self.paths, self.steadies = list(events), list(paths), list(steadies)
-        self.integrals = np.array([row.reduce == "integral" for row in stage.paths if row.name in paths], dtype=bool)
-        self.ends = self.events.index(stage.stage.ends) if stage.stage.ends in self.events else None
+        self.integrals = np.array([row.reduce == "integral" for row in phase.paths if row.name in paths], dtype=bool)
+        self.ends = self.events.index(phase.phase.ends) if phase.phase.ends in self.events else None
         self.horizon = float(model.start[model.index["horizon"]])
         free = ca.SX.sym("moving", len(moving))
         inputs = ca.SX(ca.DM(model.start))
         for i, name in enumerate(moving):
             inputs[model.index[name]] = free[i]
-        self._write(stage, free, inputs, stage.stage.sign * inputs[model.index[stage.stage.drive]])
+        self._write(phase, free, inputs, phase.phase.sign * inputs[model.index[phase.phase.current_input]])
 
-    def _write(self, stage: StageModel, free: Any, inputs: Any, drive: Any) -> None:
+    def _write(self, phase: PhaseFunctions, free: Any, inputs: Any, profile: Any) -> None:
         state, base, step = ca.SX.sym("state", self.size), ca.SX.sym("base", self.size), ca.SX.sym("step")
-        watched = [_inlined(stage.watch(names), state, drive, inputs) for names in (self.events, self.paths)]
-        rates = _inlined(stage.rates, state, drive, inputs)
+        watched = [_inlined(phase.watch(names), state, profile, inputs) for names in (self.events, self.paths)]
+        rates = _inlined(phase.rates, state, profile, inputs)
         every, symbols, expressions = ca.extract_parametric(ca.vertcat(rates, *watched), free)
         bare = [symbol for symbol in ca.symvar(every) if ca.which_depends(symbol, free, 1, True)[0]]
         constants = ca.vertcat(*symbols, *bare)
         last = self.size + len(self.events)
         rates, gaps, samples = every[: self.size], every[self.size : last], every[last:]
         after = newton_step(state, state - base - step * rates)
-        before = ca.SX.sym("before", stage.begin.numel_in(0)) if self.after else ca.SX(0, 1)
+        before = ca.SX.sym("before", phase.begin.numel_in(0)) if self.after else ca.SX(0, 1)
         begin = (
-            stage.begin.call([before, inputs], True, False)[0]
+            phase.begin.call([before, inputs], True, False)[0]
             if self.after
-            else stage.initial.call([inputs], True, False)[0]
+            else phase.initial.call([inputs], True, False)[0]
         )
         self._constants = _kernel([free], ca.vertcat(*expressions, *bare))
         self._begin = _kernel([free, before], begin)
@@ -99,48 +99,49 @@ class StageKernel:
         self._gaps = _kernel([state, constants], gaps)
         self._samples = _kernel([state, constants], samples) if self.paths else None
         if self.steadies:
-            self._balance(stage, free, inputs)
+            self._balance(phase, free, inputs)
 
-    def _balance(self, stage: StageModel, free: Any, inputs: Any) -> None:
+    def _balance(self, phase: PhaseFunctions, free: Any, inputs: Any) -> None:
         """One Newton step to the steady state in which the ending event stays at zero, and the rows there."""
         unknowns = ca.SX.sym("unknowns", self.size + 1)
-        state, drive = unknowns[: self.size], unknowns[self.size]
+        state, profile = unknowns[: self.size], unknowns[self.size]
         equations = ca.vertcat(
-            _inlined(stage.rates, state, drive, inputs), _inlined(stage.watch([stage.stage.ends]), state, drive, inputs)
+            _inlined(phase.rates, state, profile, inputs),
+            _inlined(phase.watch([phase.phase.ends]), state, profile, inputs),
         )
         self._rest = _kernel([unknowns, free], newton_step(unknowns, equations))
-        self._steady = _kernel([unknowns, free], _inlined(stage.watch(self.steadies), state, drive, inputs))
+        self._steady = _kernel([unknowns, free], _inlined(phase.watch(self.steadies), state, profile, inputs))
 
     def run(self, columns: Array, before: Array | None, pace: float, balance: Array | None) -> Passage:
-        """Go through the stage; `before` are the states it starts from, where that is not everything at ambient."""
+        """Go through the phase; `before` are the states it starts from, where that is not everything at ambient."""
         count = columns.shape[1]
         constants = self._constants(columns)
         state = self._begin(columns if before is None else stacked(columns, before))
-        march = _March(self, state, constants)
+        integrate = _March(self, state, constants)
         times = np.full((len(self.events), count), np.inf)
         passage = Passage({}, np.full((self.size, count), np.nan))
         sums = np.full((len(self.paths), count), np.inf)
         lost = np.isnan(state[0])
-        begun = self._gaps(march.watched(state)) >= 0.0
+        begun = self._gaps(integrate.watched(state)) >= 0.0
         times[begun] = 0.0
         if self.ends is not None:
             passage.end[:, begun[self.ends]] = state[:, begun[self.ends]]
         usual = pace / self.steps.of_pace
         step = self.steps.first * usual
-        while march.time < self.horizon and not np.all(np.isfinite(times) | lost):
-            window = march.window(min(step, (self.horizon - march.time) / self.steps.in_window))
+        while integrate.time < self.horizon and not np.all(np.isfinite(times) | lost):
+            window = integrate.window(min(step, (self.horizon - integrate.time) / self.steps.in_window))
             for event in range(len(self.events)):
                 here = np.flatnonzero(np.isinf(times[event]) & ~lost & (window.gaps[event] >= 0.0))
                 if not here.size:
                     continue
-                found = march.close(window, event, here, paths=event == self.ends)
+                found = integrate.close(window, event, here, paths=event == self.ends)
                 times[event, here] = found.times
                 if event == self.ends:
                     passage.end[:, here], sums[:, here] = found.states, found.sums
-            lost |= np.isnan(march.state[0])
-            step = step * _GROWTH if march.time > _LATE * pace else min(2.0 * step, usual)
-        # A maximum is one even of a stage that never ends, as in the simulator.
-        highest = np.maximum(march.sums, -np.inf)
+            lost |= np.isnan(integrate.state[0])
+            step = step * _GROWTH if integrate.time > _LATE * pace else min(2.0 * step, usual)
+        # A maximum is one even of a phase that never ends, as in the simulator.
+        highest = np.maximum(integrate.sums, -np.inf)
         sums = np.where(np.isinf(sums) & ~self.integrals[:, None], highest, sums) if self.paths else sums
         passage.values |= dict(zip(self.events, times, strict=True)) | dict(zip(self.paths, sums, strict=True))
         if self.steadies:
@@ -184,10 +185,10 @@ class _Close:
 class _March:
     """A block of designs on its way through time, all at the same moment."""
 
-    def __init__(self, stage: StageKernel, state: Array, constants: Array) -> None:
-        self.stage, self.state, self.constants, self.time = stage, state, constants, 0.0
+    def __init__(self, phase: PhaseKernel, state: Array, constants: Array) -> None:
+        self.phase, self.state, self.constants, self.time = phase, state, constants, 0.0
         self.samples = self._sampled(state, constants)
-        integrals = stage.integrals[:, None]
+        integrals = phase.integrals[:, None]
         self.sums = np.where(integrals, 0.0, self.samples)
 
     def watched(self, state: Array, constants: Array | None = None) -> Array:
@@ -195,39 +196,39 @@ class _March:
         return stacked(state, self.constants if constants is None else constants)
 
     def _sampled(self, state: Array, constants: Array) -> Array:
-        kernel = self.stage._samples
+        kernel = self.phase._samples
         return kernel(self.watched(state, constants)) if kernel else np.empty((0, state.shape[1]))
 
     def window(self, step: float) -> _Window:
         """Go on by some steps."""
         begin, states, sums = self.time, [], []
-        for _ in range(self.stage.steps.in_window):
+        for _ in range(self.phase.steps.in_window):
             states.append(self.state)
             sums.append(self.sums)
             self.state = self._step(self.state, self.constants, np.full(self.state.shape[1], step))
             before, self.samples = self.samples, self._sampled(self.state, self.constants)
             self.sums = self._added(self.sums, before, self.samples, step)
-        self.time = begin + step * self.stage.steps.in_window
+        self.time = begin + step * self.phase.steps.in_window
         states.append(self.state)
         sums.append(self.sums)
-        return _Window(begin, step, states, sums, self.stage._gaps(self.watched(self.state)))
+        return _Window(begin, step, states, sums, self.phase._gaps(self.watched(self.state)))
 
     def _added(self, sums: Array, before: Array, now: Array, step: Array | float) -> Array:
         """Integrals by the trapezoid, maxima of the samples."""
-        return np.where(self.stage.integrals[:, None], sums + 0.5 * step * (before + now), np.maximum(sums, now))
+        return np.where(self.phase.integrals[:, None], sums + 0.5 * step * (before + now), np.maximum(sums, now))
 
     def _step(self, state: Array, constants: Array, step: Array) -> Array:
-        """One step of SDIRK2: two implicit stages, the second is the result."""
-        size, newton = self.stage.size, self.stage._newton
+        """One step of SDIRK2: two implicit phases, the second is the result."""
+        size, newton = self.phase.size, self.phase._newton
         given = stacked(state, state, GAMMA * step[None, :], constants)
         after = np.empty(state.shape)
-        for _ in range(self.stage.steps.newton):
+        for _ in range(self.phase.steps.newton):
             newton.run(given, after)
             given[:size] = after
         rise = (after - state) / GAMMA
         np.add(state, (1.0 - GAMMA) * rise, out=given[size : 2 * size])
         np.add(state, rise, out=given[:size])
-        for _ in range(self.stage.steps.newton):
+        for _ in range(self.phase.steps.newton):
             newton.run(given, after)
             given[:size] = after
         return after
@@ -238,7 +239,7 @@ class _March:
         states = np.array([state[:, here] for state in window.states])
         low = self._halved(states, constants, event)
         column = np.arange(len(here))
-        count = self.stage.steps.close
+        count = self.phase.steps.close
         step = np.full(len(here), window.step / count)
         fine = [states[low, :, column].T]
         for _ in range(count):
@@ -278,7 +279,7 @@ class _March:
         return low
 
     def _gap(self, states: Array, constants: Array, event: int) -> Array:
-        found: Array = self.stage._gaps(self.watched(states, constants))[event]
+        found: Array = self.phase._gaps(self.watched(states, constants))[event]
         return found
 
 

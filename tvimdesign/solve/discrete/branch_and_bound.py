@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.solve.discrete.discrete_choices import SAME_SIZE, Box, is_one
-from tvimdesign.solve.discrete.relaxation import Tree, order
+from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.nlp.solver_run import Run
 
 GAP = 1e-6
 """Share by which a box must promise better than what is known to be looked into."""
-_TOLD = 20
+_DATA = 20
 """Boxes between two words of progress."""
 
 
@@ -29,7 +29,7 @@ _TOLD = 20
 class Node:
     """A box that may hold better combinations: its bound, and its best design where one was found."""
 
-    tree: Tree
+    relaxation: Relaxation
     box: Box
     bound: float
     run: Run | None
@@ -41,7 +41,7 @@ class Node:
 class BranchAndBound:
     """One search over the trees of all records; `found` are the runs of single combinations, by tree and box."""
 
-    trees: Sequence[Tree]
+    trees: Sequence[Relaxation]
     keep: int
     """Combinations that are to be found for certain: bounds are held against the last of them."""
     found: dict[tuple[int, Box], Run] = field(default_factory=dict)
@@ -54,21 +54,21 @@ class BranchAndBound:
 
     def run(self) -> None:
         """Search until no box promises better."""
-        self._bounded = [np.zeros(tree.sizes.shape, dtype=bool) for tree in self.trees]
-        for tree in self.trees:
-            whole = tree.sizes.whole
-            for optimum in tree.optima:
-                self._add(tree, whole, optimum.start.objective, optimum, 0)
-                self._try(tree, tree.sizes.nearest(tree.values(optimum), whole), optimum)
-            if not tree.optima:
-                self._add(tree, whole, -math.inf, None, 0)
+        self._bounded = [np.zeros(relaxation.sizes.shape, dtype=bool) for relaxation in self.trees]
+        for relaxation in self.trees:
+            whole = relaxation.sizes.whole
+            for optimum in relaxation.optima:
+                self._add(relaxation, whole, optimum.start.objective, optimum, 0)
+                self._try(relaxation, relaxation.sizes.nearest(relaxation.values(optimum), whole), optimum)
+            if not relaxation.optima:
+                self._add(relaxation, whole, -math.inf, None, 0)
         while self._open:
             node = self._open.pop(min(range(len(self._open)), key=lambda i: self._urgency(self._open[i])))
             if node.bound >= self.cutoff:
-                self._bounded[node.tree.place][_slices(node.box)] = True
+                self._bounded[node.relaxation.place][_slices(node.box)] = True
             else:
                 self._split(node)
-                self._tell(node.tree)
+                self._tell(node.relaxation)
         self._begin_afresh()
 
     def _begin_afresh(self) -> None:
@@ -101,44 +101,46 @@ class BranchAndBound:
 
     def _split(self, node: Node) -> None:
         if is_one(node.box):
-            self._try(node.tree, node.box, node.run)
+            self._try(node.relaxation, node.box, node.run)
             return
-        if node.run is not None and node.tree.sizes.are_sizes(node.tree.values(node.run), node.box):
-            self._try(node.tree, node.tree.sizes.nearest(node.tree.values(node.run), node.box), node.run)
+        if node.run is not None and node.relaxation.sizes.are_sizes(node.relaxation.values(node.run), node.box):
+            self._try(
+                node.relaxation, node.relaxation.sizes.nearest(node.relaxation.values(node.run), node.box), node.run
+            )
         for box in self._halves(node):
             self._bound(node, box)
 
     def _bound(self, node: Node, box: Box) -> None:
         """Solve one half of a box, and keep it where it may hold better combinations."""
-        tree, near = node.tree, node.run
-        if near is not None and _inside(tree, near, box):
-            self._add(tree, box, node.bound, near, node.depth + 1)
+        relaxation, near = node.relaxation, node.run
+        if near is not None and _inside(relaxation, near, box):
+            self._add(relaxation, box, node.bound, near, node.depth + 1)
             return
-        run, certain = tree.best_within(box, near)
+        run, certain = relaxation.best_within(box, near)
         if run is None:
             if not certain:
-                self._add(tree, box, node.bound, near, node.depth + 1)
+                self._add(relaxation, box, node.bound, near, node.depth + 1)
             return
         objective = run.start.objective
         if math.isfinite(node.bound):
             self.inside = max(self.inside, (node.bound - objective) / abs(node.bound))
-        self._add(tree, box, objective, run, node.depth + 1)
+        self._add(relaxation, box, objective, run, node.depth + 1)
 
-    def _add(self, tree: Tree, box: Box, bound: float, run: Run | None, depth: int) -> None:
-        self._open.append(Node(tree, box, bound, run, depth, self._made))
+    def _add(self, relaxation: Relaxation, box: Box, bound: float, run: Run | None, depth: int) -> None:
+        self._open.append(Node(relaxation, box, bound, run, depth, self._made))
         self._made += 1
 
-    def _try(self, tree: Tree, box: Box, near: Run | None) -> None:
+    def _try(self, relaxation: Relaxation, box: Box, near: Run | None) -> None:
         """Solve one combination; the better of two where another tree came to it too."""
-        key = (tree.place, box)
-        run, _ = tree.exactly(box, near)
+        key = (relaxation.place, box)
+        run, _ = relaxation.exactly(box, near)
         if run is not None and (key not in self.found or order(run) < order(self.found[key])):
             self.found[key] = run
 
     def _halves(self, node: Node) -> tuple[Box, Box]:
         """Split where a number lies farthest from its sizes, in shares of it; else the longest list in the middle."""
-        sizes = node.tree.sizes
-        values = node.tree.values(node.run) if node.run is not None else {}
+        sizes = node.relaxation.sizes
+        values = node.relaxation.values(node.run) if node.run is not None else {}
         chosen, cut, far = -1, 0, 0.0
         for i, (name, listed, (first, last)) in enumerate(zip(sizes.names, sizes.sizes, node.box, strict=True)):
             if first == last or name not in values:
@@ -155,19 +157,19 @@ class BranchAndBound:
         before, after = node.box[:chosen], node.box[chosen + 1 :]
         return (*before, (first, cut), *after), (*before, (cut + 1, last), *after)
 
-    def _tell(self, tree: Tree) -> None:
+    def _tell(self, relaxation: Relaxation) -> None:
         self._told += 1
-        if self._told % _TOLD == 1:
+        if self._told % _DATA == 1:
             left = len(self._open)
-            tree.optimizer.progress(f"{len(self.found)} combinations solved, {left} boxes of them still open")
+            relaxation.optimizer.progress(f"{len(self.found)} combinations solved, {left} boxes of them still open")
 
 
-def _inside(tree: Tree, run: Run, box: Box) -> bool:
+def _inside(relaxation: Relaxation, run: Run, box: Box) -> bool:
     """Whether a run's own numbers lie in a box."""
-    values = tree.values(run)
+    values = relaxation.values(run)
     return all(
         low * (1.0 - SAME_SIZE) <= values[name] <= high * (1.0 + SAME_SIZE)
-        for name, (low, high) in tree.sizes.ends(box).items()
+        for name, (low, high) in relaxation.sizes.ends(box).items()
     )
 
 

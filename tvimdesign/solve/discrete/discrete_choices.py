@@ -84,22 +84,22 @@ def is_one(box: Box) -> bool:
     return all(first == last for first, last in box)
 
 
-def listed_sizes(study: Study, table: Table) -> Sizes:
+def discrete_sizes(study: Study, table: Table) -> Sizes:
     """The numbers whose sizes a study lists."""
     listed = {
         name: tuple(sorted(float(value) for value in vary.values))
         for name, vary in study.vary.items()
-        if isinstance(vary, Options) and isinstance(table.row(name), Input)
+        if isinstance(vary, Options) and isinstance(table.quantity(name), Input)
     }
     return Sizes(tuple(listed), tuple(listed.values()))
 
 
-def listed_records(study: Study, table: Table) -> list[dict[str, str]]:
+def discrete_records(study: Study, table: Table) -> list[dict[str, str]]:
     """Every combination of the records and options a study lists; one that chooses nothing where it lists none."""
     listed = {
         name: [str(value) for value in vary.values]
         for name, vary in study.vary.items()
-        if isinstance(vary, Options) and not isinstance(table.row(name), Input)
+        if isinstance(vary, Options) and not isinstance(table.quantity(name), Input)
     }
     return [dict(zip(listed, combination, strict=True)) for combination in itertools.product(*listed.values())]
 

@@ -14,10 +14,10 @@ import numpy as np
 
 from tvimdesign.solve.discrete.branch_and_bound import GAP
 from tvimdesign.solve.discrete.discrete_choices import Box
-from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solver_run import Run
 
-_TOLD = 100
+_DATA = 100
 """Combinations between two words of progress."""
 
 
@@ -35,13 +35,13 @@ class Enumeration:
     """Largest share by which a design was better than its bound: zero if bounds were bounds."""
 
 
-def enumerate_all(tree: Tree) -> dict[Box, Run]:
+def enumerate_all(relaxation: Relaxation) -> dict[Box, Run]:
     """The best design of every combination that has one, each solved."""
     found: dict[Box, Run] = {}
-    for number, box in enumerate(tree.sizes.each()):
-        if number % _TOLD == 0:
-            tree.optimizer.progress(f"proof: combination {number + 1} of {tree.sizes.count}")
-        run = tree.thoroughly(box, _nearest(found, box))
+    for number, box in enumerate(relaxation.sizes.each()):
+        if number % _DATA == 0:
+            relaxation.optimizer.progress(f"proof: combination {number + 1} of {relaxation.sizes.count}")
+        run = relaxation.thoroughly(box, _nearest(found, box))
         if run is not None:
             found[box] = run
     return found
@@ -50,10 +50,10 @@ def enumerate_all(tree: Tree) -> dict[Box, Run]:
 class _Valleys:
     """Designs of combinations by the optimum with all sizes free that they descend from, neighbour by neighbour."""
 
-    def __init__(self, tree: Tree) -> None:
+    def __init__(self, relaxation: Relaxation) -> None:
         """Nothing is solved yet."""
-        self._tree = tree
-        self._found: list[dict[Box, Run]] = [{} for _ in tree.optima]
+        self._tree = relaxation
+        self._found: list[dict[Box, Run]] = [{} for _ in relaxation.optima]
 
     def solved(self, box: Box, cutoff: float) -> list[Run | None]:
         """The design of a combination in every valley whose optimum is below a cutoff: none in it is below that.
@@ -70,24 +70,24 @@ class _Valleys:
         return runs or [self._tree.thoroughly(box, None)]
 
 
-def account_for_all(tree: Tree, keep: int, known: Mapping[Box, Run]) -> Enumeration:
+def account_for_all(relaxation: Relaxation, keep: int, known: Mapping[Box, Run]) -> Enumeration:
     """The best `keep` combinations, as far as bounds are bounds; designs of some are `known` from a search."""
     from tvimdesign.solve.discrete.least_cost import LeastCost  # with the compiler, which other runs do without
 
     every = Enumeration(dict(known))
-    tree.optimizer.progress(f"proof: bounds of {tree.sizes.count} combinations")
-    least = LeastCost(tree)
+    relaxation.optimizer.progress(f"proof: bounds of {relaxation.sizes.count} combinations")
+    least = LeastCost(relaxation)
     least.find(_cutoff(every.found, keep))
     every.broken = int(np.sum(least.broken))
-    valleys = _Valleys(tree)
+    valleys = _Valleys(relaxation)
     order = [k for k in np.argsort(least.bounds, kind="stable") if not least.broken[k]]
     for number, k in enumerate(order):
         box, bound, cutoff = least.boxes[k], float(least.bounds[k]), _cutoff(every.found, keep)
         if bound >= cutoff:
             every.bounded = sum(least.boxes[left] not in every.found for left in order[number:])
             break
-        if number % _TOLD == 0:
-            tree.optimizer.progress(f"proof: {number} combinations solved, at most {len(order) - number} left")
+        if number % _DATA == 0:
+            relaxation.optimizer.progress(f"proof: {number} combinations solved, at most {len(order) - number} left")
         found = [*valleys.solved(box, cutoff), every.found.get(box)]
         best = min((run for run in found if run is not None), key=lambda run: run.start.objective, default=None)
         if best is not None:

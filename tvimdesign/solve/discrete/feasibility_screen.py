@@ -23,7 +23,7 @@ _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init"
 Array = NDArray[np.float64]
 
 
-class Screen:
+class FeasibilityScreen:
     """The arithmetic limits of one problem, and the least by which the worst of them is broken within some ends."""
 
     def __init__(self, optimizer: Optimizer) -> None:

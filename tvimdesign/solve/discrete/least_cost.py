@@ -12,11 +12,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.solve.discrete.relaxation import Tree
+from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.discrete.split import Split
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM
 from tvimdesign.solve.nlp.solver_run import Array, Run
-from tvimdesign.solve.optimizer.multistart import Beginnings
+from tvimdesign.solve.optimizer.multistart import Multistart
 
 _MORE_STARTS = 4
 """Points of its own at which the switch's share is begun, so that it does not rest on the search's starts alone."""
@@ -27,9 +27,9 @@ _GAP = 1e-3
 class LeastCost:
     """Bounds of all combinations of one tree."""
 
-    def __init__(self, tree: Tree) -> None:
+    def __init__(self, relaxation: Relaxation) -> None:
         """Nothing is solved yet."""
-        self._tree, self._split = tree, Split(tree.optimizer, tree.sizes)
+        self._tree, self._split = relaxation, Split(relaxation.optimizer, relaxation.sizes)
         self.boxes = self._split.boxes
         self.bounds: Array = np.full(len(self.boxes), -np.inf)
         """Of every combination; minus infinity where nothing is known."""
@@ -86,5 +86,5 @@ class LeastCost:
         """The unknowns at the study's start and at points that the search has not begun at."""
         optimizer, asked = self._tree.optimizer, self._tree.optimizer.study.solver
         options = asked.model_copy(update={"starts": _MORE_STARTS + 1, "seed": asked.seed + 1})
-        points = Beginnings(optimizer.problem, optimizer.model, optimizer.simulator, options, lambda _: None).points()
+        points = Multistart(optimizer.problem, optimizer.model, optimizer.simulator, options, lambda _: None).points()
         return [optimizer.guess(point) for point in points]

@@ -7,20 +7,20 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
-from tvimdesign.solve.discrete.feasibility_screen import Screen
+from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
-from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, Work
+from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
+from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
-from tvimdesign.solve.optimizer.stepping_stone import SteppingStone
 
 NO_DESIGN = "Infeasible_Problem_Detected"
 """IPOPT's word for a point from which no step brings the limits nearer."""
 
 
 @dataclass(eq=False)
-class Tree:
+class Relaxation:
     """The problem of one choice of records, its free optima, and the work that was done on it."""
 
     place: int
@@ -28,8 +28,8 @@ class Tree:
     optimizer: Optimizer
     records: dict[str, str]
     sizes: Sizes
-    work: Work
-    stepping_stone: SteppingStone = field(init=False)
+    work: SolverEffort
+    constant_current_optimum: ConstantCurrentOptimum = field(init=False)
     optima: list[Run] = field(init=False, default_factory=list)
     """A run for each different optimum that the starts came to with every size free, the best first."""
     _ends: list[Run] = field(init=False, default_factory=list)
@@ -37,22 +37,22 @@ class Tree:
 
     def __post_init__(self) -> None:
         """Nothing is solved yet."""
-        self.stepping_stone = SteppingStone(self.optimizer)
+        self.constant_current_optimum = ConstantCurrentOptimum(self.optimizer)
 
     @cached_property
-    def _screen(self) -> Screen:
-        return Screen(self.optimizer)
+    def _screen(self) -> FeasibilityScreen:
+        return FeasibilityScreen(self.optimizer)
 
     def starts(self) -> list[Run]:
         """A run from every start with every size free, and what different optima they are."""
         runs: list[Run] = []
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)
-        for number, begin in enumerate(self.optimizer.beginnings.points()):
+        for number, begin in enumerate(self.optimizer.multistart.points()):
             self.optimizer.progress(f"start {number + 1} of {count}")
-            run = self.optimizer.solve(begin=self.stepping_stone.beyond(begin))
+            run = self.optimizer.solve(begin=self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
-                run = second_try.from_peace(run)
+                run = second_try.from_conflict_search(run)
             run.start = replace(
                 run.start, begin=self.optimizer.vector.free_values(begin), choices=dict(self.records),
                 relaxed=bool(self.sizes.names),

@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.solve.discrete.discrete_choices import Sizes
 from tvimdesign.solve.discrete.side_by_side import SideBySide
-from tvimdesign.solve.nlp.constraints import on_switch
+from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.ipopt import NLP, solver_of
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.arithmetic import Arithmetic
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
@@ -44,7 +44,7 @@ class Split:
         self.rest = [i for i in range(len(names)) if i not in self._listed]
         """Places of the free numbers that are not listed."""
         table, minimize = optimizer.table, optimizer.study.minimize
-        self._goal = Goal({name: weight for name, weight in minimize.items() if on_switch(table, name)})
+        self._goal = Objective({name: weight for name, weight in minimize.items() if on_cycle(table, name)})
 
     @cached_property
     def _scalar(self) -> Any:

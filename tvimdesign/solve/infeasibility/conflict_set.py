@@ -1,4 +1,4 @@
-"""Why a study has no design: the design that breaks its limits least, and a smallest set of limits that quarrel.
+"""Why a study has no design: the design that breaks its limits least, and a smallest set of limits that conflict.
 
 The set is found by deletion: of the limits that press on the least violation, each is left out in turn, and stays out
 where the rest still cannot be kept. Any one of those left, moved far enough, makes peace in the set; how far it must
@@ -16,10 +16,10 @@ from typing import Literal
 import numpy as np
 
 from tvimdesign.base.units import format_quantity
-from tvimdesign.solve.infeasibility.elastic_mode import AT_PEACE, Elastic, Settled
+from tvimdesign.solve.infeasibility.elastic_mode import AT_PEACE, ElasticMode, Settled
 from tvimdesign.solve.infeasibility.infeasibility_proof import proved, ranges_of
-from tvimdesign.solve.nlp.constraints import Limit, in_words, make_limit, on_switch
-from tvimdesign.solve.nlp.solution import Quarrel, Side
+from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint, on_cycle
+from tvimdesign.solve.nlp.solution import ConflictSet, Side
 from tvimdesign.solve.nlp.solver_run import Array, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -32,30 +32,30 @@ _PROOF_BOXES = 2000
 
 
 @dataclass(frozen=True)
-class Peace:
-    """What came of asking: the run that breaks least with its quarrel, or a run that keeps all limits."""
+class ConflictSearch:
+    """What came of asking: the run that breaks least with its conflict, or a run that keeps all limits."""
 
     run: Run
-    quarrel: Quarrel | None
+    conflict_set: ConflictSet | None
 
 
-def make_peace(optimizer: Optimizer, failed: Sequence[Run], progress: Progress) -> Peace | None:
+def find_conflicts(optimizer: Optimizer, failed: Sequence[Run], progress: Progress) -> ConflictSearch | None:
     """Ask of a problem no start of which converged what can be had; None where not even the switch can be found."""
     progress("no start keeps all limits: looking for the design that breaks least")
-    elastic = Elastic(optimizer)
+    elastic = ElasticMode(optimizer)
     least = _least_violation(elastic, failed)
     if least is None:
         return None
-    if least.peace:
+    if least.conflict_search:
         run = optimizer.solve(begin=least.run.inputs, unknowns=least.run.unknowns)
         if not run.start.converged:
             run = least.run
             run.start = replace(run.start, status="Feasible_Point_Found", converged=False)
-        return Peace(run, None)
-    progress("looking for the smallest set of limits that quarrel")
-    members, ends = _quarrelling(elastic, least)
+        return ConflictSearch(run, None)
+    progress("looking for the smallest set of limits that conflict")
+    members, ends = _conflicting(elastic, least)
     least.run.start = replace(least.run.start, status="Infeasible_Problem_Detected", converged=False)
-    return Peace(least.run, _told(elastic, least, members, ends, progress))
+    return ConflictSearch(least.run, _told(elastic, least, members, ends, progress))
 
 
 class SecondTry:
@@ -66,13 +66,13 @@ class SecondTry:
         self._optimizer = optimizer
 
     @cached_property
-    def _elastic(self) -> Elastic:
-        return Elastic(self._optimizer)
+    def _elastic(self) -> ElasticMode:
+        return ElasticMode(self._optimizer)
 
-    def from_peace(self, run: Run) -> Run:
+    def from_conflict_search(self, run: Run) -> Run:
         """A run that converged after all, else the one that did not; its start says how many iterations all took."""
         settled = self._elastic.settle(_weights(self._optimizer), _begin(self._optimizer, run))
-        if not settled.peace:
+        if not settled.conflict_search:
             return run
         again = self._optimizer.solve(begin=settled.run.inputs, unknowns=settled.run.unknowns)
         if not again.start.converged:
@@ -89,7 +89,7 @@ def _weights(optimizer: Optimizer) -> Array:
     return np.array([1.0 if limit.origin == "require" else _HEAVY for limit in optimizer.problem.limits])
 
 
-def _least_violation(elastic: Elastic, failed: Sequence[Run]) -> Settled | None:
+def _least_violation(elastic: ElasticMode, failed: Sequence[Run]) -> Settled | None:
     """The least sum of slacks from where the starts ended, else from where they began."""
     weights = _weights(elastic.optimizer)
     found: list[Settled] = []
@@ -99,7 +99,7 @@ def _least_violation(elastic: Elastic, failed: Sequence[Run]) -> Settled | None:
             settled = elastic.settle(weights, _begin(elastic.optimizer, run))
         if settled.converged:
             found.append(settled)
-        if settled.peace:
+        if settled.conflict_search:
             break
     return min(found, key=lambda one: float(weights @ one.slacks), default=None)
 
@@ -111,14 +111,14 @@ def _begin(optimizer: Optimizer, run: Run) -> Array:
     return inputs
 
 
-def _quarrelling(elastic: Elastic, least: Settled) -> tuple[list[int], Array]:
+def _conflicting(elastic: ElasticMode, least: Settled) -> tuple[list[int], Array]:
     """An irreducible set of limits that cannot be kept together, and what the ends of ranges have to do with it."""
     limits, weights = elastic.optimizer.problem.limits, np.ones(elastic.count)
 
     def kept_apart(within: Collection[int]) -> Settled | None:
         """The settlement where the limits cannot all be kept; None where they can, or it is not known."""
         settled = elastic.settle(weights, least.run.inputs, least.run.unknowns, within)
-        return None if settled.peace or not settled.converged else settled
+        return None if settled.conflict_search or not settled.converged else settled
 
     candidates = [int(k) for k in np.flatnonzero((least.pressing > _FAINT) | (least.slacks > AT_PEACE))]
     settled = kept_apart(candidates)
@@ -135,7 +135,7 @@ def _quarrelling(elastic: Elastic, least: Settled) -> tuple[list[int], Array]:
     return candidates, settled.ends
 
 
-def _told(elastic: Elastic, least: Settled, members: Sequence[int], ends: Array, progress: Progress) -> Quarrel:
+def _told(elastic: ElasticMode, least: Settled, members: Sequence[int], ends: Array, progress: Progress) -> ConflictSet:
     optimizer = elastic.optimizer
     limits = optimizer.problem.limits
     broken = [int(k) for k in np.flatnonzero(least.slacks > AT_PEACE)]
@@ -145,7 +145,7 @@ def _told(elastic: Elastic, least: Settled, members: Sequence[int], ends: Array,
         move, beside = _alone(elastic, least, k)
         side = _moved(optimizer, limits[k], float(least.slacks[k]), move)
         sides.append(replace(side, beside=tuple(in_words(limits[other], optimizer.table) for other in beside)))
-    return Quarrel(
+    return ConflictSet(
         broken=tuple(
             _moved(optimizer, limits[k], float(least.slacks[k]), float(least.slacks[k]) if len(broken) == 1 else None)
             for k in sorted(broken, key=lambda one: -least.slacks[one])
@@ -156,7 +156,7 @@ def _told(elastic: Elastic, least: Settled, members: Sequence[int], ends: Array,
     )
 
 
-def _alone(elastic: Elastic, least: Settled, member: int) -> tuple[float | None, list[int]]:
+def _alone(elastic: ElasticMode, least: Settled, member: int) -> tuple[float | None, list[int]]:
     """How far one limit must move, in its scale, for all others to hold; else which others do not, none if unknown."""
     weights = np.full(elastic.count, _HEAVY)
     weights[member] = 1.0
@@ -167,7 +167,7 @@ def _alone(elastic: Elastic, least: Settled, member: int) -> tuple[float | None,
     return (None, others) if others else (float(settled.slacks[member]), [])
 
 
-def _moved(optimizer: Optimizer, limit: Limit, by: float, move: float | None) -> Side:
+def _moved(optimizer: Optimizer, limit: Constraint, by: float, move: float | None) -> Side:
     table = optimizer.table
     sign = 1.0 if limit.sense == "<=" else -1.0
     place = None if move is None else limit.limit + sign * move * limit.scale
@@ -182,14 +182,14 @@ def _ends_in_words(optimizer: Optimizer, multipliers: Array) -> list[str]:
     for i in (int(one) for one in order if abs(multipliers[one]) > _FAINT):
         free, upper = optimizer.free[i], multipliers[i] > 0.0
         sense: Literal["<=", ">="] = "<=" if upper else ">="
-        limit = make_limit(optimizer.table, free.name, sense, free.upper if upper else free.lower, "vary")
+        limit = make_constraint(optimizer.table, free.name, sense, free.upper if upper else free.lower, "vary")
         found.append(in_words(limit, optimizer.table))
     return found
 
 
-def _proved(optimizer: Optimizer, limits: Sequence[Limit]) -> bool:
+def _proved(optimizer: Optimizer, limits: Sequence[Constraint]) -> bool:
     """Whether bounds alone prove that the set cannot hold; only algebraic limits can be."""
     table = optimizer.table
-    if any(on_switch(table, limit.output) for limit in limits):
+    if any(on_cycle(table, limit.output) for limit in limits):
         return False
     return proved(ranges_of(optimizer.study, optimizer.catalog, table), limits, _PROOF_BOXES)

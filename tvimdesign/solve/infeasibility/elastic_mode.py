@@ -17,7 +17,7 @@ import numpy as np
 
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.solve.nlp.ipopt import NLP, solver_of
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -38,7 +38,7 @@ class Settled:
     slacks: Array
     """How far each limit was broken, in its scale; limits that did not count have none."""
     pressing: Array
-    """Multiplier of each limit: its weight where it gives, above 0 where it is part of the quarrel."""
+    """Multiplier of each limit: its weight where it gives, above 0 where it is part of the conflict."""
     ends: Array
     """Multipliers of the ranges of the free numbers: above 0 at an upper end that is in the way, below at a lower."""
 
@@ -48,12 +48,12 @@ class Settled:
         return self.run.start.converged
 
     @property
-    def peace(self) -> bool:
+    def conflict_search(self) -> bool:
         """Whether all limits that counted can be kept."""
         return self.converged and bool(np.max(self.slacks, initial=0.0) <= AT_PEACE)
 
 
-class Elastic:
+class ElasticMode:
     """An optimizer's problem with a slack on every limit."""
 
     def __init__(self, optimizer: Optimizer) -> None:
@@ -81,20 +81,20 @@ class Elastic:
         optimizer, problem = self.optimizer, self.optimizer.problem
         clock = time.perf_counter()
         x = optimizer.guess(begin) if unknowns is None else unknowns
-        p = optimizer.parameters(Goal(optimizer.study.minimize))
+        p = optimizer.parameters(Objective(optimizer.study.minimize))
         counts = np.isin(np.arange(self.count), list(within)) if within else np.ones(self.count, dtype=bool)
         residuals = np.asarray(self._rows(x, p)).ravel()[self.equations : self.equations + self.count]
         slacks = np.where(counts, np.maximum(np.nan_to_num(residuals), 0.0) + _ROOM, 0.0)
         lower, upper = optimizer.vector.bounds({})
-        traded, rest = len(problem.traded), problem.slope_count + problem.peak_count
+        objectives, rest = len(problem.objectives), problem.slope_count + problem.peak_count
         no_equations = np.zeros(self.equations)
         answer = self._solver(
             x0=np.concatenate([x, slacks]), p=np.concatenate([p, weights]),
             lbx=np.concatenate([lower, np.zeros(self.count)]),
             ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
-            lbg=np.concatenate([no_equations, np.full(self.count + traded + rest, -np.inf)]),
+            lbg=np.concatenate([no_equations, np.full(self.count + objectives + rest, -np.inf)]),
             ubg=np.concatenate([
-                no_equations, np.where(counts, 0.0, np.inf), np.full(traded, np.inf), np.zeros(rest),
+                no_equations, np.where(counts, 0.0, np.inf), np.full(objectives, np.inf), np.zeros(rest),
             ]),
         )  # fmt: skip
         return self._settled(answer, begin, time.perf_counter() - clock)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Event
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.solve.infeasibility.interval import OPERATIONS, Interval, add, anything, multiply, point, subtract
 
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ class Enclosure:
     Of what a simulation supplies nothing is known, but that a time is never negative.
     """
 
-    def __init__(self, model: Model, outputs: Sequence[str], free: Sequence[str]) -> None:
+    def __init__(self, model: DeviceFunctions, outputs: Sequence[str], free: Sequence[str]) -> None:
         """Compile the outputs."""
         self.model, self.outputs, self.free = model, tuple(outputs), tuple(free)
         self._places = [model.index[name] for name in free]
@@ -95,9 +95,9 @@ class Enclosure:
     @cached_property
     def _slope_walk(self) -> Walk:
         inputs = ca.SX.sym("inputs", len(self.model.names))
-        switch = ca.SX.sym("switch", len(self.model.switch_names))
-        slopes = ca.jacobian(self._function(inputs, switch), inputs)[:, self._places]
-        return Walk(ca.Function("slopes", [inputs, switch], [ca.densify(slopes)]))
+        cycle = ca.SX.sym("cycle", len(self.model.switch_names))
+        slopes = ca.jacobian(self._function(inputs, cycle), inputs)[:, self._places]
+        return Walk(ca.Function("slopes", [inputs, cycle], [ca.densify(slopes)]))
 
     def values(self, point_: Array) -> Array:
         """The outputs at one point, in floating-point numbers."""

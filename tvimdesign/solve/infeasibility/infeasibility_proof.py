@@ -17,10 +17,10 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.solve.infeasibility.enclosure import Array, Enclosure
 from tvimdesign.solve.infeasibility.interval_search import Paver
-from tvimdesign.solve.nlp.constraints import Limit, in_words, is_constant, limits_of, on_switch, unchangeable
+from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words, is_constant, on_cycle, unchangeable
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE
 from tvimdesign.study import Options, Range, Study, given
 
@@ -37,11 +37,11 @@ class Ranges:
     """A study with its records chosen: its algebraic limits over what its numbers may be."""
 
     table: Table
-    model: Model
+    model: DeviceFunctions
     free: tuple[str, ...]
     low: Array
     high: Array
-    limits: tuple[Limit, ...]
+    limits: tuple[Constraint, ...]
 
     def enclosure(self, outputs: Sequence[str]) -> Enclosure:
         """Outputs as functions of the free numbers."""
@@ -50,10 +50,10 @@ class Ranges:
 
 def ranges_of(study: Study, catalog: Catalog, table: Table) -> Ranges:
     """The numbers a study varies, listed ones between their ends; a current that follows a profile is none of them."""
-    model = Model(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
-    driven = {table.stage(stage).drive for stage in study.profile.pieces()}
+    model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+    driven = {table.phase(phase).current_input for phase in study.profile.pieces()}
     ends = {name: _ends(vary) for name, vary in study.vary.items() if name in model.index and name not in driven}
-    limits = tuple(limit for limit in limits_of(study, table, model.words) if not on_switch(table, limit.output))
+    limits = tuple(limit for limit in constraints_of(study, table, model.words) if not on_cycle(table, limit.output))
     low, high = (np.array([end[i] for end in ends.values()]) for i in (0, 1))
     return Ranges(table, model, tuple(ends), low, high, limits)
 
@@ -66,24 +66,24 @@ def _ends(vary: Range | Options) -> tuple[float, float]:
 
 
 @dataclass(frozen=True)
-class Contradiction:
+class InfeasibilityProof:
     """Limits no design within the ranges keeps together; one fewer, and nothing is proved any more."""
 
-    limits: tuple[Limit, ...]
+    limits: tuple[Constraint, ...]
     at_best: tuple[float, ...]
     """For each limit (SI): where it would have to stand, at least, for the proof to fail while the others stay."""
     widen: tuple[tuple[str, Literal["<=", ">="], float], ...] = ()
     """Of a single limit: the ends of ranges that keep it from holding, those that matter most first."""
 
 
-def refuse_contradiction(study: Study, catalog: Catalog, table: Table) -> None:
+def refuse_infeasible(study: Study, catalog: Catalog, table: Table) -> None:
     """Raise InfeasibleError, naming limits and ranges, where bounds prove that no design keeps the study's limits."""
     if not study.vary:
         return
     records = {
         name: vary.values
         for name, vary in study.vary.items()
-        if isinstance(vary, Options) and not isinstance(table.row(name), Input)
+        if isinstance(vary, Options) and not isinstance(table.quantity(name), Input)
     }
     combinations = list(itertools.product(*records.values()))
     if len(combinations) > _MOST_RECORDS:
@@ -95,20 +95,20 @@ def refuse_contradiction(study: Study, catalog: Catalog, table: Table) -> None:
         every.append(ranges_of(module, catalog, table))
         if not proved(every[-1], every[-1].limits):
             return
-    found = contradiction(every[0])
+    found = infeasibility_proof(every[0])
     if found is None:
         return
-    told = _in_words(found, every[0])
+    reported = _in_words(found, every[0])
     also = f" So it is with every listed {' and '.join(records)}." if records else ""
-    raise InfeasibleError(f"{study.name}: {told}{also}")
+    raise InfeasibleError(f"{study.name}: {reported}{also}")
 
 
-def at_a_glance(model: Model, study: Study, table: Table, limits: Sequence[Limit]) -> bool:
+def at_a_glance(model: DeviceFunctions, study: Study, table: Table, limits: Sequence[Constraint]) -> bool:
     """Whether one look at the ranges, operation by operation, shows a limit that cannot hold: a hundredth of a second,
     where a proof takes half a one. It misses what only limits together, or parts of ranges, would show.
     """
     free = {name: _ends(vary) for name, vary in study.vary.items() if name in model.index}
-    algebraic = [limit for limit in limits if not on_switch(table, limit.output)]
+    algebraic = [limit for limit in limits if not on_cycle(table, limit.output)]
     outputs = list(dict.fromkeys(limit.output for limit in algebraic))
     if not free or not outputs:
         return False
@@ -123,7 +123,7 @@ def _without(study: Study, names: dict[str, tuple[float | str, ...]]) -> dict[st
     return {name: vary for name, vary in study.vary.items() if name not in names}
 
 
-def contradiction(ranges: Ranges, boxes: int = _BOXES) -> Contradiction | None:
+def infeasibility_proof(ranges: Ranges, boxes: int = _BOXES) -> InfeasibilityProof | None:
     """A smallest set of limits that bounds prove cannot hold together; None where they prove nothing."""
     limits = ranges.limits
     if not limits or not ranges.free:
@@ -137,14 +137,14 @@ def contradiction(ranges: Ranges, boxes: int = _BOXES) -> Contradiction | None:
         fewer = [one for one in left if one is not limit]
         if proved(ranges, fewer, boxes):
             left = fewer
-    return Contradiction(
+    return InfeasibilityProof(
         limits=tuple(left),
         at_best=tuple(_at_best(ranges, left, limit, boxes) for limit in left),
         widen=_in_the_way(ranges, left[0]) if len(left) == 1 else (),
     )
 
 
-def proved(ranges: Ranges, limits: Sequence[Limit], boxes: int = _BOXES) -> bool:
+def proved(ranges: Ranges, limits: Sequence[Constraint], boxes: int = _BOXES) -> bool:
     """Whether bounds prove that nothing keeps the limits."""
     if not limits or not ranges.free:
         return False
@@ -152,7 +152,7 @@ def proved(ranges: Ranges, limits: Sequence[Limit], boxes: int = _BOXES) -> bool
     return Paver(enclosure, limits, ALGEBRAIC_TOLERANCE).pave(ranges.low, ranges.high, np.inf, boxes).empty
 
 
-def _at_best(ranges: Ranges, limits: Sequence[Limit], limit: Limit, boxes: int) -> float:
+def _at_best(ranges: Ranges, limits: Sequence[Constraint], limit: Constraint, boxes: int) -> float:
     """The easiest value of one of the limits with which the proof still holds; infinite where it always does."""
     sign = 1.0 if limit.sense == "<=" else -1.0
     enclosure = ranges.enclosure(list(dict.fromkeys(one.output for one in limits)))
@@ -173,7 +173,7 @@ def _at_best(ranges: Ranges, limits: Sequence[Limit], limit: Limit, boxes: int) 
     return limit.limit + sign * holds * limit.scale
 
 
-def _in_the_way(ranges: Ranges, limit: Limit) -> tuple[tuple[str, Literal["<=", ">="], float], ...]:
+def _in_the_way(ranges: Ranges, limit: Constraint) -> tuple[tuple[str, Literal["<=", ">="], float], ...]:
     """The ends of ranges a limit would have moved, those first that move its output most over their range."""
     enclosure = ranges.enclosure([limit.output])
     slopes = enclosure.slopes(ranges.low[None], ranges.high[None])
@@ -191,12 +191,12 @@ def _in_the_way(ranges: Ranges, limit: Limit) -> tuple[tuple[str, Literal["<=", 
     return tuple(end for _, end in sorted(found, key=lambda pair: -pair[0]))
 
 
-def _fixed(ranges: Ranges, limit: Limit) -> str | None:
+def _fixed(ranges: Ranges, limit: Constraint) -> str | None:
     """The input that could be varied and is not, where a hundredth of it moves a limit's output most of all."""
     model, table = ranges.model, ranges.table
     inputs = ca.SX.sym("inputs", len(model.names))
-    switch = np.full(len(model.switch_names), np.nan)  # read by none of these outputs
-    value = model.outputs([limit.output]).call([inputs, switch], True, False)[0]
+    cycle = np.full(len(model.switch_names), np.nan)  # read by none of these outputs
+    value = model.outputs([limit.output]).call([inputs, cycle], True, False)[0]
     point = model.start.copy()
     point[[model.index[name] for name in ranges.free]] = 0.5 * (ranges.low + ranges.high)
     slopes = np.asarray(ca.Function("slopes", [inputs], [ca.gradient(value, inputs)])(point)).ravel()
@@ -211,7 +211,7 @@ def _fixed(ranges: Ranges, limit: Limit) -> str | None:
 _ENDS_SHOWN = 3
 
 
-def _in_words(found: Contradiction, ranges: Ranges) -> str:
+def _in_words(found: InfeasibilityProof, ranges: Ranges) -> str:
     """The contradiction for people, with what to do."""
     table = ranges.table
     if len(found.limits) == 1:
@@ -240,16 +240,16 @@ def _in_words(found: Contradiction, ranges: Ranges) -> str:
     return "\n".join(lines)
 
 
-def _named(limit: Limit, table: Table) -> str:
+def _named(limit: Constraint, table: Table) -> str:
     words = in_words(limit, table)
     return words if limit.origin == "require" else f"{words} ({limit.origin})"
 
 
-def _quantity(limit: Limit, value: float, table: Table) -> str:
+def _quantity(limit: Constraint, value: float, table: Table) -> str:
     return format_quantity(value, table.unit(limit.output))
 
 
-def _best(limit: Limit, best: float, table: Table) -> str:
+def _best(limit: Constraint, best: float, table: Table) -> str:
     if not np.isfinite(best):
         return "never near it"
     return f"{'at least' if limit.sense == '<=' else 'at most'} {_quantity(limit, best, table)}"

@@ -10,9 +10,9 @@ import numpy as np
 
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.solve.infeasibility.infeasibility_proof import Ranges
-from tvimdesign.solve.nlp.constraints import Limit, in_words, is_constant, limits_of
+from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words, is_constant
 from tvimdesign.solve.nlp.labels import row_names, unknown_names
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -30,7 +30,7 @@ _RANDOM = 4
 
 
 @dataclass(frozen=True)
-class Spread:
+class ValueRange:
     """How far apart the sizes of rows, or columns, of a Jacobian are: (name, greatest entry)."""
 
     largest: tuple[str, float]
@@ -50,12 +50,12 @@ class Conditioning:
     """Condition number of the equations that states and times follow from, rows scaled to one; 1-norm."""
     decisions: float
     """Greatest over least singular value of limits and goal by the free numbers, rows scaled to one."""
-    traded: tuple[tuple[str, ...], ...]
+    objectives: tuple[tuple[str, ...], ...]
     """Free numbers that can be traded for each other without any limit or the goal noticing."""
 
 
 @dataclass(frozen=True)
-class Derivatives:
+class DerivativeCheck:
     """Exact derivatives against central differences at the first point."""
 
     worst: tuple[tuple[str, str, float], ...]
@@ -88,9 +88,9 @@ class Inspection:
         """Evaluate rows, objective and their exact derivatives there."""
         problem = optimizer.problem
         self.optimizer, self.problem = optimizer, problem
-        self.begin = next(optimizer.beginnings.points())
+        self.begin = next(optimizer.multistart.points())
         self._x = optimizer.guess(self.begin)
-        self._p = optimizer.parameters(Goal(optimizer.study.minimize))
+        self._p = optimizer.parameters(Objective(optimizer.study.minimize))
         whole = problem.function
         rows = ca.vertcat(whole["g"], whole["f"])
         self._values = ca.Function("rows", [whole["x"], whole["p"]], [rows])
@@ -99,19 +99,19 @@ class Inspection:
         self._columns = unknown_names(problem)
         self._rows = [*row_names(problem), "goal"]
 
-    def scaling(self) -> tuple[Spread, Spread]:
+    def scaling(self) -> tuple[ValueRange, ValueRange]:
         """Rows, then columns; those without any entry are left to `structure`."""
         triplets = self._jacobian.sparsity().get_triplet()
         entries = np.abs(np.array(self._jacobian.nonzeros()))
         return self._spread(triplets[0], entries, self._rows), self._spread(triplets[1], entries, self._columns)
 
     @staticmethod
-    def _spread(places: Sequence[int], entries: Array, names: Sequence[str]) -> Spread:
+    def _spread(places: Sequence[int], entries: Array, names: Sequence[str]) -> ValueRange:
         greatest = np.zeros(len(names))
         np.maximum.at(greatest, np.array(places, dtype=int), entries)
         used = np.flatnonzero(greatest)
         ends = used[np.argmax(greatest[used])], used[np.argmin(greatest[used])]
-        return Spread(*((names[i], float(greatest[i])) for i in ends))
+        return ValueRange(*((names[i], float(greatest[i])) for i in ends))
 
     def conditioning(self) -> Conditioning:
         """The equations' condition number, and what limits and goal see of the free numbers."""
@@ -126,9 +126,9 @@ class Inspection:
         values[: len(directions.S)] = directions.S
         lost = [directions.Vh[i] for i in np.flatnonzero(values <= DEPENDENT * values[0])]
         names = np.array([self._columns[i] for i in decided])
-        traded = tuple(dict.fromkeys(tuple(names[np.abs(direction) > _PART]) for direction in lost))
+        objectives = tuple(dict.fromkeys(tuple(names[np.abs(direction) > _PART]) for direction in lost))
         least = values[-1] if not lost else 0.0
-        return Conditioning(equations, float(values[0] / least) if least > 0.0 else np.inf, traded)
+        return Conditioning(equations, float(values[0] / least) if least > 0.0 else np.inf, objectives)
 
     def _widths(self, decided: Sequence[int]) -> Array:
         """How far each decision can go, in unknowns."""
@@ -177,7 +177,7 @@ class Inspection:
             found.append(int(samples[np.argmax(values[samples])]))
         return found
 
-    def derivatives(self) -> Derivatives:
+    def derivatives(self) -> DerivativeCheck:
         """Along every free number, and along random directions of the other unknowns."""
         count, free = self.problem.unknown_count, len(self.problem.free)
         random = np.random.default_rng(self.optimizer.study.solver.seed)
@@ -193,7 +193,7 @@ class Inspection:
             error = np.abs(self._difference(direction) - exact) / np.maximum(sizes, _FLAT)
             worst = int(np.argmax(error))
             found.append((self._rows[worst], name, float(error[worst])))
-        return Derivatives(tuple(sorted(found, key=lambda one: -one[2])[:_WORST]))
+        return DerivativeCheck(tuple(sorted(found, key=lambda one: -one[2])[:_WORST]))
 
     def _difference(self, direction: Array) -> Array:
         """(f(-2h) - 8 f(-h) + 8 f(h) - f(2h))/12h."""
@@ -206,9 +206,9 @@ class Inspection:
         optimizer = self.optimizer
         table, free = optimizer.table, [one.name for one in optimizer.free]
         used = {int(column) for column in self._jacobian.sparsity().get_triplet()[1]}
-        drives = [current.row for current in optimizer.currents]
-        own = [limit for limit in limits_of(optimizer.study, table) if limit.origin == "require"]
-        fixed = [limit for limit in own if is_constant(limit, table, [*free, *drives])]
+        current_profiles = [current.row for current in optimizer.currents]
+        own = [limit for limit in constraints_of(optimizer.study, table) if limit.origin == "require"]
+        fixed = [limit for limit in own if is_constant(limit, table, [*free, *current_profiles])]
         slack = [limit for limit in always_kept(ranges) if limit not in fixed]
         return Structure(
             idle=tuple(name for i, name in enumerate(free) if i not in used),
@@ -218,7 +218,7 @@ class Inspection:
         )
 
 
-def always_kept(ranges: Ranges) -> list[Limit]:
+def always_kept(ranges: Ranges) -> list[Constraint]:
     """The algebraic limits that bounds prove to hold anywhere within the ranges."""
     names = list(dict.fromkeys(limit.output for limit in ranges.limits))
     if not names or not ranges.free:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.solve.infeasibility.enclosure import Enclosure
 from tvimdesign.solve.infeasibility.linear_relaxation import LinearBelow
-from tvimdesign.solve.nlp.constraints import Limit
+from tvimdesign.solve.nlp.constraints import Constraint
 
 Array = NDArray[np.float64]
 _BATCH = 64
@@ -31,7 +31,7 @@ _WIDTH_LEFT = 1e-9
 
 
 @dataclass(frozen=True)
-class Goal:
+class Objective:
     """What is to be small, of outputs the enclosure has: sum of weight times output, plus what is known of the rest."""
 
     weights: Mapping[str, float]
@@ -65,7 +65,7 @@ class Paver:
     """Limits, and a goal where there is one, over the ranges of an enclosure."""
 
     def __init__(
-        self, enclosure: Enclosure, limits: Sequence[Limit], tolerance: float, goal: Goal | None = None
+        self, enclosure: Enclosure, limits: Sequence[Constraint], tolerance: float, goal: Objective | None = None
     ) -> None:
         """`tolerance` is the residual up to which a limit counts as kept."""
         self.enclosure, self.limits, self.goal = enclosure, tuple(limits), goal

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from tvimdesign.solve.infeasibility.infeasibility_proof import Ranges
-from tvimdesign.solve.infeasibility.interval_search import Goal, Paver
-from tvimdesign.solve.nlp.constraints import on_switch
+from tvimdesign.solve.infeasibility.interval_search import Objective, Paver
+from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
 
 
@@ -40,13 +40,13 @@ def lower_bound(optimizer: Optimizer, ranges: Ranges, best: float | None, second
     """Bound the objective for about so many seconds of processor time."""
     minimize = optimizer.study.minimize
     weights = {name: weight / optimizer.reference[name] for name, weight in minimize.items()}
-    left_out = tuple(name for name in minimize if on_switch(optimizer.table, name))
+    left_out = tuple(name for name in minimize if on_cycle(optimizer.table, name))
     rest = _rest(ranges, {name: weights[name] for name in left_out})
     algebraic = {name: weight for name, weight in weights.items() if name not in left_out}
     if not np.isfinite(rest) or not algebraic or not ranges.free:
         return LowerBound(rest, best, left_out, 0)
     outputs = dict.fromkeys([*(limit.output for limit in ranges.limits), *algebraic])
-    paver = Paver(ranges.enclosure(list(outputs)), ranges.limits, ALGEBRAIC_TOLERANCE, Goal(algebraic, rest))
+    paver = Paver(ranges.enclosure(list(outputs)), ranges.limits, ALGEBRAIC_TOLERANCE, Objective(algebraic, rest))
     below = np.inf if best is None else best + ALGEBRAIC_TOLERANCE * abs(best)
     paved = paver.pave(ranges.low, ranges.high, seconds, below=below)
     return LowerBound(paved.bound, best, left_out, paved.boxes)

@@ -51,10 +51,10 @@ def _extreme(study: Study, catalog: Catalog, table: Table, row: str, sign: float
     run = optimizer.solve()
     if not run.start.converged:
         return None
-    return optimizer.model.values(run.inputs, optimizer.beginnings.switch.values)[row]
+    return optimizer.model.values(run.inputs, optimizer.multistart.cycle.values)[row]
 
 
 def _given(study: Study, table: Table, name: str) -> float:
-    value = study.module.get(name, getattr(table.row(name), "default", None))
+    value = study.module.get(name, getattr(table.quantity(name), "default", None))
     assert isinstance(value, float | int)
     return float(value)

@@ -5,28 +5,28 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.solve.nlp.constraints import Limit, on_switch
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.nlp.constraints import Constraint, on_cycle
 from tvimdesign.solve.nlp.moments import moments
 from tvimdesign.study import Study
 
 
-def reserves_of(model: Model, study: Study, limits: Sequence[Limit]) -> Callable[[Any], dict[str, Any]]:
+def back_offs_of(model: DeviceFunctions, study: Study, limits: Sequence[Constraint]) -> Callable[[Any], dict[str, Any]]:
     """What is added to the residual of each limit on an algebraic output: its mean's shift and so many deviations."""
     assert study.robust is not None
     sigma = study.robust.sigma
-    algebraic = [limit for limit in limits if not on_switch(model.table, limit.output)]
+    algebraic = [limit for limit in limits if not on_cycle(model.table, limit.output)]
     if not algebraic:
         return lambda _: {}
     of_inputs = moments(
         model, study.tolerances, [limit.output for limit in algebraic], [limit.scale for limit in algebraic]
     )  # fmt: skip
 
-    def reserves(inputs: Any) -> dict[str, Any]:
+    def back_offs(inputs: Any) -> dict[str, Any]:
         shift, deviation = of_inputs(inputs)
         return {
             limit.name: ((shift[i] if limit.sense == "<=" else -shift[i]) + sigma * deviation[i]) / limit.scale
             for i, limit in enumerate(algebraic)
         }
 
-    return reserves
+    return back_offs

@@ -10,12 +10,12 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Table
-from tvimdesign.device.table.quantity import Extra
+from tvimdesign.device.table.quantity import Feature
 from tvimdesign.study import Study, given
 
 
 @dataclass(frozen=True)
-class Limit:
+class Constraint:
     """One named limit on one output, SI."""
 
     output: str
@@ -41,14 +41,14 @@ class Limit:
         return beyond / self.scale
 
 
-def limits_of(study: Study, table: Table, chosen: Mapping[str, Any] | None = None) -> list[Limit]:
+def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None = None) -> list[Constraint]:
     """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense.
 
     `chosen` are records and options by name, so that rules of what the module lacks are left out; without them only
     those are that the study itself says it lacks.
     """
     own = [
-        make_limit(table, output, r.sense, r.limit, "require")
+        make_constraint(table, output, r.sense, r.limit, "require")
         for r in study.require
         for output in _behind(table, r.output, r.sense)
     ]
@@ -58,7 +58,7 @@ def limits_of(study: Study, table: Table, chosen: Mapping[str, Any] | None = Non
     for row in table.outputs:
         for rule in row.rules if row.exists(options) else ():
             if (row.name, rule.sense) not in taken:
-                own.append(make_limit(table, row.name, rule.sense, rule.value, rule.reason))
+                own.append(make_constraint(table, row.name, rule.sense, rule.value, rule.reason))
     return own
 
 
@@ -68,17 +68,17 @@ def _behind(table: Table, name: str, sense: str) -> tuple[str, ...]:
     return row.least_of if row.least_of and sense == ">=" else (name,)
 
 
-def on_switch(table: Table, output: str) -> bool:
+def on_cycle(table: Table, output: str) -> bool:
     """Whether an output depends on how a switch runs."""
     return output.partition("@")[0] in table.behind_supplied
 
 
-def is_constant(limit: Limit, table: Table, free: Iterable[str]) -> bool:
+def is_constant(limit: Constraint, table: Table, free: Iterable[str]) -> bool:
     """Whether nothing free can change the output a limit stands on."""
-    return not on_switch(table, limit.output) and not set(free) & table.ancestors(limit.output)
+    return not on_cycle(table, limit.output) and not set(free) & table.ancestors(limit.output)
 
 
-def unchangeable(limit: Limit, table: Table) -> str:
+def unchangeable(limit: Constraint, table: Table) -> str:
     """Say of a limit that is broken and stands on nothing free what could be freed."""
     above = table.ancestors(limit.output)
     behind = [row.name for row in table.inputs if row.variable and row.name in above] or ["(nothing can)"]
@@ -105,12 +105,12 @@ def _refuse_idle(study: Study, table: Table, start: Mapping[str, Any]) -> None:
     said: list[Choice | Input] = [*table.choices, *table.inputs]
     said = [row for row in said if row.name in study.module or row.name in study.vary]
     for choice in table.choices:
-        lacking = Extra(choice.name, start[choice.name])
-        idle = [row.name for row in said if lacking in row.extras]
+        lacking = Feature(choice.name, start[choice.name])
+        idle = [row.name for row in said if lacking in row.requires]
         if not idle or choice.name in study.vary:
             continue
         others = [word for word in choice.options if word != lacking.without]
-        way = "name one of its records" if choice.shelf else f"add `{choice.name}: {others[0]}`"
+        way = "name one of its records" if choice.category else f"add `{choice.name}: {others[0]}`"
         raise InputError(f"{', '.join(idle)}: no effect, as {choice.name} is {lacking.without}; {way} under `module`")
 
 
@@ -137,7 +137,7 @@ def impossible(values: Mapping[str, float], table: Table) -> list[str]:
             if rule.exists_above is not None and not values[row.name] > rule.exists_above:
                 value, least = (format_quantity(number, row.unit) for number in (values[row.name], rule.exists_above))
                 above = sorted(table.ancestors(row.name))
-                inputs = [name for name in above if isinstance(table.row(name), Input)][:_INPUTS_NAMED]
+                inputs = [name for name in above if isinstance(table.quantity(name), Input)][:_INPUTS_NAMED]
                 found.append(
                     f"{row.name} is {value}, it must be above {least}: {row.description}; it follows from "
                     + ", ".join(inputs)
@@ -145,10 +145,12 @@ def impossible(values: Mapping[str, float], table: Table) -> list[str]:
     return found
 
 
-def advice_of(table: Table) -> list[Limit]:
+def advice_of(table: Table) -> list[Constraint]:
     """Return the limits that are reported where they are broken."""
     return [
-        make_limit(table, row.name, rule.sense, rule.value, rule.reason) for row in table.outputs for rule in row.advice
+        make_constraint(table, row.name, rule.sense, rule.value, rule.reason)
+        for row in table.outputs
+        for rule in row.advice
     ]
 
 
@@ -157,18 +159,18 @@ _STEPS = {"mm": 0.1, "K": 1.0, "degC": 1.0, "s": 1.0}
 """What people relax a limit by that has no size of its own, in its unit; a hundredth of the unit elsewhere."""
 
 
-def make_limit(table: Table, name: str, sense: Literal["<=", ">="], limit: float, origin: str) -> Limit:
+def make_constraint(table: Table, name: str, sense: Literal["<=", ">="], limit: float, origin: str) -> Constraint:
     """Return a limit with its scale: its own size, or a hundred steps where it is zero or a temperature."""
     unit = table.unit(name)
     if limit != 0.0 and unit != "degC":
-        return Limit(name, sense, limit, abs(limit), origin)
+        return Constraint(name, sense, limit, abs(limit), origin)
     step = _STEPS.get(unit, 0.01)
     of_difference = "K" if unit == "degC" else unit
     scale = 100.0 * to_si(step, of_difference)
-    return Limit(name, sense, limit, scale, origin, f"{step:g} {pretty(of_difference)}".rstrip(), absolute=True)
+    return Constraint(name, sense, limit, scale, origin, f"{step:g} {pretty(of_difference)}".rstrip(), absolute=True)
 
 
-def in_words(limit: Limit, table: Table) -> str:
+def in_words(limit: Constraint, table: Table) -> str:
     """Write the limit as a reader would: `joint_stiffness@hot >= 5 N·m/rad`."""
     unit = table.unit(limit.output)
     return f"{limit.output} {limit.sense} {from_si(limit.limit, unit):.6g} {pretty(unit)}".rstrip()

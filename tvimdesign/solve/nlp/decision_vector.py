@@ -7,55 +7,55 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from tvimdesign.device import Path
-from tvimdesign.simulation.current_profile import Drive, ramp_time
-from tvimdesign.simulation.cycle import Switch, Trajectory
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.phase_model import StageModel
+from tvimdesign.simulation.current_profile import CurrentProfile, ramp_time
+from tvimdesign.simulation.cycle import Cycle, Trajectory
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.phase_model import PhaseFunctions
 from tvimdesign.solve.nlp.problem import FreeCurrent, Problem
 from tvimdesign.solve.nlp.solver_run import Array, Ends
 from tvimdesign.solve.nlp.transcription import guess
 
-SHORTEST = 0.1  # s; with a slow supply all of a stage may be its ramp, and the pieces after it next to nothing
+SHORTEST = 0.1  # s; with a slow supply all of a phase may be its ramp, and the pieces after it next to nothing
 
 
-class Unknowns:
-    """Free numbers; a block of states and the logarithm of a time for each stage; currents; steady states; peaks."""
+class DecisionVector:
+    """Free numbers; a block of states and the logarithm of a time for each phase; currents; steady states; peaks."""
 
-    def __init__(self, problem: Problem, model: Model) -> None:
+    def __init__(self, problem: Problem, model: DeviceFunctions) -> None:
         """What is not free is as in `model`, which differs from the problem's own where records do."""
         self.problem, self.model = problem, model
 
-    def at(self, inputs: Array, switch: Switch) -> Array:
+    def at(self, inputs: Array, cycle: Cycle) -> Array:
         """The unknowns at a point: the free numbers of the inputs, and a switch (as far as it goes where it stalls)."""
         currents = self.problem.free_currents
         parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.problem.free])]
-        sizes = {c.stage: float(np.clip(inputs[self.model.index[c.row]], c.lower, c.upper)) for c in currents}
+        sizes = {c.phase: float(np.clip(inputs[self.model.index[c.row]], c.lower, c.upper)) for c in currents}
         slew = float(inputs[self.model.index["current_slew"]])
-        ramps = {c.stage: (c.ramp_elements, ramp_time(sizes[c.stage], slew)) for c in currents}
+        ramps = {c.phase: (c.ramp_elements, ramp_time(sizes[c.phase], slew)) for c in currents}
         for block in self.problem.blocks:
-            trajectory = switch.trajectories.get(block.stage.stage.name)
-            if trajectory is None:  # a stage that does not begin: as it would stand after the first
-                trajectory = self._standing(block.stage, switch)
-            end = switch.values[block.event]
+            trajectory = cycle.trajectories.get(block.phase.phase.name)
+            if trajectory is None:  # a phase that does not begin: as it would stand after the first
+                trajectory = self._standing(block.phase, cycle)
+            end = cycle.values[block.event]
             end = end if np.isfinite(end) else trajectory.times[-1]
-            name = block.stage.stage.name
+            name = block.phase.phase.name
             points = guess(trajectory, self.problem.elements(name), ramps.get(name, (0, 0.0))).ravel(order="F")
             parts += [points, np.array([np.log(max(end, 1e-3))])]
-        parts += [np.full(current.nodes, sizes[current.stage] / current.upper) for current in currents]
+        parts += [np.full(current.nodes, sizes[current.phase] / current.upper) for current in currents]
         for balance in self.problem.balances:
-            begin = switch.balances.get(balance.stage)
-            last = switch.trajectories[balance.stage]
+            begin = cycle.balances.get(balance.phase)
+            last = cycle.trajectories[balance.phase]
             parts.append(np.append(last.states[:, -1], last.currents[-1]) if begin is None else begin)
         for name in self.problem.peaks:
-            row = self.model.table.row(name)
+            row = self.model.table.quantity(name)
             assert isinstance(row, Path)
-            value = switch.values[name]
+            value = cycle.values[name]
             parts.append(np.array([(value if np.isfinite(value) else 1.0) / self.problem.peak_scale(row)]))
         return np.concatenate(parts)
 
-    def _standing(self, stage: StageModel, switch: Switch) -> Trajectory:
-        last = switch.trajectory
-        state = np.asarray(stage.begin(last.states[:, -1], self.model.start)).ravel()
+    def _standing(self, phase: PhaseFunctions, cycle: Cycle) -> Trajectory:
+        last = cycle.trajectory
+        state = np.asarray(phase.begin(last.states[:, -1], self.model.start)).ravel()
         return Trajectory(np.array([0.0, 60.0]), np.column_stack([state, state]), np.zeros(2))
 
     def bounds(self, within: Mapping[str, Ends]) -> tuple[Array, Array]:
@@ -67,11 +67,11 @@ class Unknowns:
             lower[i], upper[i] = free.to_unknown(low), free.to_unknown(high)
         for current, place in self.places_of_currents():
             lower[place], upper[place] = current.lower / current.upper, 1.0
-        driven = {current.stage for current in self.problem.free_currents}
+        driven = {current.phase for current in self.problem.free_currents}
         last = len(self.problem.free)
         for block in self.problem.blocks:
             last += block.unknowns.numel()
-            if block.stage.stage.name in driven:
+            if block.phase.phase.name in driven:
                 lower[last - 1] = np.log(SHORTEST)
         return lower, upper
 
@@ -83,35 +83,37 @@ class Unknowns:
             first += current.nodes
 
     def times(self, unknowns: Array) -> dict[str, float]:
-        """Time [s] to each event, after its stage's ramp."""
+        """Time [s] to each event, after its phase's ramp."""
         first, times = len(self.problem.free), {}
         for block in self.problem.blocks:
             first += block.unknowns.numel()
             times[block.event] = float(np.exp(unknowns[first - 1]))
         return times
 
-    def drives(self, unknowns: Array) -> dict[str, Drive]:
-        """The free currents over the time their stage takes."""
+    def current_profiles(self, unknowns: Array) -> dict[str, CurrentProfile]:
+        """The free currents over the time their phase takes."""
         times = self.times(unknowns)
         sizes = {
-            current.stage: np.clip(unknowns[place] * current.upper, current.lower, current.upper)
+            current.phase: np.clip(unknowns[place] * current.upper, current.lower, current.upper)
             for current, place in self.places_of_currents()
         }
         slew = float(self.model.start[self.model.index["current_slew"]])
-        drives: dict[str, Drive] = {}
+        current_profiles: dict[str, CurrentProfile] = {}
         for name, nodes in sizes.items():
-            stage = self.model.table.stage(name)
-            signed = [float(stage.sign * size) for size in nodes]
-            drives[name] = Drive.in_pieces(ramp_time(float(nodes[0]), slew), times[stage.ends], signed)
-        return drives
+            phase = self.model.table.phase(name)
+            signed = [float(phase.sign * size) for size in nodes]
+            current_profiles[name] = CurrentProfile.in_pieces(
+                ramp_time(float(nodes[0]), slew), times[phase.ends], signed
+            )
+        return current_profiles
 
     def inputs(self, unknowns: Array) -> Array:
         """The inputs with the free numbers within their ranges, and the mean of each current."""
         inputs = self.model.start.copy()
         for i, free in enumerate(self.problem.free):
             inputs[self.model.index[free.name]] = min(max(free.to_value(unknowns[i]), free.lower), free.upper)
-        for stage, drive in self.drives(unknowns).items():
-            inputs[self.model.index[self.model.table.stage(stage).drive]] = abs(drive.mean)
+        for phase, profile in self.current_profiles(unknowns).items():
+            inputs[self.model.index[self.model.table.phase(phase).current_input]] = abs(profile.mean)
         return inputs
 
     def free_values(self, inputs: Array) -> dict[str, float]:

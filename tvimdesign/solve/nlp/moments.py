@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.spread import deviation_of
 from tvimdesign.study import Tolerance
 
@@ -21,7 +21,9 @@ _NOTHING = 1e-12
 """Share of its size that is added to a deviation inside the root, which has no slope at zero."""
 
 
-def moments(model: Model, tolerances: Mapping[str, Tolerance], outputs: Sequence[str], sizes: Sequence[float]) -> Any:
+def moments(
+    model: DeviceFunctions, tolerances: Mapping[str, Tolerance], outputs: Sequence[str], sizes: Sequence[float]
+) -> Any:
     """The function inputs -> (shift of the mean, standard deviation) of each output; one column each.
 
     `sizes` are the outputs' orders of magnitude. The outputs must not depend on a simulation.
@@ -43,12 +45,12 @@ def moments(model: Model, tolerances: Mapping[str, Tolerance], outputs: Sequence
     return ca.Function("moments", [inputs], [ca.densify(shift), ca.vertcat(*roots)], {"cse": True})
 
 
-def _of(model: Model, outputs: Sequence[str], inputs: Any) -> Any:
-    switch = ca.DM(np.full(len(model.switch_names), np.nan))
-    return model.outputs(outputs).call([inputs, switch], True, False)[0]
+def _of(model: DeviceFunctions, outputs: Sequence[str], inputs: Any) -> Any:
+    cycle = ca.DM(np.full(len(model.switch_names), np.nan))
+    return model.outputs(outputs).call([inputs, cycle], True, False)[0]
 
 
-def _deviation(model: Model, tolerance: Tolerance, value: Any, inputs: Any) -> Any:
+def _deviation(model: DeviceFunctions, tolerance: Tolerance, value: Any, inputs: Any) -> Any:
     """Standard deviation of an input at this design; what is adjusted is no wider than what adjusting leaves."""
     if tolerance.row is not None:
         size = _of(model, [tolerance.row], inputs)

@@ -24,7 +24,7 @@ class Bound:
 
 
 @dataclass(frozen=True)
-class Goal:
+class Objective:
     """Weights and bounds of one run; both are numbers the solver is given, nothing is built for them."""
 
     weights: Mapping[str, float]
@@ -32,14 +32,14 @@ class Goal:
     bounds: Sequence[Bound] = field(default_factory=tuple)
     """No more of them than the problem has traded outputs."""
 
-    def factors(self, traded: Sequence[str]) -> Array:
+    def factors(self, objectives: Sequence[str]) -> Array:
         """Factors of every bound (a row) on every traded output (a column); rows that bound nothing are zero."""
-        found = np.zeros((len(traded), len(traded)))
+        found = np.zeros((len(objectives), len(objectives)))
         for row, bound in zip(found, self.bounds, strict=False):
-            row[:] = [bound.factors.get(name, 0.0) for name in traded]
+            row[:] = [bound.factors.get(name, 0.0) for name in objectives]
         return found
 
-    def room(self, traded: Sequence[str]) -> Array:
+    def room(self, objectives: Sequence[str]) -> Array:
         """Largest sum of every bound; infinite where a row bounds nothing."""
         limits = [bound.limit for bound in self.bounds]
-        return np.array(limits + [np.inf] * (len(traded) - len(limits)))
+        return np.array(limits + [np.inf] * (len(objectives) - len(limits)))

@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.current_profile import Drive, ramp_time
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.solve.nlp.constraints import Limit
-from tvimdesign.solve.nlp.transcription import Block, at_each, stage_block
+from tvimdesign.simulation.current_profile import CurrentProfile, ramp_time
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.nlp.constraints import Constraint
+from tvimdesign.solve.nlp.transcription import Block, at_each, phase_block
 
 Array = NDArray[np.float64]
 
@@ -52,9 +52,9 @@ class Free:
 
 @dataclass(frozen=True)
 class FreeCurrent:
-    """The current of one stage, free at the nodes of its pieces, between `lower` and `upper` [A] in size."""
+    """The current of one phase, free at the nodes of its pieces, between `lower` and `upper` [A] in size."""
 
-    stage: str
+    phase: str
     row: str
     pieces: int
     lower: float
@@ -70,9 +70,9 @@ class FreeCurrent:
 
 @dataclass(frozen=True)
 class Balance:
-    """A steady state that is unknown: everything stays, with the event that ends the stage at zero."""
+    """A steady state that is unknown: everything stays, with the event that ends the phase at zero."""
 
-    stage: str
+    phase: str
     unknowns: Any
     """MX, the state and the current [A]."""
     equations: Any
@@ -90,14 +90,14 @@ class Problem:
 
     def __init__(
         self,
-        model: Model,
+        model: DeviceFunctions,
         free: Sequence[Free],
-        limits: Sequence[Limit],
+        limits: Sequence[Constraint],
         minimize: Sequence[str],
         elements: int,
         currents: Sequence[FreeCurrent] = (),
-        traded: Sequence[str] = (),
-        reserves: Callable[[Any], dict[str, Any]] | None = None,
+        objectives: Sequence[str] = (),
+        back_offs: Callable[[Any], dict[str, Any]] | None = None,
     ) -> None:
         """Write objective and constraints. `minimize` names the outputs whose weighted sum is least.
 
@@ -107,11 +107,11 @@ class Problem:
         self.model = model
         self.free = tuple(free)
         self.limits = tuple(limits)
-        self.traded = tuple(traded)
-        self.minimize = tuple(dict.fromkeys([*minimize, *traded]))
+        self.objectives = tuple(objectives)
+        self.minimize = tuple(dict.fromkeys([*minimize, *objectives]))
         self._elements = elements
         self.free_currents = tuple(currents)
-        self._reserves = reserves
+        self._reserves = back_offs
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self._check()
         self._build()
@@ -120,22 +120,22 @@ class Problem:
         unknowns = ca.MX.sym("free", len(self.free))
         inputs = ca.MX.sym("inputs", len(self.model.names))
         weights = ca.MX.sym("weights", len(self.minimize))
-        factors = ca.MX.sym("factors", len(self.traded), len(self.traded))
+        factors = ca.MX.sym("factors", len(self.objectives), len(self.objectives))
         device_inputs = self._device_inputs = self.with_unknowns(inputs, unknowns)
-        self._nodes = {c.stage: ca.MX.sym(f"current_{c.stage}", c.nodes) for c in self.free_currents}
+        self._nodes = {c.phase: ca.MX.sym(f"current_{c.phase}", c.nodes) for c in self.free_currents}
         self.blocks = self._write_blocks(device_inputs)
         self.balances = self._write_balances(device_inputs)
-        switch, self.peaks, peak_rows = self._switch_values()
-        self.switch = switch
+        cycle, self.peaks, peak_rows = self._switch_values()
+        self.cycle = cycle
         wanted = self.wanted
-        values = self.model.outputs(wanted)(device_inputs, switch) if wanted else ca.MX(0, 1)
+        values = self.model.outputs(wanted)(device_inputs, cycle) if wanted else ca.MX(0, 1)
         objective = sum(weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
-        reserves = self._reserves(device_inputs) if self._reserves else {}
+        back_offs = self._reserves(device_inputs) if self._reserves else {}
         rows = [
-            limit.residual(values[wanted.index(limit.output)]) + reserves.get(limit.name, 0.0) for limit in self.limits
+            limit.residual(values[wanted.index(limit.output)]) + back_offs.get(limit.name, 0.0) for limit in self.limits
         ]
-        traded = ca.vertcat(*(values[wanted.index(name)] for name in self.traded))
-        sums = ca.mtimes(factors, traded) if self.traded else ca.MX(0, 1)
+        objectives = ca.vertcat(*(values[wanted.index(name)] for name in self.objectives))
+        sums = ca.mtimes(factors, objectives) if self.objectives else ca.MX(0, 1)
         equations = ca.vertcat(*(block.equations for block in self.blocks), *(b.equations for b in self.balances))
         slopes = self._slopes(device_inputs)
         everything = ca.vertcat(
@@ -166,23 +166,25 @@ class Problem:
     def events(self) -> list[str]:
         """The events whose times the problem needs, each after those it starts from."""
         needed = self._needed
-        stages = self.model.stages
+        phases = self.model.phases
         ending: set[str] = {
-            stages[row.stage].stage.ends
+            phases[row.phase].phase.ends
             for row in self.model.table.supplied
             if isinstance(row, Path) and row.name in needed
         }
         found: list[str] = []
-        for stage in reversed(stages.values()):
-            mine = [row.name for row in stage.events if row.name in needed | ending]
-            if mine and stage.stage.after:
-                ending.add(stages[stage.stage.after].stage.ends)
+        for phase in reversed(phases.values()):
+            mine = [row.name for row in phase.events if row.name in needed | ending]
+            if mine and phase.phase.after:
+                ending.add(phases[phase.phase.after].phase.ends)
             found = mine + found
         return found
 
-    def simulated(self, simulator: Simulator, inputs: Array, drives: Mapping[str, Drive] | None = None) -> Switch:
+    def simulated(
+        self, simulator: Simulator, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None
+    ) -> Cycle:
         """The working cycle at some inputs, as far as the problem needs it."""
-        return simulator.run(inputs, drives, stages=self._stages, wanted=self._needed)
+        return simulator.run(inputs, current_profiles, phases=self._phases, wanted=self._needed)
 
     @cached_property
     def known(self) -> list[str]:
@@ -194,66 +196,66 @@ class Problem:
         ]
 
     @cached_property
-    def _stages(self) -> set[str]:
-        rows = [self.model.table.row(name) for name in (*self.events, *self._needed)]
-        return {row.stage for row in rows if isinstance(row, Event | Path | Steady)}
+    def _phases(self) -> set[str]:
+        rows = [self.model.table.quantity(name) for name in (*self.events, *self._needed)]
+        return {row.phase for row in rows if isinstance(row, Event | Path | Steady)}
 
     @cached_property
     def _needed(self) -> set[str]:
         table = self.model.table
         return {base for name in self.wanted for base in (name.partition("@")[0], *table.ancestors(name))}
 
-    def elements(self, stage: str) -> int:
-        """Count of a stage's elements: no less than asked for, and the corners of its current lie between them.
+    def elements(self, phase: str) -> int:
+        """Count of a phase's elements: no less than asked for, and the corners of its current lie between them.
 
         A freezing layer whose edge runs through the cells wants twice as many.
         """
-        asked = self._elements * (2 if self.model.stages[stage].stage.history else 1)
-        pieces = next((current.pieces for current in self.free_currents if current.stage == stage), 1)
+        asked = self._elements * (2 if self.model.phases[phase].phase.history else 1)
+        pieces = next((current.pieces for current in self.free_currents if current.phase == phase), 1)
         return pieces * math.ceil(asked / pieces)
 
-    def currents_at_nodes(self, stage: str, inputs: Any) -> Any:
-        """Current [A] of a stage at its nodes: one where it is constant."""
-        row = self.model.stages[stage].stage
+    def currents_at_nodes(self, phase: str, inputs: Any) -> Any:
+        """Current [A] of a phase at its nodes: one where it is constant."""
+        row = self.model.phases[phase].phase
         for current in self.free_currents:
-            if current.stage == stage:
-                return row.sign * current.upper * self._nodes[stage]
-        return row.sign * inputs[self.model.index[row.drive]]
+            if current.phase == phase:
+                return row.sign * current.upper * self._nodes[phase]
+        return row.sign * inputs[self.model.index[row.current_input]]
 
     def _write_blocks(self, inputs: Any) -> list[Block]:
         blocks: dict[str, Block] = {}
         for event in self.events:
-            row = self.model.table.row(event)
+            row = self.model.table.quantity(event)
             assert isinstance(row, Event)
-            stage = self.model.stages[row.stage]
-            after = stage.stage.after
+            phase = self.model.phases[row.phase]
+            after = phase.phase.after
             if after is None:
-                start = stage.initial(inputs)
+                start = phase.initial(inputs)
             else:
-                start = stage.begin(blocks[self.model.stages[after].stage.ends].states[:, -1], inputs)
-            nodes = self.currents_at_nodes(row.stage, inputs)
-            ramp = self._ramp(row.stage, inputs)
-            blocks[event] = stage_block(stage, event, self.elements(row.stage), inputs, start, nodes, ramp)
+                start = phase.begin(blocks[self.model.phases[after].phase.ends].states[:, -1], inputs)
+            nodes = self.currents_at_nodes(row.phase, inputs)
+            ramp = self._ramp(row.phase, inputs)
+            blocks[event] = phase_block(phase, event, self.elements(row.phase), inputs, start, nodes, ramp)
         return list(blocks.values())
 
-    def _ramp(self, stage: str, inputs: Any) -> tuple[int, Any]:
+    def _ramp(self, phase: str, inputs: Any) -> tuple[int, Any]:
         """Elements and time [s] a free current takes to its first node; a constant one is there from the start."""
         for current in self.free_currents:
-            if current.stage == stage:
-                first = current.upper * self._nodes[stage][0]
+            if current.phase == phase:
+                first = current.upper * self._nodes[phase][0]
                 return current.ramp_elements, ramp_time(first, inputs[self.model.index["current_slew"]])
         return 0, 0.0
 
     def _write_balances(self, inputs: Any) -> list[Balance]:
         needed = self._needed
         balances = []
-        for name, stage in self.model.stages.items():
-            if any(row.name in needed for row in stage.steadies):
-                unknowns = ca.MX.sym(f"balance_{name}", stage.state_size + 1)
-                state, drive = unknowns[:-1], unknowns[-1]
-                gap = stage.watch([stage.stage.ends])(state, drive, inputs)
-                equations = ca.vertcat(stage.rates(state, drive, inputs), gap)
-                balances.append(Balance(stage=name, unknowns=unknowns, equations=equations))
+        for name, phase in self.model.phases.items():
+            if any(row.name in needed for row in phase.steadies):
+                unknowns = ca.MX.sym(f"balance_{name}", phase.state_size + 1)
+                state, profile = unknowns[:-1], unknowns[-1]
+                gap = phase.watch([phase.phase.ends])(state, profile, inputs)
+                equations = ca.vertcat(phase.rates(state, profile, inputs), gap)
+                balances.append(Balance(phase=name, unknowns=unknowns, equations=equations))
         return balances
 
     def _slopes(self, inputs: Any) -> Any:
@@ -262,8 +264,8 @@ class Problem:
         allowed = inputs[self.model.index["current_slew"]] if self.free_currents else None
         for block in self.blocks:
             for current in self.free_currents:
-                if block.event == self.model.stages[current.stage].stage.ends:
-                    step = current.upper * ca.diff(self._nodes[current.stage])
+                if block.event == self.model.phases[current.phase].phase.ends:
+                    step = current.upper * ca.diff(self._nodes[current.phase])
                     slope = step * current.pieces / (block.pieces_time * allowed)
                     rows += [slope - 1.0, -slope - 1.0]
         return ca.vertcat(*rows)
@@ -278,12 +280,12 @@ class Problem:
         peaks: dict[str, Any] = {}
         rows = []
         needed = self._needed
-        for stage in self.model.stages.values():
-            paths = [row for row in stage.paths if row.name in needed]
+        for phase in self.model.phases.values():
+            paths = [row for row in phase.paths if row.name in needed]
             if not paths:
                 continue
-            block, watch = by_event[stage.stage.ends], stage.watch([row.name for row in paths])
-            samples = ca.vertsplit(at_each(stage, watch, block.every, block.currents, self._device_inputs))
+            block, watch = by_event[phase.phase.ends], phase.watch([row.name for row in paths])
+            samples = ca.vertsplit(at_each(phase, watch, block.every, block.currents, self._device_inputs))
             for row, sampled in zip(paths, samples, strict=True):
                 if row.reduce == "integral":
                     values[row.name] = ca.mtimes(sampled[1:], block.weights)
@@ -293,13 +295,13 @@ class Problem:
                     values[row.name] = scale * peaks[row.name]
                     rows.append(sampled.T / scale - peaks[row.name])
         for balance in self.balances:
-            stage = self.model.stages[balance.stage]
-            for steady in stage.steadies:
-                state, drive = balance.unknowns[:-1], balance.unknowns[-1]
-                values[steady.name] = stage.watch([steady.name])(state, drive, self._device_inputs)
+            phase = self.model.phases[balance.phase]
+            for steady in phase.steadies:
+                state, profile = balance.unknowns[:-1], balance.unknowns[-1]
+                values[steady.name] = phase.watch([steady.name])(state, profile, self._device_inputs)
         # What no wanted row needs is never read; NaN would show it if it were.
-        switch = ca.vertcat(*(values.get(name, np.nan) for name in self.model.switch_names))
-        return switch, peaks, ca.vertcat(*rows)
+        cycle = ca.vertcat(*(values.get(name, np.nan) for name in self.model.switch_names))
+        return cycle, peaks, ca.vertcat(*rows)
 
     @staticmethod
     def peak_scale(row: Path) -> float:
@@ -310,21 +312,21 @@ class Problem:
         """Raise InputError for what cannot be put to the solver, with what can be said instead."""
         table = self.model.table
         for limit in self.limits:
-            row = table.row(limit.output)
+            row = table.quantity(limit.output)
             if isinstance(row, Path) and row.reduce == "maximum" and limit.sense == ">=":
                 raise InputError(f"require.{limit.output}: a peak can be kept below a limit, not above one")
         for current in self.free_currents:
-            ends = self.model.stages[current.stage].stage.ends
-            mine = [row.name for row in self.model.stages[current.stage].events if row.name != ends]
+            ends = self.model.phases[current.phase].phase.ends
+            mine = [row.name for row in self.model.phases[current.phase].events if row.name != ends]
             others = [name for name in self.events if name in mine]
             if others:
                 raise InputError(
-                    f"profile.{current.stage}: the pieces of the current divide the time to {ends}; "
+                    f"profile.{current.phase}: the pieces of the current divide the time to {ends}; "
                     f"{', '.join(others)} cannot be limited or minimised beside it; "
-                    "choose what ends the stage with `response_criterion`"
+                    "choose what ends the phase with `response_criterion`"
                 )
             if ends not in self.events:
                 raise InputError(
-                    f"profile.{current.stage}: nothing that is required or minimised depends on this stage; "
+                    f"profile.{current.phase}: nothing that is required or minimised depends on this phase; "
                     f"minimise {ends}, or leave the profile out"
                 )

@@ -8,9 +8,9 @@ from dataclasses import astuple, dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.current_profile import Drive
-from tvimdesign.simulation.cycle import Switch
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.current_profile import CurrentProfile
+from tvimdesign.simulation.cycle import Cycle
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 SAME_OPTIMUM = 1e-4
 """Two solutions are the same optimum if their objectives differ by no more than this share."""
@@ -42,7 +42,7 @@ def same_optimum(start: Start, other: Start) -> bool:
 
 
 @dataclass(frozen=True)
-class Held:
+class ActiveConstraint:
     """One limit or bound at the solution: its residual (share of its scale, kept where <= 0) and what it costs.
 
     `price` is how much of the objective, in percent, relaxing it by `step` would save; `step` is in words.
@@ -57,10 +57,10 @@ class Held:
     """SI."""
     absolute: bool
     """Whether the room is to be read in the row's unit, not as a share."""
-    price: float
+    shadow_price: float
     step: str
     origin: str
-    savings: dict[str, float] = field(default_factory=dict)
+    sensitivity: dict[str, float] = field(default_factory=dict)
 
     @property
     def margin(self) -> float:
@@ -69,7 +69,7 @@ class Held:
 
 
 @dataclass
-class Work:
+class SolverEffort:
     """How many runs of the solver a search over listed choices took."""
 
     warm: int = 0
@@ -81,9 +81,9 @@ class Work:
     """Boxes of sizes in which the limits that depend on no switch cannot be kept."""
 
     @classmethod
-    def total(cls, works: Iterable[Work]) -> Work:
+    def total(cls, build_plan: Iterable[SolverEffort]) -> SolverEffort:
         """The work of several searches together."""
-        together = [astuple(work) for work in works]
+        together = [astuple(work) for work in build_plan]
         return cls(*(sum(column) for column in zip(*together, strict=True)))
 
     def count(self, start: Start, *, warm: bool) -> None:
@@ -122,9 +122,9 @@ class Choosing:
     """Whether every combination was solved or has a bound of its own, and not only those branch and bound leaves."""
     improved: float
     """Share by which that found better than branch and bound did; zero where they agree."""
-    work: Work
+    work: SolverEffort
     """Of branch and bound."""
-    proof: Work
+    proof: SolverEffort
     """Of the enumeration."""
     inside: float
     """Largest share by which a design within a box was better than the bound of the box: zero if bounds were bounds."""
@@ -132,7 +132,7 @@ class Choosing:
 
 @dataclass(frozen=True)
 class Side:
-    """One limit that is broken, or quarrels."""
+    """One limit that is broken, or conflicts."""
 
     text: str
     origin: str
@@ -146,7 +146,7 @@ class Side:
 
 
 @dataclass(frozen=True)
-class Quarrel:
+class ConflictSet:
     """What is known of a study that has no design."""
 
     broken: tuple[Side, ...]
@@ -185,15 +185,15 @@ class Solution:
 
     status: str
     feasible: bool
-    model: Model
+    model: DeviceFunctions
     inputs: NDArray[np.float64]
-    drives: dict[str, Drive]
-    """The currents that were free, by stage."""
-    switch: Switch
+    current_profiles: dict[str, CurrentProfile]
+    """The currents that were free, by phase."""
+    cycle: Cycle
     values: dict[str, float]
     objective: float
     starts: tuple[Start, ...]
-    held: tuple[Held, ...]
+    held: tuple[ActiveConstraint, ...]
     reference: dict[str, float]
     """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
     seconds: dict[str, float]
@@ -204,7 +204,7 @@ class Solution:
     """Points drawn at which no search began, by the reason."""
     yield_reached: YieldReached | None = None
     """What of a yield that was asked for is reached; None where none is."""
-    quarrel: Quarrel | None = None
+    conflict_set: ConflictSet | None = None
     """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 
     @property

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.current_profile import Drive
+from tvimdesign.simulation.current_profile import CurrentProfile
 from tvimdesign.solve.nlp.solution import Start
 
 Array = NDArray[np.float64]
@@ -32,10 +32,10 @@ class Run:
 
     start: Start
     inputs: Array
-    drives: dict[str, Drive]
-    """The free currents by stage."""
+    current_profiles: dict[str, CurrentProfile]
+    """The free currents by phase."""
     ends: dict[str, float]
-    """Time [s] each stage takes that the problem has."""
+    """Time [s] each phase takes that the problem has."""
     unknowns: Array
     multipliers: Array
     bound_multipliers: Array

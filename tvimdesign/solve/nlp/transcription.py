@@ -1,4 +1,4 @@
-"""One stage as equations: direct collocation of the heat equation over an unknown final time.
+"""One phase as equations: direct collocation of the heat equation over an unknown final time.
 
 Five Radau points on each of a few equal elements over an unknown time; the last point of an element is the start of the
 next, so the states need no continuity equations. States have no bounds. The current is straight between evenly spaced
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.simulation.cycle import Trajectory
-from tvimdesign.simulation.phase_model import StageModel
+from tvimdesign.simulation.phase_model import PhaseFunctions
 
 ORDER = 5
 """Points of an element. Three of five are as exact as eight of three, with three eighths fewer unknowns."""
@@ -34,10 +34,10 @@ def radau() -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class Block:
-    """The unknowns and equations of one stage that ends at one event."""
+    """The unknowns and equations of one phase that ends at one event."""
 
     event: str
-    stage: StageModel
+    phase: PhaseFunctions
     states: Any
     """MX, one column a collocation point."""
     log_time: Any
@@ -92,8 +92,8 @@ def between_nodes(elements: int, nodes: int, ramp_elements: int) -> Array:
     return np.hstack([np.eye(nodes)[:, :1] * rising, found])
 
 
-def stage_block(
-    stage: StageModel,
+def phase_block(
+    phase: PhaseFunctions,
     event: str,
     elements: int,
     inputs: Any,
@@ -101,7 +101,7 @@ def stage_block(
     nodes: Any,
     ramp: tuple[int, Any] = (0, 0.0),
 ) -> Block:
-    """Write the equations of a stage for symbolic inputs, starting state and currents at the nodes (MX).
+    """Write the equations of a phase for symbolic inputs, starting state and currents at the nodes (MX).
 
     A current that is not there from the start rises from zero to its first node over a `ramp`: elements and seconds.
     """
@@ -110,20 +110,20 @@ def stage_block(
     ramp_elements, ramp_time = ramp
     lengths = [ramp_time / ramp_elements] * ramp_elements if ramp_elements else []
     lengths += [ca.exp(log_time) / elements] * elements
-    states = ca.MX.sym(f"states_{event}", stage.state_size, len(lengths) * ORDER)
+    states = ca.MX.sym(f"states_{event}", phase.state_size, len(lengths) * ORDER)
     currents = ca.mtimes(nodes.T, between_nodes(elements, nodes.numel(), ramp_elements))
     every = ca.horzcat(start, states)
     slopes = ca.mtimes(every, _differences(len(lengths)))
-    rates = at_each(stage, stage.rates, states, currents[:, 1:], inputs)
+    rates = at_each(phase, phase.rates, states, currents[:, 1:], inputs)
     steps = ca.horzcat(*(ca.repmat(length, 1, ORDER) for length in lengths))
-    gap = stage.watch([event])(states[:, -1], currents[:, -1], inputs)
+    gap = phase.watch([event])(states[:, -1], currents[:, -1], inputs)
     return Block(
         event=event,
-        stage=stage,
+        phase=phase,
         states=states,
         log_time=log_time,
         ramp=ramp_time,
-        equations=ca.vertcat(ca.vec(slopes - ca.repmat(steps, stage.state_size, 1) * rates), gap),
+        equations=ca.vertcat(ca.vec(slopes - ca.repmat(steps, phase.state_size, 1) * rates), gap),
         every=every,
         currents=currents,
         weights=ca.vertcat(*(length * weights for length in lengths)),
@@ -139,9 +139,9 @@ def _differences(elements: int) -> Any:
     return blocks
 
 
-def at_each(stage: StageModel, function: Any, states: Any, currents: Any, inputs: Any) -> Any:
-    """A function (state, current, inputs) of the stage applied to every column of `states`."""
-    constants, varying = stage.per_stage(function)
+def at_each(phase: PhaseFunctions, function: Any, states: Any, currents: Any, inputs: Any) -> Any:
+    """A function (state, current, inputs) of the phase applied to every column of `states`."""
+    constants, varying = phase.per_phase(function)
     count = states.size2()
     return varying.map(count)(states, currents, ca.repmat(constants(inputs), 1, count))
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.solve.nlp.constraints import Limit, on_switch
+from tvimdesign.solve.nlp.constraints import Constraint, on_cycle
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 
@@ -17,10 +17,12 @@ class Arithmetic:
     def __init__(self, optimizer: Optimizer) -> None:
         """Sort the goal's outputs and the limits."""
         self._optimizer, table = optimizer, optimizer.table
-        self.limits: list[Limit] = [limit for limit in optimizer.problem.limits if not on_switch(table, limit.output)]
+        self.limits: list[Constraint] = [
+            limit for limit in optimizer.problem.limits if not on_cycle(table, limit.output)
+        ]
         self.weights = {
             name: weight / optimizer.reference[name]
-            for name, weight in optimizer.study.minimize.items() if not on_switch(table, name)
+            for name, weight in optimizer.study.minimize.items() if not on_cycle(table, name)
         }  # fmt: skip
 
     def values(self, unknowns: Any) -> tuple[Any, Any]:

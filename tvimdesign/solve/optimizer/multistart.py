@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from tvimdesign.base.errors import SimulationError
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.solve.nlp.constraints import impossible, on_switch
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.nlp.constraints import impossible, on_cycle
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.solver_run import Array, Progress
 from tvimdesign.solve.optimizer.starting_points import unit_points
@@ -18,16 +18,16 @@ from tvimdesign.study import SolverOptions
 MAX_DRAWS = 100
 
 
-class Beginnings:
+class Multistart:
     """Points to begin at, each tried by simulating its switch as far as the problem needs it."""
 
     def __init__(
-        self, problem: Problem, model: Model, simulator: Simulator, options: SolverOptions, progress: Progress
+        self, problem: Problem, model: DeviceFunctions, simulator: Simulator, options: SolverOptions, progress: Progress
     ) -> None:
         """Simulate the study's own start, which is in `model`, as far as the problem needs it."""
         self.problem, self.model, self.simulator = problem, model, simulator
         self.options, self.progress = options, progress
-        self.switch = problem.simulated(simulator, model.start)
+        self.cycle = problem.simulated(simulator, model.start)
         """The switch of the study's own start."""
         self.passed_over = {"switch never ends": 0, "no such module": 0}
         """Points at which no search began, by the reason."""
@@ -66,18 +66,18 @@ class Beginnings:
             for free, share in zip(self.problem.free, next(points), strict=True):
                 low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
                 point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
-            values = self.model.values(point, self.switch.values)
-            numbers = [value for name, value in values.items() if not on_switch(self.model.table, name)]
+            values = self.model.values(point, self.cycle.values)
+            numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
             if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table):
                 return point
             self.passed_over["no such module"] += 1
         return self.model.start
 
-    def trial(self, inputs: Array) -> Switch | None:
+    def trial(self, inputs: Array) -> Cycle | None:
         """The switch at a point, None where it does not end."""
         try:
             known = inputs is self.model.start
-            switch = self.switch if known else self.problem.simulated(self.simulator, inputs)
+            cycle = self.cycle if known else self.problem.simulated(self.simulator, inputs)
         except SimulationError:
             return None
-        return switch if all(np.isfinite(switch.values[event]) for event in self.problem.events) else None
+        return cycle if all(np.isfinite(cycle.values[event]) for event in self.problem.events) else None

@@ -18,15 +18,15 @@ from tvimdesign.device import Input, Table
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.simulation.current_profile import ramp_time
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.solve.nlp.constraints import Limit, limits_of, on_switch, unchangeable
-from tvimdesign.solve.nlp.decision_vector import Unknowns
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle, unchangeable
+from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.ipopt import NLP, solver_of
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, Run, Trace
-from tvimdesign.solve.optimizer.multistart import Beginnings
+from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
 ALGEBRAIC_TOLERANCE = 1e-6
@@ -45,7 +45,7 @@ class Optimizer:
         reference: dict[str, float] | None = None,
         progress: Progress = lambda _: None,
         simulator: Simulator | None = None,
-        traded: Sequence[str] = (),
+        objectives: Sequence[str] = (),
     ) -> None:
         """Compile the device, simulate the study's start, and build the problem.
 
@@ -57,22 +57,24 @@ class Optimizer:
         self.study, self.catalog, self.table, self.progress = study, catalog, table, progress
         began = time.perf_counter()
         points = tuple(study.operating_points)
-        self.simulator = simulator or Simulator(Model(table, given(study, catalog, table), points, study.solver.cells))
+        self.simulator = simulator or Simulator(
+            DeviceFunctions(table, given(study, catalog, table), points, study.solver.cells)
+        )
         self.model = self.simulator.model
-        self.currents = tuple(self._current(stage, pieces) for stage, pieces in study.profile.pieces().items())
+        self.currents = tuple(self._current(phase, pieces) for phase, pieces in study.profile.pieces().items())
         rows = {current.row for current in self.currents}
-        numbers = [name for name in study.vary if isinstance(table.row(name), Input) and name not in rows]
+        numbers = [name for name in study.vary if isinstance(table.quantity(name), Input) and name not in rows]
         self.free = tuple(self._free(name) for name in numbers)
         self.margins: dict[str, float] = {}
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
-        self.problem = self._problem(self.kept_limits(limits_of(study, table, self.model.words)), traded)
+        self.problem = self._problem(self.kept_constraints(constraints_of(study, table, self.model.words)), objectives)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def with_constant_currents(self) -> Optimizer | None:
-        """The same problem with currents that do not change over a stage; None where they do not anyway."""
+        """The same problem with currents that do not change over a phase; None where they do not anyway."""
         if not self.currents:
             return None
         study = self.study.model_copy(update={"profile": ProfileOptions()})
@@ -88,13 +90,13 @@ class Optimizer:
             lower, upper = min(numbers), max(numbers)
         return Free(name, lower, upper, reference if reference != 0.0 else upper)
 
-    def _current(self, stage: str, pieces: int) -> FreeCurrent:
-        row = self.table.stage(stage).drive
+    def _current(self, phase: str, pieces: int) -> FreeCurrent:
+        row = self.table.phase(phase).current_input
         vary = self.study.vary[row]
         assert isinstance(vary, Range)  # the reader sees to that
         slew = float(self.model.start[self.model.index["current_slew"]])
         ramp_elements = math.ceil(ramp_time(vary.upper, slew) / RAMP_ELEMENT)
-        return FreeCurrent(stage, row, pieces, vary.lower, vary.upper, ramp_elements)
+        return FreeCurrent(phase, row, pieces, vary.lower, vary.upper, ramp_elements)
 
     def with_records(self, study: Study) -> Optimizer | None:
         """The same problem for a study that differs in its records alone, where their numbers are all that counts.
@@ -112,20 +114,20 @@ class Optimizer:
         other = copy(self)
         other.study, other.model = study, model
         other.seconds = {"set_up": 0.0, "solve": 0.0}
-        other.kept_limits(limits_of(study, self.table, model.words))
+        other.kept_constraints(constraints_of(study, self.table, model.words))
         other._begin()
         return other
 
-    def _problem(self, kept: list[Limit], traded: Sequence[str]) -> Problem:
-        reserves = None
+    def _problem(self, kept: list[Constraint], objectives: Sequence[str]) -> Problem:
+        back_offs = None
         if self.study.robust:
-            from tvimdesign.solve.nlp.back_off import reserves_of
+            from tvimdesign.solve.nlp.back_off import back_offs_of
 
-            reserves = reserves_of(self.model, self.study, kept)
+            back_offs = back_offs_of(self.model, self.study, kept)
         elements, minimize = self.study.solver.elements, tuple(self.study.minimize)
-        return Problem(self.model, self.free, kept, minimize, elements, self.currents, traded, reserves)
+        return Problem(self.model, self.free, kept, minimize, elements, self.currents, objectives, back_offs)
 
-    def kept_limits(self, limits: list[Limit]) -> list[Limit]:
+    def kept_constraints(self, limits: list[Constraint]) -> list[Constraint]:
         """The limits without those that nothing free can change, which are checked here and now."""
         constant = self._constant(limits)
         without_switch = dict.fromkeys(self.model.switch_names, np.inf)
@@ -136,10 +138,10 @@ class Optimizer:
                 raise InfeasibleError(unchangeable(limit, self.table))
         return [limit for limit in limits if limit not in constant]
 
-    def _constant(self, limits: list[Limit]) -> list[Limit]:
+    def _constant(self, limits: list[Constraint]) -> list[Constraint]:
         """The limits that nothing free can change: by the table, or with these records and options."""
         free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
-        outputs = list(dict.fromkeys(limit.output for limit in limits if not on_switch(self.table, limit.output)))
+        outputs = list(dict.fromkeys(limit.output for limit in limits if not on_cycle(self.table, limit.output)))
         rows, columns = self.model.outputs(outputs).jac_sparsity(0, 0).get_triplet()
         places = {self.model.index[name] for name in free}
         moved = {outputs[row] for row, column in zip(rows, columns, strict=True) if column in places}
@@ -147,15 +149,15 @@ class Optimizer:
 
     def _begin(self) -> None:
         """What knows the numbers of the records: where to begin, and how the vector of unknowns is read."""
-        self.beginnings = Beginnings(self.problem, self.model, self.simulator, self.study.solver, self.progress)
-        self.vector = Unknowns(self.problem, self.model)
-        switch = self.beginnings.switch.values
-        self.start_values = self.model.some_values(self.problem.minimize, self.model.start, switch)
+        self.multistart = Multistart(self.problem, self.model, self.simulator, self.study.solver, self.progress)
+        self.vector = DecisionVector(self.problem, self.model)
+        cycle = self.multistart.cycle.values
+        self.start_values = self.model.some_values(self.problem.minimize, self.model.start, cycle)
         """What is minimised, at the study's start."""
 
     def guess(self, inputs: Array) -> Array:
         """The unknowns at a point, with the switch simulated there; with the start's where that does not end."""
-        return self.vector.at(inputs, self.beginnings.trial(inputs) or self.beginnings.switch)
+        return self.vector.at(inputs, self.multistart.trial(inputs) or self.multistart.cycle)
 
     def _reference(self, name: str) -> float:
         value = self.start_values[name]
@@ -182,7 +184,7 @@ class Optimizer:
         within: Mapping[str, Ends] | None = None,
         warm: Run | Trace | None = None,
         begin: Array | None = None,
-        goal: Goal | None = None,
+        goal: Objective | None = None,
         unknowns: Array | None = None,
     ) -> Run:
         """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within`
@@ -199,18 +201,18 @@ class Optimizer:
         arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
-        goal = goal or Goal(self.study.minimize)
+        goal = goal or Objective(self.study.minimize)
         answer = solver(**arguments, p=self.parameters(goal), **self.ends(within or {}, goal))
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
         run = self.record(answer, solver.stats(), inputs, seconds)
         return replace(run, within=within or {})
 
-    def ends(self, within: Mapping[str, Ends], goal: Goal) -> dict[str, Array]:
+    def ends(self, within: Mapping[str, Ends], goal: Objective) -> dict[str, Array]:
         """Ends of the unknowns and of the rows for one run, as nlpsol names them."""
         lower, upper = self.vector.bounds(within)
         equations = np.zeros(self.problem.equation_count)
-        room, rest = goal.room(self.problem.traded), np.zeros(self.problem.slope_count + self.problem.peak_count)
+        room, rest = goal.room(self.problem.objectives), np.zeros(self.problem.slope_count + self.problem.peak_count)
         most = np.concatenate([self._limits_less_margins(), room, rest])
         return {
             "lbx": lower, "ubx": upper,
@@ -228,22 +230,22 @@ class Optimizer:
             iterations=int(stats["iter_count"]), objective=float(answer["f"]), seconds=seconds,
             begin=self.vector.free_values(inputs), end=self.vector.free_values(end),
         )  # fmt: skip
-        drives = self.vector.drives(unknowns)
+        current_profiles = self.vector.current_profiles(unknowns)
         multipliers, of_bounds, of_parameters = (
             np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p")
         )
         times = self.vector.times(unknowns)
-        ends = {stage.name: times[stage.ends] for stage in self.table.stages if stage.ends in times}
-        return Run(start, end, drives, ends, unknowns, multipliers, of_bounds, of_parameters)
+        ends = {phase.name: times[phase.ends] for phase in self.table.phases if phase.ends in times}
+        return Run(start, end, current_profiles, ends, unknowns, multipliers, of_bounds, of_parameters)
 
     def _limits_less_margins(self) -> Array:
         """What the limits' residuals may come to: zero, or so far within as their margins say."""
         return -np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
 
-    def parameters(self, goal: Goal) -> Array:
+    def parameters(self, goal: Objective) -> Array:
         """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
         over = [goal.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
-        return np.concatenate([self.model.start, over, goal.factors(self.problem.traded).ravel(order="F")])
+        return np.concatenate([self.model.start, over, goal.factors(self.problem.objectives).ravel(order="F")])
 
     def derivatives(self, run: Run) -> Derivatives:
         """The problem's values and derivatives where a run of the study's own goal ended.
@@ -251,12 +253,12 @@ class Optimizer:
         IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
         """
         solver = self._solver(warm=False)
-        parameters = self.parameters(Goal(self.study.minimize))
+        parameters = self.parameters(Objective(self.study.minimize))
         rows, jacobian = solver.get_function("nlp_jac_g")(run.unknowns, parameters)
         hessian = solver.get_function("nlp_hess_l")(run.unknowns, parameters, 1.0, run.multipliers)
         values, gradients = {}, {}
         for name in self.study.minimize:
-            alone = self.parameters(Goal({name: self.reference[name]}))
+            alone = self.parameters(Objective({name: self.reference[name]}))
             value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
             values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
         found = np.asarray(rows).ravel()

@@ -42,7 +42,7 @@ class Response:
         self._tangled = _tangled(rows)
         self._adjoints = self._solve(derivatives, along, rows)
 
-    def savings(self, places: Iterable[Place]) -> dict[str, float]:
+    def sensitivity(self, places: Iterable[Place]) -> dict[str, float]:
         """Share of each minimised output that easing all the places by one saves, per unit; none where undetermined."""
         moved = [self._places.index(place) for place in places if place in self._places]
         if any(self._tangled[i] for i in moved):

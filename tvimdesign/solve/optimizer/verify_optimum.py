@@ -6,15 +6,15 @@ from typing import Literal
 
 import numpy as np
 
-from tvimdesign.solve.nlp.constraints import Limit, in_words, make_limit, on_switch
-from tvimdesign.solve.nlp.solution import Held, Solution, Start
+from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint, on_cycle
+from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution, Start
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
 from tvimdesign.solve.optimizer.post_optimal import Place, Response
 from tvimdesign.solve.optimizer.statuses import meaning
 from tvimdesign.study import Range
 
-SWITCH_TOLERANCE = 2e-3
+CYCLE_TOLERANCE = 2e-3
 """Share by which a limit on a row that depends on a switch may be broken: collocation against the simulation."""
 
 
@@ -22,14 +22,14 @@ SAME_CURRENT = 1e-4
 """Share of the range within which a current is said to be at its end."""
 
 
-def account(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:
+def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:
     """Simulate and check a run's design again, and say what holds it."""
-    switch = optimizer.simulator.run_to_show(run.inputs, run.drives, run.ends)
-    values = optimizer.model.values(run.inputs, switch.values)
+    cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles, run.ends)
+    values = optimizer.model.values(run.inputs, cycle.values)
     response = Response(optimizer, run) if run.start.converged else None
-    limits = _held_by_limits(optimizer, run, values, response)
+    limits = _active_constraints(optimizer, run, values, response)
     tolerances = [
-        SWITCH_TOLERANCE if on_switch(optimizer.table, limit.output) else ALGEBRAIC_TOLERANCE
+        CYCLE_TOLERANCE if on_cycle(optimizer.table, limit.output) else ALGEBRAIC_TOLERANCE
         for limit in optimizer.problem.limits
     ]
     feasible = all(held.residual <= tolerance for held, tolerance in zip(limits, tolerances, strict=True))
@@ -42,46 +42,58 @@ def account(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: 
         feasible=feasible,
         model=optimizer.model,
         inputs=run.inputs,
-        drives=run.drives,
-        switch=switch,
+        current_profiles=run.current_profiles,
+        cycle=cycle,
         values=values,
         objective=sum(w * values[n] / optimizer.reference[n] for n, w in optimizer.study.minimize.items()),
         starts=starts,
-        held=(*limits, *_held_by_bounds(optimizer, run, response), *_held_by_currents(optimizer, run, response)),
+        held=(*limits, *_active_bounds(optimizer, run, response), *_active_currents(optimizer, run, response)),
         reference={name: optimizer.reference[name] for name in optimizer.study.minimize},
         seconds=seconds,
     )
 
 
-def _held(limit: Limit, text: str, residual: float, price: float, savings: dict[str, float], where: str = "") -> Held:
-    return Held(
-        name=f"{limit.name}{where}", output=limit.output, text=text, residual=residual, scale=limit.scale,
-        absolute=limit.absolute, price=price, step=limit.step, origin=limit.origin, savings=savings,
-    )  # fmt: skip
+def _active(
+    limit: Constraint, text: str, residual: float, shadow_price: float, sensitivity: dict[str, float], where: str = ""
+) -> ActiveConstraint:
+    return ActiveConstraint(
+        name=f"{limit.name}{where}",
+        output=limit.output,
+        text=text,
+        residual=residual,
+        scale=limit.scale,
+        absolute=limit.absolute,
+        shadow_price=shadow_price,
+        step=limit.step,
+        origin=limit.origin,
+        sensitivity=sensitivity,
+    )
 
 
 def _savings(response: Response | None, places: list[Place], per_scale: float = 1.0) -> dict[str, float]:
     """What easing the places by a step saves of each minimised output, in percent: a step is a hundredth of a scale."""
-    found = response.savings(places) if response else {}
+    found = response.sensitivity(places) if response else {}
     return {name: share * per_scale for name, share in found.items()}
 
 
-def _held_by_limits(optimizer: Optimizer, run: Run, values: dict[str, float], response: Response | None) -> list[Held]:
+def _active_constraints(
+    optimizer: Optimizer, run: Run, values: dict[str, float], response: Response | None
+) -> list[ActiveConstraint]:
     first = optimizer.problem.equation_count
     prices = run.multipliers[first : first + len(optimizer.problem.limits)]
     return [
-        _held(
+        _active(
             limit,
             in_words(limit, optimizer.table),
             float(limit.residual(values[limit.output])),
-            float(price) / (run.start.objective or 1.0),
+            float(shadow_price) / (run.start.objective or 1.0),
             _savings(response, [("row", first + i)]),
         )
-        for i, (limit, price) in enumerate(zip(optimizer.problem.limits, prices, strict=True))
+        for i, (limit, shadow_price) in enumerate(zip(optimizer.problem.limits, prices, strict=True))
     ]
 
 
-def _held_by_bounds(optimizer: Optimizer, run: Run, response: Response | None) -> list[Held]:
+def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) -> list[ActiveConstraint]:
     """The ends of the ranges; a listed size has no end to move."""
     found = []
     senses: tuple[tuple[Literal["<=", ">="], float], ...] = (("<=", 1.0), (">=", -1.0))
@@ -90,11 +102,13 @@ def _held_by_bounds(optimizer: Optimizer, run: Run, response: Response | None) -
             continue
         value = run.inputs[optimizer.model.index[free.name]]
         for sense, sign in senses:
-            limit = make_limit(optimizer.table, free.name, sense, free.upper if sense == "<=" else free.lower, "vary")
+            limit = make_constraint(
+                optimizer.table, free.name, sense, free.upper if sense == "<=" else free.lower, "vary"
+            )
             multiplier = max(sign * float(run.bound_multipliers[i]), 0.0)
             per_scale = float(limit.scale / abs(value if free.logarithmic else free.reference))
             found.append(
-                _held(
+                _active(
                     limit,
                     in_words(limit, optimizer.table),
                     float(limit.residual(value)),
@@ -105,7 +119,7 @@ def _held_by_bounds(optimizer: Optimizer, run: Run, response: Response | None) -
     return found
 
 
-def _held_by_currents(optimizer: Optimizer, run: Run, response: Response | None) -> list[Held]:
+def _active_currents(optimizer: Optimizer, run: Run, response: Response | None) -> list[ActiveConstraint]:
     """The ends of the range of a free current, all its nodes together, and the supply's slew."""
     found = []
     objective = run.start.objective or 1.0
@@ -115,33 +129,33 @@ def _held_by_currents(optimizer: Optimizer, run: Run, response: Response | None)
             ("<=", current.upper, 1.0), (">=", current.lower, -1.0),
         )  # fmt: skip
         for sense, bound, sign in senses:
-            limit = make_limit(optimizer.table, current.row, sense, bound, "vary")
+            limit = make_constraint(optimizer.table, current.row, sense, bound, "vary")
             bound_text = in_words(limit, optimizer.table)
             at_it = int(np.sum(sign * (shares - bound / current.upper) >= -SAME_CURRENT))
             nodes = range(place.start, place.stop)
             end: Literal["upper", "lower"] = "upper" if sense == "<=" else "lower"
-            price = float(np.sum(np.maximum(sign * multipliers, 0.0))) * limit.scale / current.upper
+            shadow_price = float(np.sum(np.maximum(sign * multipliers, 0.0))) * limit.scale / current.upper
             found.append(
-                _held(
+                _active(
                     limit,
-                    f"{bound_text}, at {at_it} of {current.nodes} moments of {current.stage}",
+                    f"{bound_text}, at {at_it} of {current.nodes} moments of {current.phase}",
                     float(np.max(sign * (shares - bound / current.upper))),
-                    price / objective,
+                    shadow_price / objective,
                     _savings(response, [(end, i) for i in nodes], limit.scale / current.upper),
-                    f" in {current.stage}",
+                    f" in {current.phase}",
                 )
             )
-    return found + _held_by_slew(optimizer, run)
+    return found + _active_slew(optimizer, run)
 
 
-def _held_by_slew(optimizer: Optimizer, run: Run) -> list[Held]:
+def _active_slew(optimizer: Optimizer, run: Run) -> list[ActiveConstraint]:
     if not optimizer.currents:
         return []
     place = optimizer.model.index["current_slew"]
     value = float(optimizer.model.start[place])
-    limit = make_limit(optimizer.table, "current_slew", "<=", value, "module")
-    steepest = max(drive.steepest for drive in run.drives.values())
+    limit = make_constraint(optimizer.table, "current_slew", "<=", value, "module")
+    steepest = max(profile.steepest for profile in run.current_profiles.values())
     # The supply's ramps are part of the equations: what they cost is the objective's derivative by the slew itself,
     # which CasADi gives with the sign of what easing it saves.
-    price = float(run.parameter_multipliers[place]) * value / (run.start.objective or 1.0)
-    return [_held(limit, in_words(limit, optimizer.table), steepest / value - 1.0, price, {})]
+    shadow_price = float(run.parameter_multipliers[place]) * value / (run.start.objective or 1.0)
+    return [_active(limit, in_words(limit, optimizer.table), steepest / value - 1.0, shadow_price, {})]

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.solve.nlp.objective import Bound, Goal
+from tvimdesign.solve.nlp.objective import Bound, Objective
 from tvimdesign.solve.nlp.solver_run import Trace
 from tvimdesign.solve.pareto import front_shape as shape
 from tvimdesign.solve.pareto.front_shape import Frame
@@ -104,13 +104,13 @@ class _Tracer:
             self.ends = kept
             return self._done(f"one point: {_and(self.outputs)} do not conflict")
         flat = [name for name in self.outputs if _alike([end.values[name] for end in kept])]
-        traded = tuple(name for name in self.outputs if name not in flat)
+        objectives = tuple(name for name in self.outputs if name not in flat)
         self.notes += [f"{name} is the same all along" for name in flat]
         self.notes += self._barely_conflicting()
-        self.frame = Frame.of(traded, [end.values for end in kept])
+        self.frame = Frame.of(objectives, [end.values for end in kept])
         self.lost += len(self.ends) - len(kept)
         self.ends = kept
-        if len(traded) == 2 or shape.thin(np.array([self.frame.place(end.values) for end in self.ends])):
+        if len(objectives) == 2 or shape.thin(np.array([self.frame.place(end.values) for end in self.ends])):
             self._along_a_line()
         else:
             self._over_a_surface()
@@ -132,7 +132,7 @@ class _Tracer:
         for name in self.outputs:
             for others in itertools.permutations([other for other in self.outputs if other != name]):
                 weights = {other: SIDE_WEIGHT ** (i + 1) for i, other in enumerate(others)}
-                goal = Goal(self.trade.weights({name: 1.0, **weights}))
+                goal = Objective(self.trade.weights({name: 1.0, **weights}))
                 near = next((end for end in self.ends if end.where.startswith(f"least {name}")), None)
                 near = near or self.trade.ends.get(name)
                 guess = near.trace if near else None
@@ -215,9 +215,9 @@ class _Tracer:
         self.between.append(found)
         return True
 
-    def _goal(self, bounds: Sequence[Bound]) -> Goal:
+    def _goal(self, bounds: Sequence[Bound]) -> Objective:
         first, *others = self.outputs
-        return Goal(self.trade.weights({first: 1.0, **dict.fromkeys(others, SIDE_WEIGHT)}), tuple(bounds))
+        return Objective(self.trade.weights({first: 1.0, **dict.fromkeys(others, SIDE_WEIGHT)}), tuple(bounds))
 
     def _nearest(self, place: Array) -> list[Point]:
         """All points, the nearest first; of equally near ones the one found first."""
@@ -262,7 +262,7 @@ class _Tracer:
 
     # --- small things ---
 
-    def _sought(self, goal: Goal, where: str, near: Point | None, guess: Trace | None = None) -> Point | Failure:
+    def _sought(self, goal: Objective, where: str, near: Point | None, guess: Trace | None = None) -> Point | Failure:
         found = self.trade.best(goal, f"{self.title}: {where}", near, guess)
         found = replace(found, where=where)
         if isinstance(found, Failure):

@@ -46,8 +46,8 @@ def leads(curves: Mapping[str, Curve]) -> list[Lead]:
         ratios = [1.0]
         if len(order) > 1:
             ratios = [reached(curves[order[1]], end) / reached(curves[best], end) for end in ends]
-        alike = len(order) > 1 and at[order[1]] / at[best] - 1.0 <= ALIKE
-        now = Lead(lower, upper, None if alike else best, len(order) == 1, min(ratios), max(ratios))
+        from_template = len(order) > 1 and at[order[1]] / at[best] - 1.0 <= ALIKE
+        now = Lead(lower, upper, None if from_template else best, len(order) == 1, min(ratios), max(ratios))
         if found and (found[-1].best, found[-1].alone) == (now.best, now.alone):
             last = found.pop()
             now = Lead(last.lower, upper, now.best, now.alone, min(last.least, now.least), max(last.most, now.most))

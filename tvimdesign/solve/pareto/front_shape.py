@@ -88,9 +88,10 @@ def neighbours(shares: Array) -> list[tuple[int, int, float]]:
     if len(shares) < 2:
         return []
     distances = np.linalg.norm(shares[:, None, :] - shares[None, :, :], axis=2)
-    tree = minimum_spanning_tree(distances).tocoo()
+    relaxation = minimum_spanning_tree(distances).tocoo()
     return sorted(
-        (int(min(i, j)), int(max(i, j)), float(d)) for i, j, d in zip(tree.row, tree.col, tree.data, strict=True)
+        (int(min(i, j)), int(max(i, j)), float(d))
+        for i, j, d in zip(relaxation.row, relaxation.col, relaxation.data, strict=True)
     )
 
 

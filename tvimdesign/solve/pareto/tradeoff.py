@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.simulation.current_profile import Drive
-from tvimdesign.solve.nlp.constraints import in_words, on_switch
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.simulation.current_profile import CurrentProfile
+from tvimdesign.solve.nlp.constraints import in_words, on_cycle
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress, Run, Trace
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
 from tvimdesign.solve.optimizer.statuses import meaning
-from tvimdesign.solve.optimizer.verify_optimum import SWITCH_TOLERANCE
+from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import Options, Study
 
 ONE_POINT = 2e-3
@@ -39,10 +39,10 @@ class Point:
     values: dict[str, float]
     """Every input and, of the outputs, those that its goal and limits hang on, in SI by full name; once it is
     completed, every output."""
-    drives: dict[str, Any]
+    current_profiles: dict[str, Any]
     trace: Trace | None = field(default=None, repr=False, compare=False)
     """What the solver left behind, for a neighbour to begin from."""
-    goal: Goal | None = field(default=None, repr=False, compare=False)
+    goal: Objective | None = field(default=None, repr=False, compare=False)
     """What it is the best for; None for the study's own optimum."""
     cost: float = math.inf
     """What the solver made of that goal."""
@@ -61,10 +61,10 @@ class Failure:
 class Memory(Protocol):
     """What keeps the answers of a trade-off, so that one that was killed goes on where it was."""
 
-    def recall(self, number: int, goal: Goal) -> Point | Failure | None:
+    def recall(self, number: int, goal: Objective) -> Point | Failure | None:
         """The answer to a question, counted from 0; None where it is not known."""
 
-    def keep(self, number: int, goal: Goal, found: Point | Failure) -> None:
+    def keep(self, number: int, goal: Objective, found: Point | Failure) -> None:
         """Note an answer."""
 
 
@@ -86,12 +86,12 @@ class Tradeoff:
         """Those of the optimum: every point begins with them, so that it hangs on no point before."""
         self._fixed = {name: (size, size) for name, size in chosen.items()}
         self.listed = [name for name, vary in study.vary.items() if isinstance(vary, Options)]
-        self.reference = {name: abs(solution.values[name]) or 1.0 for name in optimizer.problem.traded}
+        self.reference = {name: abs(solution.values[name]) or 1.0 for name in optimizer.problem.objectives}
         numbers = [start.number for start in solution.distinct_optima()][:MOST_BEGINS]
         self._optima = [run for number in numbers for run in runs if run.start.number == number]
         inputs = {name: float(solution.inputs[i]) for name, i in solution.model.index.items()}
-        drives = {stage: drive.plain() for stage, drive in solution.drives.items()}
-        self.optimum = Point("the optimum", {**inputs, **solution.values}, drives)
+        current_profiles = {phase: profile.plain() for phase, profile in solution.current_profiles.items()}
+        self.optimum = Point("the optimum", {**inputs, **solution.values}, current_profiles)
         if self._optima:
             self.optimum = replace(self.optimum, trace=self._optima[0].trace)
         self.found: list[Point] = [self.optimum]
@@ -105,7 +105,9 @@ class Tradeoff:
         built = self.optimizer.reference
         return {name: weight * built[name] / self.reference[name] for name, weight in weights.items()}
 
-    def best(self, goal: Goal, where: str, near: Point | None = None, guess: Trace | None = None) -> Point | Failure:
+    def best(
+        self, goal: Objective, where: str, near: Point | None = None, guess: Trace | None = None
+    ) -> Point | Failure:
         """The best design for a goal: from a guess, a point nearby, or the study's optima and start.
 
         Where a design that was found before keeps the bounds and is better, this has ended in a worse optimum: then
@@ -140,14 +142,14 @@ class Tradeoff:
     def completed(self, point: Point) -> Point | Failure:
         """A point with the whole working cycle simulated: every output of it, whether the problem needs it or not."""
         inputs = self._inputs(point)
-        drives = {stage: Drive.from_plain(plain) for stage, plain in point.drives.items()}
+        current_profiles = {phase: CurrentProfile.from_plain(plain) for phase, plain in point.current_profiles.items()}
         try:
-            switch = self.optimizer.simulator.run(inputs, drives)
+            cycle = self.optimizer.simulator.run(inputs, current_profiles)
         except SimulationError as error:
             return Failure(point.where, str(error))
-        return replace(point, values=point.values | self.optimizer.model.values(inputs, switch.values))
+        return replace(point, values=point.values | self.optimizer.model.values(inputs, cycle.values))
 
-    def _search(self, goal: Goal, where: str, near: Point | None, guess: Trace | None) -> Point | Failure:
+    def _search(self, goal: Objective, where: str, near: Point | None, guess: Trace | None) -> Point | Failure:
         found: Point | Failure = Failure(where, "nothing to begin from")
         if guess is not None:
             found = self._checked([self._warm(guess, goal)], goal, where)
@@ -167,16 +169,16 @@ class Tradeoff:
             found = replace(again, root=best.root) if isinstance(again, Point) else found
         return found
 
-    def _better(self, one: Point, other: Point, goal: Goal) -> bool:
+    def _better(self, one: Point, other: Point, goal: Objective) -> bool:
         """Whether a design is better than another by more than the simulation's tolerance."""
         return self._value(one, goal) < self._value(other, goal) * (1.0 - ONE_POINT)
 
-    def _value(self, point: Point, goal: Goal) -> float:
+    def _value(self, point: Point, goal: Objective) -> float:
         """What a goal makes small."""
         built = self.optimizer.reference
         return sum(weight * point.values[name] / built[name] for name, weight in goal.weights.items())
 
-    def _from(self, point: Point, goal: Goal, where: str, beaten: float) -> Point | Failure:
+    def _from(self, point: Point, goal: Objective, where: str, beaten: float) -> Point | Failure:
         """The best design from a point, if it costs less than what is to be beaten."""
         run = self._cold(self._inputs(point), goal) if point.trace is None else self._warm(point.trace, goal)
         if run.start.converged and not run.start.objective < beaten * (1.0 - ONE_POINT):
@@ -186,13 +188,13 @@ class Tradeoff:
     def _inputs(self, point: Point) -> Array:
         return np.array([point.values[name] for name in self.optimizer.model.names])
 
-    def _warm(self, trace: Trace, goal: Goal) -> Run:
+    def _warm(self, trace: Trace, goal: Objective) -> Run:
         return self.optimizer.solve(self._fixed, warm=trace, goal=goal)
 
-    def _cold(self, begin: Array, goal: Goal) -> Run:
+    def _cold(self, begin: Array, goal: Objective) -> Run:
         return self.optimizer.solve(self._fixed, begin=begin, goal=goal)
 
-    def _checked(self, runs: Sequence[Run], goal: Goal, where: str) -> Point | Failure:
+    def _checked(self, runs: Sequence[Run], goal: Objective, where: str) -> Point | Failure:
         """The best of some runs that keeps every limit when it is simulated, or why there is none."""
         reason = f"not converged: {meaning(runs[-1].start.status).words}" if runs else "nothing to begin from"
         for run in self._robust(
@@ -204,7 +206,7 @@ class Tradeoff:
             reason = checked
         return Failure(where, reason)
 
-    def _robust(self, runs: Sequence[Run], goal: Goal) -> Iterator[Run]:
+    def _robust(self, runs: Sequence[Run], goal: Objective) -> Iterator[Run]:
         """Runs as they are; of a robust study sought again, from the optimum's margins to their own."""
         if not self.optimizer.study.robust:
             yield from runs
@@ -217,25 +219,25 @@ class Tradeoff:
             if settled.start.converged:
                 yield settled
 
-    def _simulated(self, run: Run, goal: Goal, where: str) -> Point | str:
+    def _simulated(self, run: Run, goal: Objective, where: str) -> Point | str:
         """The design simulated and held against every limit again; in words which one it breaks."""
         optimizer, problem = self.optimizer, self.optimizer.problem
         try:
-            switch = problem.simulated(optimizer.simulator, run.inputs, run.drives)
+            cycle = problem.simulated(optimizer.simulator, run.inputs, run.current_profiles)
         except SimulationError as error:
             return str(error)
-        every = optimizer.model.values(run.inputs, switch.values)
+        every = optimizer.model.values(run.inputs, cycle.values)
         values = {name: every[name] for name in problem.known}
         table = optimizer.table
         for limit in problem.limits:
-            tolerance = SWITCH_TOLERANCE if on_switch(table, limit.output) else ALGEBRAIC_TOLERANCE
+            tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
             if not limit.residual(values[limit.output]) <= tolerance:
                 value = format_quantity(values[limit.output], table.unit(limit.output))
                 return f"converged, but simulated it breaks {in_words(limit, table)}: {value}"
         for bound in goal.bounds:
             size = sum(abs(factor * values[name]) for name, factor in bound.factors.items())
-            if not bound.residual(values) <= SWITCH_TOLERANCE * size:
+            if not bound.residual(values) <= CYCLE_TOLERANCE * size:
                 return "converged, but simulated it is not where it was sought"
         inputs = {name: float(run.inputs[i]) for name, i in optimizer.model.index.items()}
-        drives = {stage: drive.plain() for stage, drive in run.drives.items()}
-        return Point(where, {**inputs, **values}, drives, run.trace, goal, run.start.objective)
+        current_profiles = {phase: profile.plain() for phase, profile in run.current_profiles.items()}
+        return Point(where, {**inputs, **values}, current_profiles, run.trace, goal, run.start.objective)

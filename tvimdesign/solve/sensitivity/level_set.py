@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 Array = NDArray[np.float64]
 PLACES = ("near_face_time", "mean_time", "far_face_time", "softening_time")
@@ -37,7 +37,7 @@ class LevelSet:
 
 
 def level_set(
-    model: Model,
+    model: DeviceFunctions,
     parameter: str,
     values: Sequence[float],
     thicknesses: Sequence[float],

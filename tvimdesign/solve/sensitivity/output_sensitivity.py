@@ -17,11 +17,11 @@ from scipy.sparse.linalg import splu
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si
-from tvimdesign.device import Swing
+from tvimdesign.device import FirstOscillation
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator, Switch
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.transcription import guess
 
@@ -40,7 +40,7 @@ _NOTHING = 1e-4
 
 
 @dataclass(frozen=True)
-class Elasticity:
+class OutputSensitivity:
     """What one variable does to one output, all else the same."""
 
     output: str
@@ -55,7 +55,7 @@ class Elasticity:
 
 
 @dataclass(frozen=True)
-class Elasticities:
+class OutputSensitivities:
     """What every variable does to every output at one design; rows `outputs`, columns `variables`."""
 
     outputs: tuple[str, ...]
@@ -67,47 +67,49 @@ class Elasticities:
     """Outputs that never happen in this design, or hang on a current that follows a profile."""
 
 
-def elasticities(
-    rig: Rig, elements: int, cells: int, wanted: Sequence[str], by: Sequence[str] | None = None
-) -> Elasticities:
+def output_sensitivities(
+    resolved: ResolvedModule, elements: int, cells: int, wanted: Sequence[str], by: Sequence[str] | None = None
+) -> OutputSensitivities:
     """Differentiate the wanted outputs by every variable of the module, or `by` some inputs. Raises SimulationError."""
-    model = Model(rig.table, rig.values, rig.points, cells)
+    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, cells)
     simulator = Simulator(model)
-    switch = simulator.run(model.start, rig.drives)
-    names = [n for n in wanted if not isinstance(rig.table.row(n), Swing)]
-    driven = {model.stages[stage].stage.drive for stage in rig.drives}
+    cycle = simulator.run(model.start, resolved.current_profiles)
+    names = [n for n in wanted if not isinstance(resolved.table.quantity(n), FirstOscillation)]
+    driven = {model.phases[phase].phase.current_input for phase in resolved.current_profiles}
     supplied = {name: _supplied_behind(model, name) for name in names}
-    lost = _lost(model, switch, set(rig.drives))
+    lost = _lost(model, cycle, set(resolved.current_profiles))
     kept = [name for name in names if not supplied[name] & lost]
-    variables = by or [row.name for row in rig.table.inputs if _is_variable(rig, model, row.name)]
+    variables = by or [row.name for row in resolved.table.inputs if _is_variable(resolved, model, row.name)]
     variables = [name for name in variables if name not in driven]
     needed = sorted({one for name in kept for one in supplied[name]})
     place = [model.index[name] for name in variables]
     of_cycle = np.zeros((len(model.switch_names), len(place)))
     if needed:
-        of_cycle = _cycle_by_inputs(simulator, switch, needed, place, elements)
-    inputs, seen = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("switch", len(model.switch_names))
+        of_cycle = _cycle_by_inputs(simulator, cycle, needed, place, elements)
+    inputs, seen = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("cycle", len(model.switch_names))
     outputs = model.outputs(kept)(inputs, seen)
     function = ca.Function("by", [inputs, seen], [outputs, ca.jacobian(outputs, inputs), ca.jacobian(outputs, seen)])
     # What nothing wanted depends on may be infinite; its derivative is a structural zero and it is never read.
-    numbers = np.array([switch.values[name] if name in needed else 1.0 for name in model.switch_names])
+    numbers = np.array([cycle.values[name] if name in needed else 1.0 for name in model.switch_names])
     values, by_inputs, by_switch = (np.asarray(ca.DM(one).full()) for one in function(model.start, numbers))
     left_out = tuple(name for name in names if name not in kept)
     derivatives = by_inputs[:, place] + by_switch @ of_cycle
-    return Elasticities(tuple(kept), tuple(variables), values.ravel(), model.start[place], derivatives, left_out)
+    return OutputSensitivities(tuple(kept), tuple(variables), values.ravel(), model.start[place], derivatives, left_out)
 
 
-def entries(found: Elasticities, rig: Rig) -> list[Elasticity]:
+def entries(found: OutputSensitivities, resolved: ResolvedModule) -> list[OutputSensitivity]:
     """One record for each output and variable, in the order of the table."""
     records = []
-    table = rig.table
+    table = resolved.table
     sizes = [_has_size(table.unit(name), value) for name, value in zip(found.variables, found.at, strict=True)]
     for i, output in enumerate(found.outputs):
         has_size = _has_size(table.unit(output), found.values[i])
         for j, variable in enumerate(found.variables):
             derivative = float(found.derivatives[i, j])
             share = derivative * float(found.at[j] / found.values[i]) if has_size and sizes[j] else None
-            records.append(Elasticity(output, variable, derivative, share, 0.01 * float(found.at[j]) * derivative))
+            records.append(
+                OutputSensitivity(output, variable, derivative, share, 0.01 * float(found.at[j]) * derivative)
+            )
     return records
 
 
@@ -115,29 +117,29 @@ def _has_size(unit: str, value: float) -> bool:
     return unit not in ("degC", "K") and abs(from_si(value, unit)) > _NOTHING
 
 
-def _is_variable(rig: Rig, model: Model, name: str) -> bool:
+def _is_variable(resolved: ResolvedModule, model: DeviceFunctions, name: str) -> bool:
     """What a study may vary and this module has; a count is no variable."""
-    row = rig.table.row(name)
+    row = resolved.table.quantity(name)
     return name in model.index and getattr(row, "variable", False) and not getattr(row, "integer", False)
 
 
-def _supplied_behind(model: Model, name: str) -> set[str]:
+def _supplied_behind(model: DeviceFunctions, name: str) -> set[str]:
     above = {name.partition("@")[0], *model.table.ancestors(name)}
     return above & set(model.switch_names)
 
 
-def _lost(model: Model, switch: Switch, driven: set[str]) -> set[str]:
-    """Rows the cycle does not supply here: those that never happen, and those of or after a stage with a profile."""
-    lost = {name for name, value in switch.values.items() if not np.isfinite(value)}
+def _lost(model: DeviceFunctions, cycle: Cycle, driven: set[str]) -> set[str]:
+    """Rows the cycle does not supply here: those that never happen, and those of or after a phase with a profile."""
+    lost = {name for name, value in cycle.values.items() if not np.isfinite(value)}
     touched = set(driven)
-    for name, stage in model.stages.items():
-        if stage.stage.after in touched or stage.stage.like in touched:
+    for name, phase in model.phases.items():
+        if phase.phase.after in touched or phase.phase.like in touched:
             touched.add(name)
-    return lost | {row.name for row in model.table.supplied if row.stage in touched}
+    return lost | {row.name for row in model.table.supplied if row.phase in touched}
 
 
 def _cycle_by_inputs(
-    simulator: Simulator, switch: Switch, needed: Sequence[str], inputs: Sequence[int], elements: int
+    simulator: Simulator, cycle: Cycle, needed: Sequence[str], inputs: Sequence[int], elements: int
 ) -> Array:
     """Derivatives of what the cycle supplies by some of the inputs, from the equations the optimiser hands to IPOPT."""
     model = simulator.model
@@ -146,10 +148,10 @@ def _cycle_by_inputs(
     count, peaks = problem.equation_count, problem.peak_count
     equations, samples = problem.function["g"][:count], problem.function["g"][count:]
     places = [model.switch_names.index(name) for name in needed]
-    reached = problem.switch[places]
+    reached = problem.cycle[places]
     newton = ca.Function("newton", [x, p], [equations, ca.jacobian(equations, x)])
     given = np.concatenate([model.start, np.ones(len(needed))])
-    unknowns = _solved(newton, _begin(problem, simulator, switch), given, len(problem.peaks))
+    unknowns = _solved(newton, _begin(problem, simulator, cycle), given, len(problem.peaks))
     rows, by_x, by_p, ends_by_x, ends_by_p = ca.Function(
         "cycle", [x, p],
         [samples, *(ca.jacobian(problem.function["g"], one) for one in (x, p)),
@@ -163,15 +165,15 @@ def _cycle_by_inputs(
     return found
 
 
-def _begin(problem: Problem, simulator: Simulator, switch: Switch) -> Array:
-    """The simulated cycle as unknowns: each event's block up to its own time, which may lie beyond its stage's end."""
+def _begin(problem: Problem, simulator: Simulator, cycle: Cycle) -> Array:
+    """The simulated cycle as unknowns: each event's block up to its own time, which may lie beyond its phase's end."""
     inputs, parts = problem.model.start, []
     for block in problem.blocks:
-        stage, end = block.stage.stage, switch.values[block.event]
-        before = switch.trajectories[stage.after].states[:, -1] if stage.after else None
-        course = simulator.trace(stage.name, inputs, before, end)
-        parts += [guess(course, problem.elements(stage.name)).ravel(order="F"), [np.log(end)]]
-    parts += [switch.balances[balance.stage] for balance in problem.balances]
+        phase, end = block.phase.phase, cycle.values[block.event]
+        before = cycle.trajectories[phase.after].states[:, -1] if phase.after else None
+        course = simulator.trace(phase.name, inputs, before, end)
+        parts += [guess(course, problem.elements(phase.name)).ravel(order="F"), [np.log(end)]]
+    parts += [cycle.balances[balance.phase] for balance in problem.balances]
     return np.concatenate([*parts, np.zeros(len(problem.peaks))])
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
+from tvimdesign.simulation.device_functions import DeviceFunctions
 
 TOLERANCE = 1e-8  # a hundredth of what a run is simulated with
 SHARE = 2e-3  # of an input, by which it is moved to either side for a difference
@@ -61,7 +61,7 @@ def ratio(times: Sequence[float] | Array) -> float:
 class Pair:
     """Two modules whose inputs of one name move together."""
 
-    def __init__(self, first: Model, second: Model) -> None:
+    def __init__(self, first: DeviceFunctions, second: DeviceFunctions) -> None:
         """Nothing is simulated yet."""
         self.models = (first, second)
         self._simulators = tuple(Simulator(model, TOLERANCE) for model in self.models)
@@ -81,14 +81,14 @@ class Pair:
 
     def times(self, event: str, changes: Mapping[str, float] | None = None) -> Array:
         """Times of one event in both modules [s], infinite where it never happens."""
-        return np.array([switch[event] for switch in self.switches(changes)])
+        return np.array([cycle[event] for cycle in self.switches(changes)])
 
     def influence(self, event: str, span: Span) -> Influence:
         """Times at both ends of an input's range."""
         at_low, at_high = (self.times(event, {span.name: end}) for end in (span.low, span.high))
         return Influence(span, self.value(span.name), at_low, at_high)
 
-    def elasticities(self, event: str, name: str) -> Array:
+    def output_sensitivities(self, event: str, name: str) -> Array:
         """Relative change of both times with a relative change of an input, d ln t/d ln x; temperatures in kelvin.
 
         The ratio's is the second less the first.
@@ -104,4 +104,4 @@ class Pair:
         for name, value in changes.items():
             if name in model.index:
                 inputs[model.index[name]] = value
-        return self._simulators[which].run(inputs, stages=[next(iter(model.stages))]).values
+        return self._simulators[which].run(inputs, phases=[next(iter(model.phases))]).values

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.device import Input
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.study import Tolerance
 
@@ -11,14 +11,14 @@ FREE_ANGLE = "preload_angle"
 """The input that a spring's free angle adds to."""
 
 
-def contributors_of(rig: Rig, adjusted: bool | None = None) -> list[spread.Contributor]:
+def contributors_of(resolved: ResolvedModule, adjusted: bool | None = None) -> list[spread.Contributor]:
     """The study's tolerances at this design; `adjusted` says of all that can be adjusted whether they are."""
     found = []
-    for name, tolerance in rig.study.tolerances.items():
-        row = rig.table.row(name)
+    for name, tolerance in resolved.study.tolerances.items():
+        row = resolved.table.quantity(name)
         assert isinstance(row, Input)  # the reader sees to that
-        value = float(rig.values[name])
-        size = plus_minus(rig, value, tolerance)
+        value = float(resolved.values[name])
+        size = plus_minus(resolved, value, tolerance)
         can_be = tolerance.adjustable or tolerance.adjusted_to is not None
         if tolerance.adjustable if adjusted is None else adjusted and can_be:
             size = min(size, tolerance.adjusted_to or 0.0)
@@ -28,8 +28,8 @@ def contributors_of(rig: Rig, adjusted: bool | None = None) -> list[spread.Contr
     return found
 
 
-def plus_minus(rig: Rig, value: float, tolerance: Tolerance) -> float:
+def plus_minus(resolved: ResolvedModule, value: float, tolerance: Tolerance) -> float:
     """A tolerance to either side [SI] of an input that has this value."""
     if tolerance.row is not None:
-        return float(rig.row(tolerance.row))
+        return float(resolved.quantity(tolerance.row))
     return abs(value) * tolerance.share if tolerance.share is not None else float(tolerance.plus_minus or 0.0)

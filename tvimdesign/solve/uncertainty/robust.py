@@ -12,13 +12,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import on_switch
-from tvimdesign.solve.nlp.objective import Goal
+from tvimdesign.solve.nlp.constraints import on_cycle
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.sensitivity.output_sensitivity import elasticities
+from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.contributors import contributors_of
 from tvimdesign.solve.uncertainty.yields import yields_of
 
@@ -29,7 +29,7 @@ _PRESSING = 1e-6
 """Multiplier from which on a limit holds the design, objectives a share of its scale."""
 
 
-def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None = None) -> Run:
+def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Objective | None = None) -> Run:
     """Seek the optimum `within` ends again until limits on what the cycle supplies are kept as robustly as the others,
     and where a yield is asked for until so many modules keep each limit.
 
@@ -41,7 +41,7 @@ def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goa
     return run if share is None else _reached(optimizer, run, within, goal, share)
 
 
-def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None) -> Run:
+def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Objective | None) -> Run:
     """By deviations: margins of the limits on what the cycle supplies."""
     for _ in range(ROUNDS):
         if not run.start.converged:
@@ -57,7 +57,7 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: G
     return run
 
 
-def _reached(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None, share: float) -> Run:
+def _reached(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Objective | None, share: float) -> Run:
     """By modules drawn: a limit that fewer keep gets what they miss it by for a margin; one that holds the design and
     that more keep gives back what it has too much.
     """
@@ -89,7 +89,7 @@ def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
     return {limit.name for limit, multiplier in zip(limits, of_limits, strict=True) if multiplier > _PRESSING}
 
 
-def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goal | None) -> Run:
+def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Objective | None) -> Run:
     """The optimum with other margins, warm from the one before and else from its inputs."""
     found = optimizer.solve(within, warm=run, goal=goal)
     return found if found.start.converged else optimizer.solve(within, begin=run.inputs, goal=goal)
@@ -97,7 +97,7 @@ def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Goa
 
 def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
     """Name the limits whose spread is not known: they are kept as drawn, no more."""
-    on_cycle = (limit for limit in optimizer.problem.limits if on_switch(optimizer.table, limit.output))
+    on_cycle = (limit for limit in optimizer.problem.limits if on_cycle(optimizer.table, limit.output))
     names = [limit.name for limit in on_cycle if limit.name not in margins]
     if names:
         optimizer.progress(f"not robust, as a current follows a profile: {', '.join(names)}")
@@ -107,17 +107,19 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
     """How far within the limits on times, energies and peaks to stay at a run's design."""
     study = optimizer.study
     assert study.robust is not None
-    limits = [limit for limit in optimizer.problem.limits if on_switch(optimizer.table, limit.output)]
+    limits = [limit for limit in optimizer.problem.limits if on_cycle(optimizer.table, limit.output)]
     if not limits:
         return {}
     model = optimizer.model
     numbers = {name: float(run.inputs[i]) for name, i in model.index.items()}
-    rig = Rig(study, optimizer.catalog, optimizer.table, {**numbers, **model.words}, run.drives)
-    contributors = contributors_of(rig)
+    resolved = ResolvedModule(
+        study, optimizer.catalog, optimizer.table, {**numbers, **model.words}, run.current_profiles
+    )
+    contributors = contributors_of(resolved)
     names = [contributor.name for contributor in contributors]
     options = study.solver
     wanted = list(dict.fromkeys(limit.output for limit in limits))
-    exact = elasticities(rig, options.elements, options.cells, wanted, names)
+    exact = output_sensitivities(resolved, options.elements, options.cells, wanted, names)
     known = [contributors[names.index(name)] for name in exact.variables]
     deviations = dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0], strict=True))
     return {limit.name: study.robust.sigma * float(deviations.get(limit.output, np.nan)) / limit.scale

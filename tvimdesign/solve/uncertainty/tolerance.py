@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.resolved_module import Rig
-from tvimdesign.solve.batch.batch_model import ManyModules
+from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import Limit, limits_of
-from tvimdesign.solve.sensitivity.output_sensitivity import FINER, elasticities
+from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
+from tvimdesign.solve.sensitivity.output_sensitivity import FINER, output_sensitivities
 from tvimdesign.solve.uncertainty.contributors import FREE_ANGLE, contributors_of
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ SOBOL_SAMPLES = 1 << 10
 class Kept:
     """One limit, and how many modules keep it."""
 
-    limit: Limit
+    limit: Constraint
     share: spread.Yield
     capability: float
     """C_pk of this side."""
@@ -79,69 +79,71 @@ class Preload:
 class Tolerancing:
     """One design with its study's tolerances: the compiled functions of what spreads, built once."""
 
-    def __init__(self, rig: Rig, progress: Progress, workers: int = 1) -> None:
+    def __init__(self, resolved: ResolvedModule, progress: Progress, workers: int = 1) -> None:
         """Differentiate and compile. Raises InputError where nothing spreads, SimulationError."""
-        self.rig, self.progress, self.workers = rig, progress, workers
-        self.contributors = contributors_of(rig)
+        self.resolved, self.progress, self.workers = resolved, progress, workers
+        self.contributors = contributors_of(resolved)
         # A free angle that is adjusted out altogether still has a column: it is compared with one that is not.
-        names = [name for name in rig.study.tolerances if self._ever(name)]
+        names = [name for name in resolved.study.tolerances if self._ever(name)]
         if not names:
             raise InputError(
-                f"{rig.study.name}: nothing spreads; give `tolerances: standard`, or tolerances of your own"
+                f"{resolved.study.name}: nothing spreads; give `tolerances: standard`, or tolerances of your own"
             )
         self.limits = [
-            limit for limit in limits_of(rig.study, rig.table, rig.values) if self._moves(limit.output, names)
+            limit
+            for limit in constraints_of(resolved.study, resolved.table, resolved.values)
+            if self._moves(limit.output, names)
         ]
         wanted = dict.fromkeys([*self._asked(), *(limit.output for limit in self.limits)])
         if not wanted:
             raise InputError(
-                f"{rig.study.name}: nothing that is required, minimised or limited depends on {', '.join(names)}; "
+                f"{resolved.study.name}: nothing that is required, minimised or limited depends on {', '.join(names)}; "
                 "give tolerances of other inputs, or require what depends on these"
             )
-        options = rig.study.solver
+        options = resolved.study.solver
         progress("differentiating the outputs by what spreads")
-        exact = elasticities(rig, FINER * options.elements, options.cells, list(wanted), names)
+        exact = output_sensitivities(resolved, FINER * options.elements, options.cells, list(wanted), names)
         progress("compiling the module for many designs")
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
         self.asked = tuple(name for name in dict.fromkeys(self._asked()) if name in self.outputs)
         self.limits = [limit for limit in self.limits if limit.output in self.outputs]
-        self.many = ManyModules(rig, names, self.outputs)
-        self.horizon = float(rig.values["horizon"])
+        self.many = BatchModel(resolved, names, self.outputs)
+        self.horizon = float(resolved.values["horizon"])
 
     def _asked(self) -> list[str]:
         """What the study minimises and requires; of one that asks for nothing, what a summary shows up to the switch.
 
         What comes after the switch costs ten times as much, and is looked at where it is asked for.
         """
-        study, table = self.rig.study, self.rig.table
+        study, table = self.resolved.study, self.resolved.table
         asked = [*study.minimize, *(limit.output for limit in self.limits if limit.origin == "require")]
         if study.minimize or study.require:
             return asked
-        names = (name for name in table.names(self.rig.points) if table.output(name).headline)
-        later = {row.name for row in table.supplied if table.stage(row.stage).after}
+        names = (name for name in table.names(self.resolved.points) if table.output(name).headline)
+        later = {row.name for row in table.supplied if table.phase(row.phase).after}
         return [
             name for name in names
             if self._moves(name, list(study.tolerances)) and not later & {name, *table.ancestors(name)}
         ]  # fmt: skip
 
     def _ever(self, name: str) -> bool:
-        return any(contributor.name == name for contributor in contributors_of(self.rig, adjusted=False))
+        return any(contributor.name == name for contributor in contributors_of(self.resolved, adjusted=False))
 
     def _moves(self, output: str, names: Sequence[str]) -> bool:
         """Whether an output depends on anything that spreads."""
-        above = {output.partition("@")[0], *self.rig.table.ancestors(output)}
+        above = {output.partition("@")[0], *self.resolved.table.ancestors(output)}
         return any(name.partition("@")[0] in above for name in names)
 
-    def _on_preload(self, limit: Limit) -> bool:
+    def _on_preload(self, limit: Constraint) -> bool:
         """Whether a limit is on an output that changes with the free angle."""
         return bool(self.exact[self.outputs.index(limit.output), self.names.index(FREE_ANGLE)] != 0.0)
 
-    def _function(self, contributors: Sequence[spread.Contributor], many: ManyModules | None = None) -> spread.Columns:
+    def _function(self, contributors: Sequence[spread.Contributor], many: BatchModel | None = None) -> spread.Columns:
         """Outputs as a function of these contributors, all others as drawn."""
         compiled = many or self.many
         place = [self.names.index(contributor.name) for contributor in contributors]
-        drawn = np.array([float(self.rig.values[name]) for name in self.names])
+        drawn = np.array([float(self.resolved.values[name]) for name in self.names])
 
         def outputs(columns: Array) -> Array:
             every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
@@ -184,7 +186,7 @@ class Tolerancing:
 
     def preload(self, samples: int, seed: int) -> Preload | None:
         """The free angle as bought and adjusted; None where the study gives it no tolerance, or nothing hangs on it."""
-        tolerance = self.rig.study.tolerances.get(FREE_ANGLE)
+        tolerance = self.resolved.study.tolerances.get(FREE_ANGLE)
         if tolerance is None or FREE_ANGLE not in self.names:
             return None
         self.progress("adjusting the preload")
@@ -192,13 +194,13 @@ class Tolerancing:
         if not limits:
             return None
         outputs = list(dict.fromkeys(limit.output for limit in limits))
-        many = ManyModules(self.rig, self.names, outputs)
+        many = BatchModel(self.resolved, self.names, outputs)
         sizes, yields = [], []
         for adjusted in (False, True):
-            contributors = contributors_of(self.rig, adjusted)
+            contributors = contributors_of(self.resolved, adjusted)
             drawn = spread.monte_carlo(self._function(contributors, many), contributors, samples, seed)
             kept = [limit.residual(drawn.values[outputs.index(limit.output)]) <= 0.0 for limit in limits]
             yields.append(spread.share_kept(np.all(kept, axis=0)))
             sizes.append(next((one.plus_minus for one in contributors if one.name == FREE_ANGLE), 0.0))
-        stroke = abs(float(self.rig.values["stroke"]))
+        stroke = abs(float(self.resolved.values["stroke"]))
         return Preload(sizes[0], sizes[1], sizes[0] / stroke, yields[0], yields[1], tolerance.row or "")

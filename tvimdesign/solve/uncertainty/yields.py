@@ -10,10 +10,10 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.resolved_module import Rig
-from tvimdesign.solve.batch.batch_model import ManyModules
+from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import Limit, limits_of, on_switch
+from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.contributors import contributors_of
 
@@ -27,7 +27,7 @@ MODULES = 1 << 12
 class Drawn:
     """The limits of one design in many modules: residuals, a row a limit, a column a module; kept where <= 0."""
 
-    limits: tuple[Limit, ...]
+    limits: tuple[Constraint, ...]
     residuals: Array
 
     @property
@@ -51,24 +51,24 @@ class Yields:
     """Limits that what spreads can move, as functions of that and of what the study frees."""
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Compile. A current that follows a profile is not a number: limits on its stages are left out."""
+        """Compile. A current that follows a profile is not a number: limits on its phases are left out."""
         study, table = optimizer.study, optimizer.table
         self._study, self._catalog, self._table, self._model = study, optimizer.catalog, table, optimizer.model
         spreading = [name for name in study.tolerances if name in optimizer.model.index]
         self._moving = list(dict.fromkeys([*spreading, *(free.name for free in optimizer.free)]))
         bases = {name.partition("@")[0] for name in spreading}
         self.limits = tuple(
-            limit for limit in limits_of(study, table)
+            limit for limit in constraints_of(study, table)
             if bases & {limit.output.partition("@")[0], *table.ancestors(limit.output)}
-            and not (optimizer.currents and on_switch(table, limit.output))
+            and not (optimizer.currents and on_cycle(table, limit.output))
         )  # fmt: skip
         self._outputs = list(dict.fromkeys(limit.output for limit in self.limits))
         start = dict(zip(optimizer.model.names, optimizer.model.start, strict=True))
-        self._many = ManyModules(self._rig(start), self._moving, self._outputs) if self._outputs else None
+        self._many = BatchModel(self._rig(start), self._moving, self._outputs) if self._outputs else None
 
-    def _rig(self, values: Mapping[str, Any]) -> Rig:
+    def _rig(self, values: Mapping[str, Any]) -> ResolvedModule:
         numbers = {name: float(values[name]) for name in self._model.names}
-        return Rig(self._study, self._catalog, self._table, {**numbers, **self._model.words})
+        return ResolvedModule(self._study, self._catalog, self._table, {**numbers, **self._model.words})
 
     def at(self, inputs: Array) -> Drawn:
         """Draw modules of the design with these inputs."""

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection
 
 from tvimdesign.base.units import format_quantity
-from tvimdesign.device import Output, Swing
+from tvimdesign.device import FirstOscillation, Output
 from tvimdesign.study.study import FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement
 from tvimdesign.study.text.mistakes import one_of, quoted, step
 from tvimdesign.study.text.values import Reading, below, entries, misfit, number, si_value, text, unknown_keys, whole
@@ -91,12 +91,12 @@ def _output(reading: Reading, key: Text, path: str, name: str, points: Collectio
     add = reading.problems.add
     if row is None or (isinstance(row, Output) and row.hidden):
         names = [name.partition("@")[0] for name in reading.table.names(list(points)[:1])]
-        reading.unknown_row(key, path, "output", base, names)
+        reading.unknown_quantity(key, path, "output", base, names)
     elif not isinstance(row, Output):
         add(key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`")
     elif row.instant:
         add(key, path, "changes during the switch and has no single value", "an output with one value")
-    elif isinstance(row, Swing):
+    elif isinstance(row, FirstOscillation):
         add(key, path, "is seen in a simulated release once a design is found", "an output that is computed", _INSTEAD)
     elif row.per_point and not at:
         add(key, path, "has a value at each operating point", one_of([f"{base}@{name}" for name in points]))

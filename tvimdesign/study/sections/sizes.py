@@ -9,7 +9,7 @@ from tvimdesign.study.study import Options
 from tvimdesign.study.text.values import Reading, below, quantity, record, text
 from tvimdesign.study.text.yaml_text import Node
 
-SIZES_SHELF = "wires"
+SIZES_CATEGORY = "wires"
 SIZES_TABLE = "sizes"
 
 
@@ -17,7 +17,7 @@ def read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input) 
     """Return the sizes a catalogue record lists for an input, within `from` and `to` where they are given."""
     node = parts["catalog"]
     ends = {key: quantity(reading.problems, parts[key], f"{path}.{key}", row) for key in ("from", "to") if key in parts}
-    name = text(reading.problems, node, f"{path}.catalog", f"the name of a record on the shelf {SIZES_SHELF}")
+    name = text(reading.problems, node, f"{path}.catalog", f"the name of a record in the category {SIZES_CATEGORY}")
     sizes = [] if name is None else _sizes(reading, node, f"{path}.catalog", name, row)
     if not sizes or None in ends.values():
         return None
@@ -38,7 +38,7 @@ def read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input) 
 
 def _sizes(reading: Reading, node: Node, path: str, name: str, row: Input) -> list[float]:
     """Return every size the record lists, smallest first; none (and a problem) where it lists none."""
-    found = record(reading, node, path, SIZES_SHELF, name)
+    found = record(reading, node, path, SIZES_CATEGORY, name)
     if found is None:
         return []
     try:

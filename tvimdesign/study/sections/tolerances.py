@@ -95,7 +95,7 @@ def _input(reading: Reading, key: Text, path: str, name: str, points: Collection
         return row
     if row is None:
         names = [one.name for one in reading.table.inputs if not one.integer]
-        reading.unknown_row(key, path, "input", base, names)
+        reading.unknown_quantity(key, path, "input", base, names)
     elif isinstance(row, Input) and row.integer:
         reading.problems.add(key, path, "counts whole things and has no tolerance")
     elif isinstance(row, Input):

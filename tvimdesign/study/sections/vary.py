@@ -44,7 +44,7 @@ def read_vary(reading: Reading, node: Node | None) -> dict[str, Vary]:
             message, hint = _fixed(reading, name)
             reading.problems.add(key, path, message, one_of(list(rows)), hint)
         else:
-            reading.unknown_row(key, path, "variable", name, rows)
+            reading.unknown_quantity(key, path, "variable", name, rows)
     return found
 
 

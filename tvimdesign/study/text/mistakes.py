@@ -37,7 +37,7 @@ class At:
 
 
 @dataclass(frozen=True)
-class Problem:
+class Mistake:
     """One thing that is wrong: where, what, what was expected instead, and what may help."""
 
     file: str
@@ -59,7 +59,7 @@ class Problem:
 class StudyError(InputError):
     """A study cannot be used; holds every problem found, in the order of the file."""
 
-    def __init__(self, problems: Iterable[Problem]) -> None:
+    def __init__(self, problems: Iterable[Mistake]) -> None:
         """Sort the problems by their place in the file."""
         self.problems = tuple(sorted(problems, key=lambda problem: (problem.file, problem.line, problem.column)))
         super().__init__(self.problems)
@@ -73,16 +73,16 @@ class StudyError(InputError):
 
 
 @dataclass
-class Problems:
+class Mistakes:
     """The list that grows while a study is read."""
 
     file: str
-    found: list[Problem] = field(default_factory=list)
+    found: list[Mistake] = field(default_factory=list)
 
     def add(self, place: Place, path: str, message: str, expected: str = "", hint: str = "") -> None:
         """Note one problem."""
         one_line = "; ".join(message.splitlines())
-        self.found.append(Problem(self.file, place.line, place.column, path, one_line, expected, hint))
+        self.found.append(Mistake(self.file, place.line, place.column, path, one_line, expected, hint))
 
     def unknown(self, place: Place, path: str, what: str, word: str, known: Iterable[str]) -> None:
         """Note a word that is none of the known ones, with the nearest of them."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tvimdesign.study.text.mistakes import At, Problems
+from tvimdesign.study.text.mistakes import At, Mistakes
 from tvimdesign.study.text.named_file import printable
 from tvimdesign.study.text.source import read_text
 from tvimdesign.study.text.yaml_text import Mapping, compose
@@ -16,7 +16,7 @@ class Places:
     def __init__(self, path: Path) -> None:
         """Read the file once more, for its lines and columns alone."""
         self.file = printable(path)
-        problems = Problems(self.file)
+        problems = Mistakes(self.file)
         self._root = compose(read_text(path, problems), problems)
 
     def at(self, path: str) -> At:

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.study.text.mistakes import At, Problem, Problems, StudyError, did_you_mean
+from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, did_you_mean
 from tvimdesign.study.text.named_file import ordinary_bytes, printable
 
 MOST_BYTES = 1_000_000
@@ -14,12 +14,12 @@ CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\ud800-\ud
 _TAB_INDENT = re.compile(r"^ *\t", re.MULTILINE)
 
 
-def read_text(path: Path, problems: Problems) -> str:
+def read_text(path: Path, problems: Mistakes) -> str:
     """Return the text of a file; raises InputError, in words, where it is no file that could be a study."""
     return _decode(_bytes(path), problems)
 
 
-def _decode(raw: bytes, problems: Problems) -> str:
+def _decode(raw: bytes, problems: Mistakes) -> str:
     """Return the text of the bytes; raises StudyError where they are too many, not UTF-8 or hold control characters."""
     whole = At(0, 0)
     if len(raw) > MOST_BYTES:
@@ -41,7 +41,7 @@ def _too_big(size: int) -> str:
     return f"the file has {size / 1e6:.3g} MB, a study at most {MOST_BYTES / 1e6:.0f} MB; give the path of a study"
 
 
-def check_characters(text: str, problems: Problems) -> str:
+def check_characters(text: str, problems: Mistakes) -> str:
     """Return the text; raises StudyError where it is too long or holds characters that no study has."""
     if len(text) > MOST_BYTES:
         problems.add(At(0, 0), "", _too_big(len(text)))
@@ -63,7 +63,7 @@ def _bytes(path: Path) -> bytes:
             path,
             MOST_BYTES,
             "a study file (YAML)",
-            lambda size: StudyError([Problem(shown, 0, 0, "", _too_big(size))]),
+            lambda size: StudyError([Mistake(shown, 0, 0, "", _too_big(size))]),
         )
     except FileNotFoundError:
         raise InputError(f"{shown}: no such file; {_similar(path) or '`tvimdesign new` writes a study'}") from None

@@ -11,7 +11,7 @@ from tvimdesign.base.errors import CatalogError, UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.catalog import Catalog, Record
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
-from tvimdesign.study.text.mistakes import Place, Problems, quoted, step
+from tvimdesign.study.text.mistakes import Mistakes, Place, quoted, step
 from tvimdesign.study.text.yaml_text import Broken, Mapping, Node, Sequence, Text
 
 LONGEST_VALUE = 200
@@ -26,12 +26,12 @@ _FLAGS = {"true": True, "True": True, "false": False, "False": False}
 class Reading:
     """What the sections are read against, and where their problems go."""
 
-    problems: Problems
+    problems: Mistakes
     mode: str
     table: Table
     catalog: Catalog
 
-    def unknown_row(self, place: Place, path: str, what: str, name: str, known: Iterable[str]) -> None:
+    def unknown_quantity(self, place: Place, path: str, what: str, name: str, known: Iterable[str]) -> None:
         """Note a name that is no such row; of a row that only another mode has, which one."""
         others = [mode for mode in MODES if mode != self.mode and _has(mode, name)]
         if others and not _has(self.mode, name):
@@ -46,7 +46,7 @@ def _has(mode: str, name: str) -> bool:
     return row is not None and not (isinstance(row, Output) and row.hidden)
 
 
-def entries(problems: Problems, node: Node | None, path: str, expected: str) -> dict[str, tuple[Text, Node]]:
+def entries(problems: Mistakes, node: Node | None, path: str, expected: str) -> dict[str, tuple[Text, Node]]:
     """Return a section's keys and values; a missing or empty section has none."""
     if isinstance(node, Mapping):
         return node.entries
@@ -55,7 +55,7 @@ def entries(problems: Problems, node: Node | None, path: str, expected: str) -> 
     return {}
 
 
-def misfit(problems: Problems, node: Node, path: str, expected: str) -> None:
+def misfit(problems: Mistakes, node: Node, path: str, expected: str) -> None:
     """Note that a node has the wrong shape, or nothing where that was noted already."""
     if isinstance(node, Broken):
         return
@@ -66,7 +66,7 @@ def misfit(problems: Problems, node: Node, path: str, expected: str) -> None:
     problems.add(node, path, f"{found} does not fit here", expected)
 
 
-def text(problems: Problems, node: Node, path: str, expected: str) -> str | None:
+def text(problems: Mistakes, node: Node, path: str, expected: str) -> str | None:
     """Return the text of a scalar, None (and a problem) where there is none or it is over-long."""
     if not isinstance(node, Text) or node.empty:
         misfit(problems, node, path, expected)
@@ -78,7 +78,7 @@ def text(problems: Problems, node: Node, path: str, expected: str) -> str | None
     return node.value.strip()
 
 
-def whole(problems: Problems, node: Node, path: str) -> int | None:
+def whole(problems: Mistakes, node: Node, path: str) -> int | None:
     """Return a whole number written in plain digits."""
     expected = "a whole number in plain digits"
     word = text(problems, node, path, expected)
@@ -90,7 +90,7 @@ def whole(problems: Problems, node: Node, path: str) -> int | None:
     return int(word)
 
 
-def flag(problems: Problems, node: Node, path: str) -> bool | None:
+def flag(problems: Mistakes, node: Node, path: str) -> bool | None:
     """Return true or false; YAML's other words for them (yes, on) are refused, as they surprise."""
     word = text(problems, node, path, "true or false")
     if word is not None and word not in _FLAGS:
@@ -98,12 +98,12 @@ def flag(problems: Problems, node: Node, path: str) -> bool | None:
     return _FLAGS.get(word or "")
 
 
-def number(problems: Problems, node: Node, path: str, expected: str = "a number") -> float | None:
+def number(problems: Mistakes, node: Node, path: str, expected: str = "a number") -> float | None:
     """Return a number without a unit."""
     return in_unit(problems, node, path, "1", expected)
 
 
-def in_unit(problems: Problems, node: Node, path: str, unit: str, expected: str) -> float | None:
+def in_unit(problems: Mistakes, node: Node, path: str, unit: str, expected: str) -> float | None:
     """Return the SI value of a quantity that must have the dimension of `unit`."""
     word = text(problems, node, path, expected)
     if word is None:
@@ -111,7 +111,7 @@ def in_unit(problems: Problems, node: Node, path: str, unit: str, expected: str)
     return si_value(problems, node, path, word, unit)
 
 
-def si_value(problems: Problems, node: Node, path: str, word: str, unit: str) -> float | None:
+def si_value(problems: Mistakes, node: Node, path: str, word: str, unit: str) -> float | None:
     """Return the SI value of a word that stands in a node, None (and a problem) where it is no such quantity."""
     if _OCTAL.match(word):
         problems.add(node, path, f"{quoted(word)} starts with a zero, which some read as octal", hint="leave it out")
@@ -123,7 +123,7 @@ def si_value(problems: Problems, node: Node, path: str, word: str, unit: str) ->
         return None
 
 
-def quantity(problems: Problems, node: Node, path: str, row: Input) -> float | None:
+def quantity(problems: Mistakes, node: Node, path: str, row: Input) -> float | None:
     """Return the SI value of an input, which must lie within the row's own limits."""
     value = in_unit(problems, node, path, row.unit, expected_for(row))
     if value is None:
@@ -146,14 +146,14 @@ def quantity(problems: Problems, node: Node, path: str, row: Input) -> float | N
 
 
 def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
-    """Return the name of a record that is on the row's shelf, or one of the row's options."""
-    word = text(reading.problems, node, path, "the name of a record" if row.shelf else "one of the options")
+    """Return the name of a record that is on the row's category, or one of the row's options."""
+    word = text(reading.problems, node, path, "the name of a record" if row.category else "one of the options")
     if word is None:
         return None
     if word in row.options:
         return word
-    if row.shelf:
-        found = record(reading, node, path, row.shelf, word)
+    if row.category:
+        found = record(reading, node, path, row.category, word)
         return word if found and _fits(reading, node, path, row, found) else None
     reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
     return None
@@ -171,13 +171,13 @@ def _fits(reading: Reading, node: Node, path: str, row: Choice, found: Record) -
     return False
 
 
-def record(reading: Reading, node: Node, path: str, shelf: str, name: str) -> Record | None:
+def record(reading: Reading, node: Node, path: str, category: str, name: str) -> Record | None:
     """Return a record of the catalogue, None (and a problem) where there is none or its file is wrong."""
     try:
-        known = reading.catalog.names(shelf)
+        known = reading.catalog.names(category)
         if name in known:
-            return reading.catalog.record(shelf, name)
-        reading.problems.unknown(node, path, f"record on the shelf {shelf}: {quoted(name)}", name, known)
+            return reading.catalog.record(category, name)
+        reading.problems.unknown(node, path, f"record in the category {category}: {quoted(name)}", name, known)
     except CatalogError as error:
         reading.problems.add(node, path, str(error))
     return None
@@ -202,7 +202,7 @@ def limits(row: Input) -> str:
 
 
 def unknown_keys(
-    problems: Problems, found: dict[str, tuple[Text, Node]], path: str, what: str, known: list[str]
+    problems: Mistakes, found: dict[str, tuple[Text, Node]], path: str, what: str, known: list[str]
 ) -> dict[str, Node]:
     """Return the values of the known keys; every other key is a problem."""
     for name, (key, _) in found.items():

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 import yaml
 
-from tvimdesign.study.text.mistakes import At, Place, Problems, quoted, step
+from tvimdesign.study.text.mistakes import At, Mistakes, Place, quoted, step
 from tvimdesign.study.text.source import CONTROL
 
 MOST_NODES = 10_000
@@ -71,7 +71,7 @@ class Broken:
 Node: TypeAlias = Text | Sequence | Mapping | Broken
 
 
-def compose(text: str, problems: Problems) -> Node:
+def compose(text: str, problems: Mistakes) -> Node:
     """Turn YAML text into one node, noting every problem of form; raises StudyError where it cannot go on."""
     builder = _Builder(problems)
     try:
@@ -104,7 +104,7 @@ class _Open:
 class _Builder:
     """Stacks events into nodes."""
 
-    problems: Problems
+    problems: Mistakes
     root: Node | None = None
     stack: list[_Open] = field(default_factory=list)
     nodes: int = 0
@@ -208,7 +208,7 @@ _REMEDIES = (
 )
 
 
-def _note_syntax(error: yaml.YAMLError, text: str, problems: Problems) -> None:
+def _note_syntax(error: yaml.YAMLError, text: str, problems: Mistakes) -> None:
     """Note the parser's complaint at its place, with what usually helps."""
     mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
     said = " ".join(str(part) for part in (getattr(error, "context", ""), getattr(error, "problem", "")) if part)

@@ -11,7 +11,7 @@ import numpy as np
 from tvimdesign.physics import motion
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.melt_history import fractions_at
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
 from tvimdesign.virtual_tests.trial import Finding
 
@@ -67,31 +67,33 @@ class Case:
         place = f"{self.point}, {self.temperature - ZERO_CELSIUS:.0f} °C"
         return f"{place}, {self.history.label}" if self.history.label else place
 
-    def rows(self, rig: Rig, names: Sequence[str]) -> dict[str, Any]:
+    def rows(self, resolved: ResolvedModule, names: Sequence[str]) -> dict[str, Any]:
         """Rows of the table at this point, as this history leaves it, by plain name."""
-        values = {**rig.values, f"solid_fraction@{self.point}": self.history.fraction}
-        found = rig.table.evaluate(values, [f"{name}@{self.point}" for name in names])
+        values = {**resolved.values, f"solid_fraction@{self.point}": self.history.fraction}
+        found = resolved.table.evaluate(values, [f"{name}@{self.point}" for name in names])
         return {name: found[f"{name}@{self.point}"] for name in names}
 
 
-def joint_of(rig: Rig) -> motion.Joint:
+def joint_of(resolved: ResolvedModule) -> motion.Joint:
     """Inertia, springs and structure of the module on the bench."""
-    return motion.Joint(*(rig.row(name) for name in ("moving_inertia", "spring_stiffness", "elastic_support")))
+    return motion.Joint(
+        *(resolved.quantity(name) for name in ("moving_inertia", "spring_stiffness", "elastic_support"))
+    )
 
 
-def with_paper_points(rig: Rig) -> Rig:
+def with_paper_points(resolved: ResolvedModule) -> ResolvedModule:
     """Return the rig, with the paper's third temperature where the study has only the standard points."""
-    if dict(rig.study.operating_points) != STANDARD_POINTS:
-        return rig
+    if dict(resolved.study.operating_points) != STANDARD_POINTS:
+        return resolved
     cold, hot = STANDARD_POINTS["cold"], STANDARD_POINTS["hot"]
-    study = rig.study.model_copy(update={"operating_points": {"cold": cold, "melting": MELTING_POINT, "hot": hot}})
+    study = resolved.study.model_copy(update={"operating_points": {"cold": cold, "melting": MELTING_POINT, "hot": hot}})
     added = {f"{name}@melting": value for name, value in MELTING_POINT.items()}
-    return replace(rig, study=study, values={**rig.values, **added})
+    return replace(resolved, study=study, values={**resolved.values, **added})
 
 
-def histories_at(rig: Rig, temperature: float) -> tuple[History, ...]:
+def histories_at(resolved: ResolvedModule, temperature: float) -> tuple[History, ...]:
     """Return the ways to have come to a temperature [K], nominal first; one where they are all the same."""
-    low, nominal, high = fractions_at(rig, temperature)
+    low, nominal, high = fractions_at(resolved, temperature)
     if low == high:
         return (History("", "", nominal),)
     return (
@@ -102,15 +104,15 @@ def histories_at(rig: Rig, temperature: float) -> tuple[History, ...]:
     )
 
 
-def cases(rig: Rig) -> list[Case]:
+def cases(resolved: ResolvedModule) -> list[Case]:
     """The joint at every operating point, once for each history that matters there, the nominal one first."""
-    joint, one_sided = joint_of(rig), float(rig.row("parting_share")) > 0.0
+    joint, one_sided = joint_of(resolved), float(resolved.quantity("parting_share")) > 0.0
     found = []
-    for point in rig.points:
-        temperature = float(rig.row(f"temperature@{point}"))
-        for history in histories_at(rig, temperature):
+    for point in resolved.points:
+        temperature = float(resolved.quantity(f"temperature@{point}"))
+        for history in histories_at(resolved, temperature):
             case = Case(point, temperature, history, joint, one_sided, ())
-            modes = case.rows(rig, ("pcl_modes",))["pcl_modes"]
+            modes = case.rows(resolved, ("pcl_modes",))["pcl_modes"]
             found.append(replace(case, modes=[(float(time), float(k)) for time, k in modes]))
     return found
 
@@ -129,9 +131,9 @@ def notes_for(found: Sequence[Case]) -> tuple[str, ...]:
     return (LINEAR, *pushes, *history)
 
 
-def overload_notes(rig: Rig, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
+def overload_notes(resolved: ResolvedModule, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
     """Where a test asks more torque [N*m] of a joint than it bears: the points, in a sentence; nothing otherwise."""
-    most = float(rig.row("holding_torque"))
+    most = float(resolved.quantity("holding_torque"))
     beyond = " and ".join(dict.fromkeys(case.point for case, torque in torques if torque > most))
     if not beyond:
         return ()

@@ -13,7 +13,7 @@ from tvimdesign.virtual_tests.link_motion import contact, link
 from tvimdesign.virtual_tests.link_motion.contact_simulation import OneSided
 from tvimdesign.virtual_tests.link_motion.linear_system import Stretch
 from tvimdesign.virtual_tests.link_motion.link import Array, Motion
-from tvimdesign.virtual_tests.trial import Column, Sheet
+from tvimdesign.virtual_tests.trial import Column, CurveTable
 
 
 def blocks_of(case: Case) -> Blocks:
@@ -61,14 +61,14 @@ def contact_columns(case: Case, found: OneSided) -> tuple[Column, ...]:
     return Column("ahead_touches", "1", ahead), Column("behind_touches", "1", behind)
 
 
-def event_sheets(name: str, found: OneSided) -> tuple[Sheet, ...]:
+def event_sheets(name: str, found: OneSided) -> tuple[CurveTable, ...]:
     """The moments at which a block was left or met, as a sheet of its own; none where none was."""
     if not found.events:
         return ()
     rows = np.array([[event.time, float(event.side == 0), float(event.touching)] for event in found.events]).T
     names = (("time", "s"), ("block_ahead", "1"), ("touches_from_here", "1"))
     columns = (Column(title, unit, values) for (title, unit), values in zip(names, rows, strict=True))
-    return (Sheet(f"{name}_events", tuple(columns)),)
+    return (CurveTable(f"{name}_events", tuple(columns)),)
 
 
 def _bonded(moved: Motion) -> OneSided:

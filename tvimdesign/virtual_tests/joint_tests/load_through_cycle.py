@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.physics import motion, polymer, slices
 from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import Model
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.virtual_tests.joint_tests.case import joint_of
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-6
 SAMPLES = 100  # of each stretch of the simulated cycle
-FIRST_CELL = 3  # in a stage's `temperatures`, after cold side, hot side and near face
+FIRST_CELL = 3  # in a phase's `temperatures`, after cold side, hot side and near face
 
 
 @dataclass(frozen=True)
@@ -53,18 +53,18 @@ class Carried:
     """Angle at which the layer is free of stress at the end [rad]."""
 
 
-def slice_histories(rig: Rig) -> SliceHistory:
+def slice_histories(resolved: ResolvedModule) -> SliceHistory:
     """Temperatures and solid fractions of the layer's cells over the working cycle: softening, then stiffening."""
-    model = Model(rig.table, rig.values, rig.points, rig.study.solver.cells)
-    cycle = Simulator(model, steps=SAMPLES).run(model.start, rig.drives, ["stiffening"])
+    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
+    cycle = Simulator(model, steps=SAMPLES).run(model.start, resolved.current_profiles, ["stiffening"])
     begins = 0.0
     pieces: list[tuple[Array, Array, Array]] = []
     for name, trajectory in cycle.trajectories.items():
-        count, stage = len(trajectory.times), model.stages[name]
+        count, phase = len(trajectory.times), model.phases[name]
         arguments = (trajectory.states, trajectory.currents[None, :], np.repeat(model.start[:, None], count, axis=1))
-        stack = np.asarray(stage.temperatures.map(count)(*arguments))
-        fractions = np.asarray(stage.fractions.map(count)(*arguments))
-        first = 1 if pieces else 0  # a stage begins where the one before has ended
+        stack = np.asarray(phase.temperatures.map(count)(*arguments))
+        fractions = np.asarray(phase.fractions.map(count)(*arguments))
+        first = 1 if pieces else 0  # a phase begins where the one before has ended
         pieces.append(
             (begins + trajectory.times[first:], stack[FIRST_CELL:][: model.cells, first:], fractions[:, first:])
         )
@@ -89,9 +89,9 @@ class Changing:
         return slices.Slices(list(relaxation_times), list(stiffnesses), list(self._slopes(time)[1]))
 
 
-def changing(rig: Rig, history: SliceHistory) -> Changing:
+def changing(resolved: ResolvedModule, history: SliceHistory) -> Changing:
     """The slices of a module's layer over a history, all of one thickness."""
-    rheology, moment, thickness = (rig.row(n) for n in ("pcl_rheology", "pcl_moment", "pcl_depth"))
+    rheology, moment, thickness = (resolved.quantity(n) for n in ("pcl_rheology", "pcl_moment", "pcl_depth"))
     spectrum = polymer.spectrum(history.temperatures, history.fractions, rheology)
     modes = motion.layer_modes(spectrum, moment, thickness / len(history.temperatures))
     both = [[time for time, _ in modes], [stiffness for _, stiffness in modes]]
@@ -136,7 +136,7 @@ def carry(layer: Changing, support: slices.Support, load: float, times: Array) -
     return Carried(times, solved.y[0], layer_torque, np.array(energies), inner, float(last - given_back), float(free))
 
 
-def support_of(rig: Rig) -> slices.Support:
+def support_of(resolved: ResolvedModule) -> slices.Support:
     """Springs and structure of the module on the bench."""
-    joint = joint_of(rig)
+    joint = joint_of(resolved)
     return slices.Support(joint.spring_stiffness, joint.structure_stiffness)

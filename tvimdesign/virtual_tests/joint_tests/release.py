@@ -9,7 +9,7 @@ import numpy as np
 
 from tvimdesign.device.table.quantity import TOUCHING
 from tvimdesign.physics.one_sided import Touching
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.virtual_tests.joint_tests import joint_motion
 from tvimdesign.virtual_tests.joint_tests.case import (
     Case,
@@ -22,7 +22,7 @@ from tvimdesign.virtual_tests.joint_tests.case import (
 from tvimdesign.virtual_tests.link_motion import link
 from tvimdesign.virtual_tests.link_motion.contact_simulation import TURNS_OF_A_SWING, OneSided, turns_of
 from tvimdesign.virtual_tests.link_motion.link import Array, Motion
-from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 ANGLE = 0.1  # rad, the paper's perturbation
 SETTLED = 0.05  # share of the angle within which the link counts as back
@@ -63,16 +63,18 @@ class Released:
         return self.found.lost_share(0.0, self.found.first_swing())
 
 
-def release(rig: Rig, angle: float = ANGLE, hold: float | None = None, kelvin_voigt: bool = True) -> Trial:
+def release(
+    resolved: ResolvedModule, angle: float = ANGLE, hold: float | None = None, kelvin_voigt: bool = True
+) -> Trial:
     """Hold the link at an angle [rad] for `hold` seconds, else `hold_time`, let go, and follow it.
 
     Gives angle and torque over time and the torque-angle loop at every operating point; with `kelvin_voigt` also those
     of one spring and one dashpot, stiffness and damping as at the point's frequency, where the layer is bonded. Blocks
     that only push are left and met on the way.
     """
-    hold = float(rig.row("hold_time")) if hold is None else hold
-    rig = with_paper_points(rig)
-    found = [_released(rig, case, angle, hold, kelvin_voigt) for case in cases(rig)]
+    hold = float(resolved.quantity("hold_time")) if hold is None else hold
+    resolved = with_paper_points(resolved)
+    found = [_released(resolved, case, angle, hold, kelvin_voigt) for case in cases(resolved)]
     shown = [one for one in found if one.case.history.shown]
     x, y = "angle", "torque_share"
     return Trial(
@@ -86,13 +88,13 @@ def release(rig: Rig, angle: float = ANGLE, hold: float | None = None, kelvin_vo
             ),
             Panel(_loop_title(shown), "angle, rad", "torque over that at release", _lines(shown, x, y)),
         ),
-        findings=tuple(_findings(rig, found)),
+        findings=tuple(_findings(resolved, found)),
         notes=(
             f"The PCL was free of strain, was turned to {angle:g} rad at once and held there for {hold:g} s: of a hold "
             "of seconds the melt keeps nothing, frozen PCL nearly all.",
             "Torque is that of the module on the link.",
             *notes_for([one.case for one in found]),
-            *overload_notes(rig, [(one.case, float(abs(one.motion.torque[0]))) for one in found]),
+            *overload_notes(resolved, [(one.case, float(abs(one.motion.torque[0]))) for one in found]),
             *_unsettled(found),
         ),
     )
@@ -106,30 +108,30 @@ def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
     return (f"At {points} the link still swings where its curve ends: it settles later, if it does.",)
 
 
-def contact_seen(rig: Rig, angle: float = ANGLE) -> dict[str, tuple[float, float, float]]:
+def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tuple[float, float, float]]:
     """Nominal, least and largest value of every row that a first swing shows, by full name, after `hold_time`."""
     seen: dict[str, list[float]] = {}
-    for case in cases(rig):
-        for name, value in _first_swing_of(rig, case, angle).items():
+    for case in cases(resolved):
+        for name, value in _first_swing_of(resolved, case, angle).items():
             seen.setdefault(f"{name}@{case.point}", []).append(value)
     return {name: (values[0], min(values), max(values)) for name, values in seen.items()}
 
 
-def _first_swing_of(rig: Rig, case: Case, angle: float) -> dict[str, float]:
+def _first_swing_of(resolved: ResolvedModule, case: Case, angle: float) -> dict[str, float]:
     """Mean of every row of a swing over the first one; a bonded layer is in contact whatever the link does."""
-    names = [row.name for row in rig.table.swings]
+    names = [row.name for row in resolved.table.first_oscillations]
     if not case.one_sided:
-        bonded = rig.table.evaluate_instant({**rig.values, TOUCHING: Touching(1.0, 1.0)}, names)
+        bonded = resolved.table.evaluate_instant({**resolved.values, TOUCHING: Touching(1.0, 1.0)}, names)
         return {name: float(value) for name, value in bonded.items()}
     found = joint_motion.released(
-        case, angle, joint_motion.held(case, angle, float(rig.row("hold_time"))), TURNS_OF_A_SWING
+        case, angle, joint_motion.held(case, angle, float(resolved.quantity("hold_time"))), TURNS_OF_A_SWING
     )
     touching = Touching(*found.touching.astype(float))
-    instants = rig.table.evaluate_instant({**rig.values, TOUCHING: touching}, names)
+    instants = resolved.table.evaluate_instant({**resolved.values, TOUCHING: touching}, names)
     return {name: found.average(values, 0.0, found.first_swing()) for name, values in instants.items()}
 
 
-def _released(rig: Rig, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
+def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
     internal = joint_motion.held(case, angle, hold)
     found = joint_motion.released(case, angle, internal)
     moved, gap = found.motion, joint_motion.gap(case, internal)
@@ -139,7 +141,7 @@ def _released(rig: Rig, case: Case, angle: float, hold: float, kelvin_voigt: boo
     swings = link.swings(case.joint, case.modes, angle, internal)
     if not np.isfinite(settling):
         settling = swings.fading_time(SETTLED * abs(angle))
-    simple = _simple(rig, case, angle, moved) if kelvin_voigt else None
+    simple = _simple(resolved, case, angle, moved) if kelvin_voigt else None
     return Released(case, found, gap, *swings.ringing(), settling, simple)
 
 
@@ -157,8 +159,8 @@ def _first_ringing(found: OneSided) -> tuple[float, float]:
     return 1.0 / found.first_swing(), float(decrement / np.hypot(2.0 * np.pi, decrement))
 
 
-def _simple(rig: Rig, case: Case, angle: float, moved: Motion) -> Simple:
-    rows = case.rows(rig, ("joint_damping", "joint_stiffness"))
+def _simple(resolved: ResolvedModule, case: Case, angle: float, moved: Motion) -> Simple:
+    rows = case.rows(resolved, ("joint_damping", "joint_stiffness"))
     damping, stiffness = float(rows["joint_damping"]), float(rows["joint_stiffness"])
     other, torque = link.kelvin_voigt(case.joint, damping, stiffness, angle, moved)
     apart = np.trapezoid((moved.angle - other) ** 2, moved.times) / np.trapezoid(moved.angle**2, moved.times)
@@ -166,7 +168,7 @@ def _simple(rig: Rig, case: Case, angle: float, moved: Motion) -> Simple:
     return Simple(other, torque, swings.fading_time(SETTLED * abs(angle)), float(np.sqrt(apart)))
 
 
-def _sheets(one: Released) -> tuple[Sheet, ...]:
+def _sheets(one: Released) -> tuple[CurveTable, ...]:
     name, moved = f"release_{one.case.name}", one.motion
     columns = [
         Column("time", "s", moved.times),
@@ -184,13 +186,13 @@ def _sheets(one: Released) -> tuple[Sheet, ...]:
             Column("torque_share_kelvin_voigt", "1", torque / abs(torque[0])),
         ]
     events = joint_motion.event_sheets(name, one.found)
-    return (Sheet(name, tuple(columns)), *(_first_swing(one, columns) if one.case.one_sided else ()), *events)
+    return (CurveTable(name, tuple(columns)), *(_first_swing(one, columns) if one.case.one_sided else ()), *events)
 
 
-def _first_swing(one: Released, columns: Sequence[Column]) -> tuple[Sheet]:
+def _first_swing(one: Released, columns: Sequence[Column]) -> tuple[CurveTable]:
     """The first swing alone, whose loop shows the backlash; later ones lie over it."""
     count = int(np.searchsorted(one.motion.times, one.found.first_swing(), side="right"))
-    return (Sheet(_loop_name(one), tuple(replace(column, values=column.values[:count]) for column in columns)),)
+    return (CurveTable(_loop_name(one), tuple(replace(column, values=column.values[:count]) for column in columns)),)
 
 
 def _loop_name(one: Released) -> str:
@@ -201,21 +203,23 @@ def _loop_title(found: Sequence[Released]) -> str:
     return "Torque over angle" + (", first swing" if found[0].case.one_sided else "")
 
 
-def _lines(found: Sequence[Released], x: str, y: str) -> tuple[Line, ...]:
+def _lines(found: Sequence[Released], x: str, y: str) -> tuple[PlottedLine, ...]:
     lines = []
     for one in found:
         sheet = _loop_name(one) if x == "angle" else f"release_{one.case.name}"
         held = f"{abs(one.motion.torque[0]):.3g} N·m at release"
-        lines.append(Line(sheet, x, y, f"{one.case.label} ({held})" if y == "torque_share" else one.case.label))
+        lines.append(PlottedLine(sheet, x, y, f"{one.case.label} ({held})" if y == "torque_share" else one.case.label))
         if one.simple and not one.case.history.name:
             across = "angle_kelvin_voigt" if x == "angle" else x
-            lines.append(Line(sheet, across, f"{y}_kelvin_voigt", f"{one.case.point}, Kelvin-Voigt", dashed=True))
+            lines.append(
+                PlottedLine(sheet, across, f"{y}_kelvin_voigt", f"{one.case.point}, Kelvin-Voigt", dashed=True)
+            )
     return tuple(lines)
 
 
-def _findings(rig: Rig, found: Sequence[Released]) -> list[Finding]:
+def _findings(resolved: ResolvedModule, found: Sequence[Released]) -> list[Finding]:
     numbers: list[Finding] = []
-    for point in rig.points:
+    for point in resolved.points:
         here = [one for one in found if one.case.point == point]
         energies = [one.motion.energy for one in here]
         rows = [

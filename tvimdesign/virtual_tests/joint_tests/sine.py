@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.virtual_tests.joint_tests import joint_motion
 from tvimdesign.virtual_tests.joint_tests.case import (
     Case,
@@ -19,7 +19,7 @@ from tvimdesign.virtual_tests.joint_tests.case import (
 )
 from tvimdesign.virtual_tests.link_motion.contact_simulation import OneSided
 from tvimdesign.virtual_tests.link_motion.link import Array, Motion
-from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 PERIODS = 10
 SAMPLES = 240  # of one period
@@ -48,15 +48,15 @@ class Swung:
         return self.found.motion
 
 
-def sine(rig: Rig, periods: int = PERIODS) -> Trial:
+def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
     """Turn the link as a sine of the stroke's amplitude at each point's frequency, from rest."""
-    rig = with_paper_points(rig)
-    found = [_swung(rig, case, periods) for case in cases(rig)]
+    resolved = with_paper_points(resolved)
+    found = [_swung(resolved, case, periods) for case in cases(resolved)]
     shown = [one for one in found if one.case.history.shown]
     frequencies = ", ".join(dict.fromkeys(f"{one.frequency:g} Hz" for one in found))
     return Trial(
         test="sine",
-        title=f"Turned as a sine of {float(rig.row('stroke')):g} rad ({frequencies})",
+        title=f"Turned as a sine of {float(resolved.quantity('stroke')):g} rad ({frequencies})",
         sheets=tuple(sheet for one in shown for sheet in _sheets(one)),
         panels=(
             Panel("Angle", "time, s", "angle, rad", _lines(shown, "", "time", "angle")),
@@ -64,23 +64,23 @@ def sine(rig: Rig, periods: int = PERIODS) -> Trial:
             Panel("Torque over angle", "angle, rad", "torque over its highest",
                   _lines(shown, "_loop", "angle", "torque_share")),
         ),
-        findings=tuple(_findings(rig, found)),
+        findings=tuple(_findings(resolved, found)),
         notes=(
             "The angle is prescribed, so the link's inertia takes no part; torque is that of the module on the link.",
             f"The PCL is free of strain at first; the loops and numbers are those of period {periods}.",
             *notes_for([one.case for one in found]),
-            *overload_notes(rig, [(one.case, float(np.max(np.abs(one.motion.torque)))) for one in found]),
+            *overload_notes(resolved, [(one.case, float(np.max(np.abs(one.motion.torque)))) for one in found]),
         ),
     )  # fmt: skip
 
 
-def _swung(rig: Rig, case: Case, periods: int) -> Swung:
-    frequency = float(rig.row(f"frequency@{case.point}"))
-    found = joint_motion.swung(case, float(rig.row("stroke")), frequency, periods, SAMPLES)
+def _swung(resolved: ResolvedModule, case: Case, periods: int) -> Swung:
+    frequency = float(resolved.quantity(f"frequency@{case.point}"))
+    found = joint_motion.swung(case, float(resolved.quantity("stroke")), frequency, periods, SAMPLES)
     moved = found.motion
     complex_stiffness = complex_stiffness_of(moved, frequency)
     lossy = complex_stiffness.imag
-    rows = case.rows(rig, ("joint_stiffness", "joint_damping"))
+    rows = case.rows(resolved, ("joint_stiffness", "joint_damping"))
     omega = 2.0 * np.pi * frequency
     expected = complex(rows["joint_stiffness"], omega * rows["joint_damping"])
     loop = last_period(moved, frequency)
@@ -109,7 +109,7 @@ def complex_stiffness_of(moved: Motion, frequency: float) -> complex:
     return complex(-torque / angle)
 
 
-def _sheets(one: Swung) -> tuple[Sheet, ...]:
+def _sheets(one: Swung) -> tuple[CurveTable, ...]:
     moved = one.motion
     columns = (
         Column("time", "s", moved.times),
@@ -120,23 +120,23 @@ def _sheets(one: Swung) -> tuple[Sheet, ...]:
     )
     name, loop = f"sine_{one.case.name}", last_period(moved, one.frequency)
     return (
-        Sheet(name, columns),
-        Sheet(f"{name}_loop", tuple(replace(column, values=column.values[loop]) for column in columns)),
+        CurveTable(name, columns),
+        CurveTable(f"{name}_loop", tuple(replace(column, values=column.values[loop]) for column in columns)),
         *joint_motion.event_sheets(name, one.found),
     )
 
 
-def _lines(found: Sequence[Swung], part: str, x: str, y: str) -> tuple[Line, ...]:
+def _lines(found: Sequence[Swung], part: str, x: str, y: str) -> tuple[PlottedLine, ...]:
     def label(one: Swung) -> str:
         highest = f" ({np.max(np.abs(one.motion.torque)):.3g} N·m)" if y == "torque_share" else ""
         return one.case.label + highest
 
-    return tuple(Line(f"sine_{one.case.name}{part}", x, y, label(one)) for one in found)
+    return tuple(PlottedLine(f"sine_{one.case.name}{part}", x, y, label(one)) for one in found)
 
 
-def _findings(rig: Rig, found: Sequence[Swung]) -> list[Finding]:
+def _findings(resolved: ResolvedModule, found: Sequence[Swung]) -> list[Finding]:
     numbers = []
-    for point in rig.points:
+    for point in resolved.points:
         here = [one for one in found if one.case.point == point]
         for name, unit, meaning, values in (
             ("stiffness", "N*m/rad", "Stiffness of the joint, from its motion", [one.stiffness for one in here]),

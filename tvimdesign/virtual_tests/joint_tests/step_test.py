@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tvimdesign.physics.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.virtual_tests.joint_tests import joint_motion
 from tvimdesign.virtual_tests.joint_tests.case import (
     Case,
@@ -27,7 +27,7 @@ from tvimdesign.virtual_tests.joint_tests.load_through_cycle import (
 )
 from tvimdesign.virtual_tests.link_motion.contact_simulation import OneSided
 from tvimdesign.virtual_tests.link_motion.linear_system import doubling
-from tvimdesign.virtual_tests.trial import Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 RISE = 0.01  # s
 WATCHED = 100.0  # s
@@ -36,30 +36,33 @@ HALF_MOLTEN = 0.5
 LOADED = "step_of_impedance"
 
 
-def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load: float | None = None) -> Trial:
+def step(
+    resolved: ResolvedModule, history: SliceHistory | None = None, rise: float = RISE, load: float | None = None
+) -> Trial:
     """Turn the link to its stroke in `rise` seconds and watch the torque relax; then switch the layer under a load.
 
     The load [N*m] is the one that turns the joint by its stroke on its springs alone, if none is given; the layer goes
     through the working cycle, softening and stiffening, or through the given history.
     """
-    rig = with_paper_points(rig)
-    found = [(case, _turned(rig, case, rise)) for case in cases(rig)]
+    resolved = with_paper_points(resolved)
+    found = [(case, _turned(resolved, case, rise)) for case in cases(resolved)]
     shown = [(case, moved) for case, moved in found if case.history.shown]
-    history = history or slice_histories(rig)
-    weight = float(rig.row("spring_stiffness") * rig.row("stroke")) if load is None else load
-    carried = carry(changing(rig, history), support_of(rig), weight, history.times)
+    history = history or slice_histories(resolved)
+    weight = float(resolved.quantity("spring_stiffness") * resolved.quantity("stroke")) if load is None else load
+    carried = carry(changing(resolved, history), support_of(resolved), weight, history.times)
     return Trial(
         test="step",
         title=f"Steps: of the angle, and of the impedance under {weight:.3g} N·m",
         sheets=(*(_sheet(case, moved) for case, moved in shown), _loaded_sheet(carried, history)),
         panels=(
             Panel("Step of the angle", "time, s", "torque, N·m", log_x=True, log_y=True, lines=tuple(
-                Line(f"step_{case.name}", "time", "holding_torque", case.label) for case, _ in shown)),
+                PlottedLine(f"step_{case.name}", "time", "holding_torque", case.label) for case, _ in shown)),
             Panel("Layer over the cycle", "time, s", "temperature, °C", lines=tuple(
-                Line(LOADED, "time", f"{place}_slice", f"{place} slice") for place in ("near", "middle", "far"))),
-            Panel("Angle under load", "time, s", "angle, rad", lines=(Line(LOADED, "time", "angle", "link"),)),
+                PlottedLine(LOADED, "time", f"{place}_slice", f"{place} slice")
+                for place in ("near", "middle", "far"))),
+            Panel("Angle under load", "time, s", "angle, rad", lines=(PlottedLine(LOADED, "time", "angle", "link"),)),
         ),
-        findings=(*_relaxed(rig, found), *_yielded(carried, weight, one_sided=found[0][0].one_sided)),
+        findings=(*_relaxed(resolved, found), *_yielded(carried, weight, one_sided=found[0][0].one_sided)),
         notes=(
             f"Angle: to the stroke at a steady speed in {rise:g} s, then held for {WATCHED:g} s; the torque is what "
             "holds the module, without the link's inertia.",
@@ -68,7 +71,7 @@ def step(rig: Rig, history: SliceHistory | None = None, rise: float = RISE, load
             "Temperatures of the cycle do not depend on the load; a heated layer melts along its nominal curve, a "
             "cooled one freezes with the nominal kinetics.",
             *notes_for([case for case, _ in found]),
-            *overload_notes(rig, [(case, float(np.max(np.abs(moved.motion.torque)))) for case, moved in found]),
+            *overload_notes(resolved, [(case, float(np.max(np.abs(moved.motion.torque)))) for case, moved in found]),
             *_never_soft(history),
         ),
     )  # fmt: skip
@@ -82,22 +85,22 @@ def _never_soft(history: SliceHistory) -> tuple[str, ...]:
     return (f"At this current the layer does not melt: its hottest slice comes to {hottest:.0f} °C.",)
 
 
-def _turned(rig: Rig, case: Case, rise: float) -> OneSided:
+def _turned(resolved: ResolvedModule, case: Case, rise: float) -> OneSided:
     stretches = doubling(min(FIRST_STEP, rise), WATCHED)
-    return joint_motion.turned(case, float(rig.row("stroke")), rise, stretches)
+    return joint_motion.turned(case, float(resolved.quantity("stroke")), rise, stretches)
 
 
-def _sheet(case: Case, found: OneSided) -> Sheet:
+def _sheet(case: Case, found: OneSided) -> CurveTable:
     moved = found.motion
-    return Sheet(f"step_{case.name}", (
+    return CurveTable(f"step_{case.name}", (
         Column("time", "s", moved.times), Column("angle", "rad", moved.angle),
         Column("holding_torque", "N*m", -moved.torque), *joint_motion.contact_columns(case, found),
     ))  # fmt: skip
 
 
-def _loaded_sheet(carried: Carried, history: SliceHistory) -> Sheet:
+def _loaded_sheet(carried: Carried, history: SliceHistory) -> CurveTable:
     slices = history.temperatures
-    return Sheet(LOADED, (
+    return CurveTable(LOADED, (
         Column("time", "s", carried.times),
         Column("angle", "rad", carried.angle),
         Column("layer_torque", "N*m", carried.layer_torque),
@@ -109,9 +112,9 @@ def _loaded_sheet(carried: Carried, history: SliceHistory) -> Sheet:
     ))  # fmt: skip
 
 
-def _relaxed(rig: Rig, found: Sequence[tuple[Case, OneSided]]) -> list[Finding]:
+def _relaxed(resolved: ResolvedModule, found: Sequence[tuple[Case, OneSided]]) -> list[Finding]:
     numbers = []
-    for point in rig.points:
+    for point in resolved.points:
         holding = [-moved.motion.torque for case, moved in found if case.point == point]
         rows = (
             ("step_peak_torque", "N*m", "Highest torque of the step", [float(np.max(torque)) for torque in holding]),

@@ -29,7 +29,7 @@ TURNS_OF_A_SWING = 2
 
 
 @dataclass(frozen=True)
-class Event:
+class ContactEvent:
     """A block left or met."""
 
     time: float
@@ -48,7 +48,7 @@ class OneSided:
     """`internal` has the rows of the first block, then those of the second."""
     touching: NDArray[np.bool_]
     """Whether each block touches from a sample to the next; one row a block."""
-    events: tuple[Event, ...]
+    events: tuple[ContactEvent, ...]
 
     def lost_share(self, start: float, end: float) -> float:
         """Share of the time between two moments [s] in which no block touches."""
@@ -135,7 +135,7 @@ class Course:
         self._pulls = np.array(one_sided.pulls(identity[0], list(identity[2:]), blocks))
         self._regimes: dict[Touching, Regime] = {}
         self._switched: set[int] = set()
-        self.events: list[Event] = []
+        self.events: list[ContactEvent] = []
 
     def start(self, angle: float, speed: float, internal: Array) -> None:
         """Begin here; a block that lies just at the link touches if the link moves towards it."""
@@ -219,7 +219,7 @@ class Course:
         self.regime = self._regime(Touching(*touching))
         self.regimes[-1] = self.regime
         self._switched.add(side)
-        self.events.append(Event(self.time, side, touching[side] > 0.0))
+        self.events.append(ContactEvent(self.time, side, touching[side] > 0.0))
 
     def _regime(self, touching: Touching) -> Regime:
         if touching not in self._regimes:

@@ -10,7 +10,7 @@ import numpy as np
 
 from tvimdesign.physics.simple_bodies import Body, KelvinVoigt, Maxwell, StandardLinearSolid
 from tvimdesign.virtual_tests.rheometer.specimen import Specimen, State
-from tvimdesign.virtual_tests.trial import Array, Column, Finding, Sheet
+from tvimdesign.virtual_tests.trial import Array, Column, CurveTable, Finding
 
 BODIES: dict[str, type[Any]] = {
     "kelvin_voigt": KelvinVoigt,
@@ -24,18 +24,18 @@ _REACH = 60.0
 """How far parameters may go from the first guess, in units of their logarithm."""
 _STARTS = (-4.0, 0.0, 4.0)
 
-Answer = Callable[[Body], Array]
+StudyResult = Callable[[Body], Array]
 
 
 @dataclass(frozen=True)
-class Fit:
+class ModelFit:
     """A body that comes as near as it can; `residual` is the root mean square of ln(body/full) over the test."""
 
     body: Any
     residual: float
 
 
-def fit(kind: str, full: Array, answer: Answer, modulus: float, time: float) -> Fit:
+def fit(kind: str, full: Array, answer: StudyResult, modulus: float, time: float) -> ModelFit:
     """Fit a body's parameters to the logarithms of what the full spectrum shows.
 
     `modulus` [Pa] and `time` [s] are of the size of what the test sees. Several starts: a dashpot far outside the
@@ -56,7 +56,7 @@ def fit(kind: str, full: Array, answer: Answer, modulus: float, time: float) -> 
         found = least_squares(gap, begin, bounds=(begin - _REACH, begin + _REACH), x_scale=1.0)
         if best is None or found.cost < best.cost:
             best = found
-    return Fit(body(*(float(value) for value in np.exp(best.x))), float(np.sqrt(np.mean(best.fun**2))))
+    return ModelFit(body(*(float(value) for value in np.exp(best.x))), float(np.sqrt(np.mean(best.fun**2))))
 
 
 def _logarithms(values: Array, full: Array) -> Array:
@@ -68,10 +68,10 @@ class Comparison:
     """Every body fitted to every state of a specimen."""
 
     specimen: Specimen
-    fits: dict[str, tuple[Fit, ...]]
+    fits: dict[str, tuple[ModelFit, ...]]
     """By kind; the nominal state's first."""
 
-    def curves(self, name: str, unit: str, answer: Answer) -> tuple[Column, ...]:
+    def curves(self, name: str, unit: str, answer: StudyResult) -> tuple[Column, ...]:
         """What the nominal state's bodies answer, a column each."""
         return tuple(Column(f"{name}_{kind}", unit, answer(fits[0].body)) for kind, fits in self.fits.items())
 
@@ -86,12 +86,12 @@ class Comparison:
 
 
 def compare(
-    specimen: Specimen, full: Callable[[State], Array], answer: Answer, times: tuple[float, float]
+    specimen: Specimen, full: Callable[[State], Array], answer: StudyResult, times: tuple[float, float]
 ) -> Comparison:
     """Fit every body to every state; `full` is what a state shows in the test, `times` [s] the test's window."""
     time = float(np.sqrt(times[0] * times[1]))
 
-    def fits(kind: str) -> tuple[Fit, ...]:
+    def fits(kind: str) -> tuple[ModelFit, ...]:
         return tuple(fit(kind, full(state), answer, _size(state, time), time) for state in specimen.states)
 
     return Comparison(specimen, {kind: fits(kind) for kind in BODIES})
@@ -102,7 +102,7 @@ def _size(state: State, time: float) -> float:
     return sum(modulus * tau / (tau + time) for tau, modulus in state.modes)
 
 
-def parameters(comparisons: Sequence[Comparison]) -> Sheet:
+def parameters(comparisons: Sequence[Comparison]) -> CurveTable:
     """Every fitted body's parameters and residual, one row for each temperature and solid fraction."""
     rows = []
     for compared in comparisons:
@@ -115,4 +115,4 @@ def parameters(comparisons: Sequence[Comparison]) -> Sheet:
         heads += [(f"{kind}_{field.name}", "Pa*s" if field.name == "viscosity" else "Pa") for field in fields(body)]
         heads.append((f"{kind}_residual", "1"))
     table = np.array(rows)
-    return Sheet("simple_bodies", tuple(Column(name, unit, table[:, i]) for i, (name, unit) in enumerate(heads)))
+    return CurveTable("simple_bodies", tuple(Column(name, unit, table[:, i]) for i, (name, unit) in enumerate(heads)))

@@ -10,10 +10,10 @@ from tvimdesign.physics import viscoelasticity
 from tvimdesign.physics.polymer import LINEAR_DROP, ZERO_CELSIUS, maxwell_moduli
 from tvimdesign.physics.simple_bodies import Body
 from tvimdesign.simulation.melt_history import frozen_on_cooling
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.virtual_tests.rheometer.model_reduction import TITLES, Comparison, compare, parameters
 from tvimdesign.virtual_tests.rheometer.specimen import Specimen, State, at_fraction, history_note, specimen, specimens
-from tvimdesign.virtual_tests.trial import Array, Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 SMALL_STRAIN = 1e-4
 """Strain of the frequency and temperature sweeps: the paper's 0.01 %."""
@@ -34,9 +34,9 @@ def _star(state: State, angular_frequency: float | Array, strain: float | Array)
     return storage * state.left(strain), loss * state.left(strain)
 
 
-def frequency(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
+def frequency(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
     """Sweep the frequency at a small strain; the simple bodies are fitted to G' and G''."""
-    tested = specimens(rig, temperatures)
+    tested = specimens(resolved, temperatures)
     sheets, compared = [], []
     for at in tested:
         fitted = compare(at, lambda state: np.concatenate(_star(state, FREQUENCIES, SMALL_STRAIN)), _both,
@@ -52,7 +52,7 @@ def frequency(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
         sheets=(*sheets, parameters(compared)),
         panels=(*_frequency_panels(tested), *(_fit_panel(at) for at in tested)),
         findings=tuple(findings),
-        notes=(history_note(rig), "The simple bodies are drawn for the equilibrium curve on heating."),
+        notes=(history_note(resolved), "The simple bodies are drawn for the equilibrium curve on heating."),
     )
 
 
@@ -61,7 +61,7 @@ def _both(body: Body) -> Array:
     return np.concatenate([star.real, star.imag])
 
 
-def _frequency_sheet(at: Specimen, fitted: Comparison) -> Sheet:
+def _frequency_sheet(at: Specimen, fitted: Comparison) -> CurveTable:
     columns: list[Column] = [Column("angular_frequency", "rad/s", FREQUENCIES)]
     columns += at.columns("storage_modulus", "Pa", lambda state: _star(state, FREQUENCIES, SMALL_STRAIN)[0])
     columns += at.columns("loss_modulus", "Pa", lambda state: _star(state, FREQUENCIES, SMALL_STRAIN)[1])
@@ -72,11 +72,11 @@ def _frequency_sheet(at: Specimen, fitted: Comparison) -> Sheet:
     )  # fmt: skip
     columns += at.columns("loss_factor", "1", lambda state: viscoelasticity.loss_factor(FREQUENCIES, state.modes))
     columns += fitted.curves("complex_modulus", "Pa", lambda body: np.abs(body.modulus(FREQUENCIES)))
-    return Sheet(f"frequency_{at.point}", tuple(columns))
+    return CurveTable(f"frequency_{at.point}", tuple(columns))
 
 
 def _frequency_panels(tested: Sequence[Specimen]) -> tuple[Panel, ...]:
-    def lines(name: str, *, dashed: bool = False, ending: str = "") -> list[Line]:
+    def lines(name: str, *, dashed: bool = False, ending: str = "") -> list[PlottedLine]:
         return [
             at.line(f"frequency_{at.point}", "angular_frequency", name, f"{at.label}{ending}", dashed=dashed)
             for at in tested
@@ -93,7 +93,7 @@ def _frequency_panels(tested: Sequence[Specimen]) -> tuple[Panel, ...]:
 
 def _fit_panel(at: Specimen) -> Panel:
     sheet, x = f"frequency_{at.point}", "angular_frequency"
-    bodies = (Line(sheet, x, f"complex_modulus_{kind}", title, dashed=True) for kind, title in TITLES.items())
+    bodies = (PlottedLine(sheet, x, f"complex_modulus_{kind}", title, dashed=True) for kind, title in TITLES.items())
     lines = (at.line(sheet, x, "complex_modulus", "full spectrum"), *bodies)
     title = f"Simple bodies at {at.label}"
     return Panel(title, "angular frequency (rad/s)", "|G*| (Pa)", lines, log_x=True, log_y=True)
@@ -114,9 +114,9 @@ def _moduli_at_1_hertz(at: Specimen) -> tuple[Finding, ...]:
     )  # fmt: skip
 
 
-def amplitude(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
+def amplitude(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
     """Sweep the strain at one frequency, and find the end of the linear range."""
-    tested = specimens(rig, temperatures)
+    tested = specimens(resolved, temperatures)
 
     def moduli(state: State) -> tuple[Array, Array]:
         return _star(state, AMPLITUDE_FREQUENCY, STRAINS)
@@ -129,7 +129,7 @@ def amplitude(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
             *at.columns("storage_modulus", "Pa", lambda state: moduli(state)[0]),
             *at.columns("loss_modulus", "Pa", lambda state: moduli(state)[1]),
         )
-        sheets.append(Sheet(sheet, columns))
+        sheets.append(CurveTable(sheet, columns))
         lines += [
             at.line(sheet, "strain", "storage_modulus", f"{at.label}, G'"),
             at.line(sheet, "strain", "loss_modulus", f"{at.label}, G''", dashed=True),
@@ -144,7 +144,7 @@ def amplitude(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
         panels=(panel,),
         findings=tuple(findings),
         notes=(
-            history_note(rig),
+            history_note(resolved),
             "Strain takes the same share of G' and G''; the strain at which that begins is assumed, in the record.",
             f"The paper gives no frequency for this test; {AMPLITUDE_FREQUENCY:g} rad/s is assumed.",
         ),
@@ -157,11 +157,13 @@ def _linear_limit(storage: Array) -> float:
     return float(np.exp(np.interp(LINEAR_DROP, drop, np.log(STRAINS))))
 
 
-def temperature(rig: Rig, cooling: Cooling | None = None, temperatures: Sequence[float] | None = None) -> Trial:
+def temperature(
+    resolved: ResolvedModule, cooling: Cooling | None = None, temperatures: Sequence[float] | None = None
+) -> Trial:
     """Sweep the temperature at 1 Hz: heated along the equilibrium curve, and cooled, freezing late, from the melt."""
-    swept = specimens(rig, TEMPERATURES.tolist() if temperatures is None else temperatures)
-    cooling = cooling or frozen_on_cooling(rig, COOLING_RATE)
-    sheets = [_heating_sheet(swept), _cooling_sheet(rig, swept, cooling)]
+    swept = specimens(resolved, TEMPERATURES.tolist() if temperatures is None else temperatures)
+    cooling = cooling or frozen_on_cooling(resolved, COOLING_RATE)
+    sheets = [_heating_sheet(swept), _cooling_sheet(resolved, swept, cooling)]
     cooled = sheets[1].column("solid_fraction").values
     first, last = _flow_range(sheets[0])
     crossing = Finding(
@@ -173,7 +175,7 @@ def temperature(rig: Rig, cooling: Cooling | None = None, temperatures: Sequence
         "freezing_temperature", float(half_frozen), "degC",
         f"temperature at which half is frozen, cooled at {60.0 * COOLING_RATE:g} K/min",
     )  # fmt: skip
-    ends = (specimen(rig, 303.15), specimen(rig, 373.15))
+    ends = (specimen(resolved, 303.15), specimen(resolved, 373.15))
     return Trial(
         test="temperature",
         title="Temperature sweep at 1 Hz and 0.01 % strain",
@@ -181,7 +183,7 @@ def temperature(rig: Rig, cooling: Cooling | None = None, temperatures: Sequence
         panels=_temperature_panels(sheets),
         findings=(crossing, half, *(found for at in ends for found in _moduli_at_1_hertz(at))),
         notes=(
-            history_note(rig),
+            history_note(resolved),
             f"Cooled at {60.0 * COOLING_RATE:g} K/min, a usual rate; the paper states none. "
             "The slower, the less supercooled.",
             "Polycaprolactone decomposes near 200 °C, and the time spent there counts; that is not modelled.",
@@ -203,11 +205,11 @@ def _columns(name: str, unit: str, nominal: Array, every: Sequence[Array]) -> tu
     )
 
 
-def _heating_sheet(swept: Sequence[Specimen]) -> Sheet:
+def _heating_sheet(swept: Sequence[Specimen]) -> CurveTable:
     storage, loss = _at_1_hertz([at.nominal for at in swept])
     every = [_at_1_hertz(at.states) for at in swept]
     fractions = np.array([at.nominal.fraction for at in swept])
-    return Sheet(
+    return CurveTable(
         "heating",
         (
             Column("temperature", "degC", np.array([at.temperature for at in swept])),
@@ -219,12 +221,12 @@ def _heating_sheet(swept: Sequence[Specimen]) -> Sheet:
     )
 
 
-def _cooling_sheet(rig: Rig, swept: Sequence[Specimen], cooling: Cooling) -> Sheet:
+def _cooling_sheet(resolved: ResolvedModule, swept: Sequence[Specimen], cooling: Cooling) -> CurveTable:
     temperatures = np.array([at.temperature for at in swept])
     fractions = [cooling(at) for at in temperatures]
-    states = [at_fraction(rig, at, fraction) for at, fraction in zip(temperatures, fractions, strict=True)]
+    states = [at_fraction(resolved, at, fraction) for at, fraction in zip(temperatures, fractions, strict=True)]
     storage, loss = _at_1_hertz(states)
-    return Sheet(
+    return CurveTable(
         "cooling",
         (
             Column("temperature", "degC", temperatures),
@@ -236,10 +238,10 @@ def _cooling_sheet(rig: Rig, swept: Sequence[Specimen], cooling: Cooling) -> She
     )
 
 
-def _temperature_panels(sheets: Sequence[Sheet]) -> tuple[Panel, ...]:
-    def lines(name: str, label: str, *, dashed: bool = False) -> list[Line]:
+def _temperature_panels(sheets: Sequence[CurveTable]) -> tuple[Panel, ...]:
+    def lines(name: str, label: str, *, dashed: bool = False) -> list[PlottedLine]:
         return [
-            Line(sheet.name, "temperature", name, f"{sheet.name}{label}",
+            PlottedLine(sheet.name, "temperature", name, f"{sheet.name}{label}",
                  (f"{name}_low", f"{name}_high") if sheet.name == "heating" else None, dashed)
             for sheet in sheets
         ]  # fmt: skip
@@ -252,7 +254,7 @@ def _temperature_panels(sheets: Sequence[Sheet]) -> tuple[Panel, ...]:
     )
 
 
-def _crossing(heating: Sheet) -> float:
+def _crossing(heating: CurveTable) -> float:
     """Temperature [K] at which the nominal loss factor passes one, between two samples."""
     factor, at = heating.column("loss_factor").values, heating.column("temperature").values
     first = int(np.argmax(factor >= 1.0))
@@ -261,7 +263,7 @@ def _crossing(heating: Sheet) -> float:
     return float(np.interp(0.0, np.log(factor[first - 1 : first + 1]), at[first - 1 : first + 1]))
 
 
-def _flow_range(heating: Sheet) -> tuple[float, float]:
+def _flow_range(heating: CurveTable) -> tuple[float, float]:
     """Lowest temperature [K] at which some history flows, highest at which some history is still solid."""
     at = heating.column("temperature").values
     flows = at[heating.column("loss_factor_high").values >= 1.0]

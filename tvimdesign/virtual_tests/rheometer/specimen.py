@@ -15,9 +15,9 @@ from tvimdesign.physics import polymer
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.physics.viscoelasticity import check_rising, check_spectrum
 from tvimdesign.simulation.melt_history import HISTORIES, fractions_at, melting_range
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
-from tvimdesign.virtual_tests.trial import Array, Column, Finding, Line
+from tvimdesign.virtual_tests.trial import Array, Column, Finding, PlottedLine
 
 PAPER = (303.15, 333.15, 373.15)
 """The temperatures of the paper's rheometer tests [K]."""
@@ -78,47 +78,47 @@ class Specimen:
         every = [float(of(state)) for state in self.states]
         return Finding(f"{name}@{self.point}", value, unit, meaning, min(every), max(every))
 
-    def line(self, sheet: str, x: str, y: str, label: str | None = None, *, dashed: bool = False) -> Line:
+    def line(self, sheet: str, x: str, y: str, label: str | None = None, *, dashed: bool = False) -> PlottedLine:
         """A quantity of `columns` drawn over another, with its band where it has one."""
         band = (f"{y}_low", f"{y}_high") if self.others else None
-        return Line(sheet, x, y, self.label if label is None else label, band, dashed)
+        return PlottedLine(sheet, x, y, self.label if label is None else label, band, dashed)
 
 
-def at_fraction(rig: Rig, temperature: float, fraction: float) -> State:
+def at_fraction(resolved: ResolvedModule, temperature: float, fraction: float) -> State:
     """The polymer of a rig's module at a temperature [K] and a solid fraction. Raises InputError for no spectrum."""
-    spectrum = polymer.spectrum(temperature, fraction, rig.row("pcl_rheology"))
+    spectrum = polymer.spectrum(temperature, fraction, resolved.quantity("pcl_rheology"))
     modes = tuple((float(time), float(modulus)) for time, modulus in spectrum)
-    check_spectrum(modes, f"pcl_grade {rig.values['pcl_grade'].name} at {_celsius(temperature)} °C")
-    return State(fraction, modes, float(polymer.linear_strain(fraction, rig.row("pcl_linear_range"))))
+    check_spectrum(modes, f"pcl_grade {resolved.values['pcl_grade'].name} at {_celsius(temperature)} °C")
+    return State(fraction, modes, float(polymer.linear_strain(fraction, resolved.quantity("pcl_linear_range"))))
 
 
-def specimen(rig: Rig, temperature: float) -> Specimen:
+def specimen(resolved: ResolvedModule, temperature: float) -> Specimen:
     """The polymer of a rig's module at a temperature [K], in every state its history allows."""
-    low, nominal, high = fractions_at(rig, temperature)
+    low, nominal, high = fractions_at(resolved, temperature)
     others = np.linspace(low, high, HISTORIES) if high > low else np.array([])
     return Specimen(
         temperature,
-        at_fraction(rig, temperature, nominal),
-        tuple(at_fraction(rig, temperature, float(fraction)) for fraction in others),
+        at_fraction(resolved, temperature, nominal),
+        tuple(at_fraction(resolved, temperature, float(fraction)) for fraction in others),
     )
 
 
-def specimens(rig: Rig, temperatures: Sequence[float] | None = None) -> list[Specimen]:
+def specimens(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> list[Specimen]:
     """The polymer at rising temperatures [K]; at those of the study's operating points where none are given.
 
     A study that has only the standard points, at their temperatures, gets the paper's three.
     """
     if temperatures is None:
-        own = {point["temperature"] for point in rig.study.operating_points.values()}
+        own = {point["temperature"] for point in resolved.study.operating_points.values()}
         standard = {point["temperature"] for point in STANDARD_POINTS.values()}
         temperatures = PAPER if own == standard else sorted(own)
     check_rising([at - ZERO_CELSIUS for at in temperatures], "the temperatures of the test", "°C")
-    return [specimen(rig, temperature) for temperature in temperatures]
+    return [specimen(resolved, temperature) for temperature in temperatures]
 
 
-def history_note(rig: Rig) -> str:
+def history_note(resolved: ResolvedModule) -> str:
     """What the bands mean, in one sentence."""
-    first, last = (_celsius(at) for at in melting_range(rig))
+    first, last = (_celsius(at) for at in melting_range(resolved))
     return (
         f"Between {first} and {last} °C the answer depends on history: the line is the equilibrium curve on heating; "
         "the band reaches from still liquid, cooled from the melt, to melting as late as the record allows."

@@ -8,10 +8,10 @@ import numpy as np
 
 from tvimdesign.physics import viscoelasticity
 from tvimdesign.physics.simple_bodies import Body
-from tvimdesign.simulation.resolved_module import Rig
+from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.virtual_tests.rheometer.model_reduction import TITLES, Comparison, compare, parameters
 from tvimdesign.virtual_tests.rheometer.specimen import Specimen, State, history_note, specimens
-from tvimdesign.virtual_tests.trial import Array, Column, Finding, Line, Panel, Sheet, Trial
+from tvimdesign.virtual_tests.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 STRESS = 50.0  # Pa, the paper's
 LOADED = 300.0  # s, the paper's
@@ -25,9 +25,9 @@ HELD = np.geomspace(1e-3, 1e3, 121)  # s
 DAY = 86400.0  # s
 
 
-def creep(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
+def creep(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
     """Load with a constant stress, take it off, and watch the strain; the simple bodies are fitted under load."""
-    tested = specimens(rig, temperatures)
+    tested = specimens(resolved, temperatures)
     compared = [compare(at, _compliance, lambda body: body.creep(UNDER_LOAD), (UNDER_LOAD[0], LOADED)) for at in tested]
     pairs = list(zip(tested, compared, strict=True))
     lines = tuple(at.line(f"creep_{at.point}", "time", "compliance") for at in tested)
@@ -44,7 +44,7 @@ def creep(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
             for found in (*_creep_findings(at), *fitted.findings(), *_static_load(at, fitted))
         ),
         notes=(
-            history_note(rig),
+            history_note(resolved),
             "The paper gives the recovery as 600 s and, once, as 200 s; 600 s is taken.",
             "Linear: at 50 Pa the melt flows so slowly that its strain, however large, is forgotten as it grows.",
             "The simple bodies are drawn for the equilibrium curve on heating.",
@@ -69,7 +69,7 @@ def _body_strain(body: Body, time: Array) -> Array:
     return strain
 
 
-def _creep_sheet(at: Specimen, fitted: Comparison) -> Sheet:
+def _creep_sheet(at: Specimen, fitted: Comparison) -> CurveTable:
     time = np.concatenate([UNDER_LOAD[:-1], [LAST_LOADED], AFTER_LOAD])
     columns = (
         Column("time", "s", time),
@@ -78,12 +78,12 @@ def _creep_sheet(at: Specimen, fitted: Comparison) -> Sheet:
         *at.columns("compliance", "1/Pa", lambda state: _strain(state, time) / STRESS),
         *fitted.curves("strain", "%", lambda body: _body_strain(body, time)),
     )
-    return Sheet(f"creep_{at.point}", columns)
+    return CurveTable(f"creep_{at.point}", columns)
 
 
 def _creep_panel(at: Specimen) -> Panel:
     sheet = f"creep_{at.point}"
-    bodies = (Line(sheet, "time", f"strain_{kind}", title, dashed=True) for kind, title in TITLES.items())
+    bodies = (PlottedLine(sheet, "time", f"strain_{kind}", title, dashed=True) for kind, title in TITLES.items())
     lines = (at.line(sheet, "time", "strain", "full spectrum"), *bodies)
     return Panel(f"Creep and recovery at {at.label}", "time (s)", "strain (%)", lines, log_y=bool(at.others))
 
@@ -118,9 +118,9 @@ def _static_load(at: Specimen, fitted: Comparison) -> tuple[Finding, ...]:
     return tuple(found)
 
 
-def relaxation(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
+def relaxation(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
     """Strain within a short rise, hold, and watch the stress; the simple bodies are fitted to G(t) of an ideal step."""
-    tested = specimens(rig, temperatures)
+    tested = specimens(resolved, temperatures)
     compared = [compare(at, _relaxed, lambda body: body.relaxation(HELD), (HELD[0], HELD[-1])) for at in tested]
     pairs = list(zip(tested, compared, strict=True))
     lines = tuple(at.line(f"relaxation_{at.point}", "time", "stress") for at in tested)
@@ -134,7 +134,7 @@ def relaxation(rig: Rig, temperatures: Sequence[float] | None = None) -> Trial:
         panels=tuple(panels),
         findings=tuple(found for at, fitted in pairs for found in (*_relaxation_findings(at), *fitted.findings())),
         notes=(
-            history_note(rig),
+            history_note(resolved),
             f"The strain is reached at a constant rate within {RISE:g} s, as a motor can; the melt relaxes meanwhile.",
             "Beyond the linear range strain takes the same share of the modulus at all times (time-strain separation).",
             "Fits do not look below a millionth of the first stress. The simple bodies are drawn for the equilibrium "
@@ -153,7 +153,7 @@ def _stress(state: State) -> Array:
     return stress
 
 
-def _relaxation_sheet(at: Specimen, fitted: Comparison) -> Sheet:
+def _relaxation_sheet(at: Specimen, fitted: Comparison) -> CurveTable:
     columns = (
         Column("time", "s", HELD),
         Column("strain", "%", STRAIN * np.minimum(HELD / RISE, 1.0)),
@@ -161,12 +161,14 @@ def _relaxation_sheet(at: Specimen, fitted: Comparison) -> Sheet:
         *at.columns("relaxation_modulus", "Pa", _relaxed),
         *fitted.curves("relaxation_modulus", "Pa", lambda body: body.relaxation(HELD)),
     )
-    return Sheet(f"relaxation_{at.point}", columns)
+    return CurveTable(f"relaxation_{at.point}", columns)
 
 
 def _relaxation_panel(at: Specimen) -> Panel:
     sheet = f"relaxation_{at.point}"
-    bodies = (Line(sheet, "time", f"relaxation_modulus_{kind}", title, dashed=True) for kind, title in TITLES.items())
+    bodies = (
+        PlottedLine(sheet, "time", f"relaxation_modulus_{kind}", title, dashed=True) for kind, title in TITLES.items()
+    )
     lines = (at.line(sheet, "time", "relaxation_modulus", "full spectrum"), *bodies)
     return Panel(f"Relaxation modulus at {at.label}", "time (s)", "G (Pa)", lines, log_x=True, log_y=True)
 

@@ -7,7 +7,7 @@ from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 
-class SteppingStone:
+class ConstantCurrentOptimum:
     """The same problem with constant currents: solved first, it is where a search for profiles begins, and what
     they are held against."""
 
@@ -31,7 +31,7 @@ class SteppingStone:
         """The best optimum with constant currents, simulated; None where there is none."""
         if self.optimizer is None or self.best is None:
             return None
-        switch = self.optimizer.simulator.run(self.best.inputs)
-        values = self.optimizer.model.values(self.best.inputs, switch.values)
+        cycle = self.optimizer.simulator.run(self.best.inputs)
+        values = self.optimizer.model.values(self.best.inputs, cycle.values)
         inputs = {name: float(self.best.inputs[i]) for name, i in self.optimizer.model.index.items()}
         return Constant(self.best.start.objective, {**inputs, **values})

@@ -1,0 +1,65 @@
+"""Names that studies and designs had in an earlier release: read as what they are called now, with a warning."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+from tvimdesign.base.errors import RenamedWarning
+from tvimdesign.study.text import yaml_text
+from tvimdesign.study.text.yaml_text import Node, Text
+
+_SUFFIXES = {"_reserve": "_margin"}
+"""Ends of names of quantities, the old by the new one; read until the release after 0.1."""
+_SECTIONS = ("module", "vary", "require", "minimize", "front", "tolerances")
+"""The sections in which quantities are named."""
+_PLAIN = {"drives": "current_profiles"}
+"""Fields of a design that are called otherwise now."""
+
+
+def new_name(name: str) -> str:
+    """What a quantity is called now, with its `@point`; the name itself where it is not an old one."""
+    base, at, point = name.partition("@")
+    for old, new in _SUFFIXES.items():
+        if base.endswith(old):
+            return base.removesuffix(old) + new + at + point
+    return name
+
+
+def renamed(root: yaml_text.Mapping, file: str) -> yaml_text.Mapping:
+    """A study's tree with every old name as it is now; one RenamedWarning names them all."""
+    found: dict[str, str] = {}
+    sections = {
+        name: (key, _renamed(value, found) if name in _SECTIONS else value)
+        for name, (key, value) in root.entries.items()
+    }
+    if found:
+        names = ", ".join(f"{old} is now {new}" for old, new in found.items())
+        warnings.warn(f"{file}: {names}; the old names are read until the next release", RenamedWarning, stacklevel=2)
+    return yaml_text.Mapping(root.line, root.column, sections)
+
+
+def _renamed(node: Node, found: dict[str, str]) -> Node:
+    """The same of one node. An old name beside its new one stays, and is told as a mistake."""
+    if isinstance(node, yaml_text.Mapping):
+        entries: dict[str, tuple[Text, Node]] = {}
+        for name, (key, value) in node.entries.items():
+            new = new_name(name) if new_name(name) not in node.entries else name
+            found |= {name: new} if new != name else {}
+            entries[new] = (Text(key.line, key.column, new, key.plain), _renamed(value, found))
+        return yaml_text.Mapping(node.line, node.column, entries)
+    if isinstance(node, yaml_text.Sequence):
+        return yaml_text.Sequence(node.line, node.column, [_renamed(item, found) for item in node.items])
+    if isinstance(node, Text) and (new := new_name(node.value)) != node.value:
+        found[node.value] = new
+        return Text(node.line, node.column, new, node.plain)
+    return node
+
+
+def renamed_plain(data: Any) -> Any:
+    """Plain data, such as a design's, with every old name as it is now; without a warning, as no person wrote it."""
+    if isinstance(data, dict):
+        return {_PLAIN.get(name, new_name(name)): renamed_plain(value) for name, value in data.items()}
+    if isinstance(data, list):
+        return [renamed_plain(item) for item in data]
+    return new_name(data) if isinstance(data, str) and data.isidentifier() else data
