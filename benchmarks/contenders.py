@@ -21,7 +21,7 @@ from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation import device_functions, phase_model
+from tvimdesign.simulation import device_functions, phase_functions
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.solve.nlp.transcription import radau
@@ -242,7 +242,7 @@ def arrays_of_casadi() -> Iterator[None]:
     def array(column: Any) -> Any:
         return np.reshape(column, (column.numel(),))
 
-    with patch.object(device_functions, "symbols", array), patch.object(phase_model, "symbols", array):
+    with patch.object(device_functions, "symbols", array), patch.object(phase_functions, "symbols", array):
         yield
 
 

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Table, table_for
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.trajectory import Cycle
 from tvimdesign.solve.nlp.transcription import guess, phase_block
 
 Array = NDArray[np.float64]

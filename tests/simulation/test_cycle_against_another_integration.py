@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.integrate import simpson, solve_ivp
 from support import fine
 
-from tvimdesign.simulation.cycle import Cycle
 from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.trajectory import Cycle
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "thick", "aluminium", "sink")

@@ -12,8 +12,9 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.trajectory import Cycle
 from tvimdesign.study import given, read_study
 
 ROOT = Path(__file__).resolve().parents[2]

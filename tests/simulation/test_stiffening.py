@@ -13,9 +13,10 @@ from scipy.integrate import solve_ivp
 from support import fine
 
 from tvimdesign.physics import polymer
-from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.phase_model import PhaseFunctions
+from tvimdesign.simulation.phase_functions import PhaseFunctions
+from tvimdesign.simulation.trajectory import Cycle
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "sink")

@@ -13,8 +13,8 @@ from tvimdesign.device.table.quantity import (
     Scalar,
     Steady,
     Supplied,
-    Table,
-)  # fmt: skip
+)
+from tvimdesign.device.table.table import Table
 
 __all__ = [
     "MODES",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.device.table.quantity import Table
+from tvimdesign.device.table.table import Table
 
 MODES = ("shear", "compression")
 """The modes a study may name."""

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.physics.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.cycle import Trajectory
 from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.simulation.melt_history import HISTORIES, fractions_at
 from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 Curves = dict[str, list[float]]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Table
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.phase_model import PhaseFunctions
+from tvimdesign.simulation.phase_functions import PhaseFunctions
 from tvimdesign.simulation.symbols import symbols
 
 

@@ -13,10 +13,11 @@ from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
 from tvimdesign.simulation.curves import Curves, impedance_sweep, phase_history
-from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.simulation.melt_history import intervals
 from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
     advice_of,

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Cycle, Trajectory
 from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.trajectory import Cycle, Trajectory
 from tvimdesign.solve.nlp.transcription import guess, phase_block, radau
 
 DESIGNS = ("as it is", "thin", "thick", "aluminium")

@@ -14,9 +14,9 @@ from support import fine
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Cycle
 from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.simulation.resolved_module import resolve_study
+from tvimdesign.simulation.trajectory import Cycle
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.transcription import guess
 from tvimdesign.study import read_study

@@ -1,4 +1,4 @@
-"""The machinery of the one table: what a quantity is, and how a table of quantities is evaluated.
+"""What a quantity of the one table is: a number or a word that a study sets, or a result and how it follows.
 
 A table says what a module is. `Input` quantities are numbers that a study may set, `Choice` quantities are words (a
 catalogue record or an option), `Output` quantities are what follows. An output's function names what it needs by its
@@ -16,12 +16,10 @@ is found."""
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, TypeAlias
-
-from tvimdesign.base.errors import InputError
 
 Scalar: TypeAlias = Any
 """A float, a numpy array or a CasADi expression."""
@@ -197,7 +195,7 @@ PHASE = "phase"
 TOUCHING = "touching"
 """Which sides of the PCL are in contact at an instant of a first oscillation (`one_sided.Touching`). No quantity
 either."""
-_NOT_QUANTITIES = frozenset({STATE, DRIVE, PHASE, TOUCHING})
+NOT_QUANTITIES = frozenset({STATE, DRIVE, PHASE, TOUCHING})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -218,182 +216,3 @@ class Phase:
     """The phase whose current it has, where it is that phase under another assumption."""
     history: bool
     """Whether the polymer's solid fraction has a history of its own, by the kinetics of freezing."""
-
-
-@dataclass(frozen=True)
-class Table:
-    """Every quantity of one kind of module, looked up by name."""
-
-    quantities: tuple[Quantity, ...]
-    phases: tuple[Phase, ...] = ()
-    by_name: dict[str, Quantity] = field(init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        """Index the quantities and refuse a name said twice or a parameter that is no quantity."""
-        index: dict[str, Quantity] = {}
-        for quantity in self.quantities:
-            if quantity.name in index:
-                raise ValueError(f"the table has two rows named {quantity.name!r}")
-            index[quantity.name] = quantity
-        object.__setattr__(self, "by_name", index)
-        for quantity in self.outputs:
-            for need in quantity.needs:
-                if need.partition("@")[0] not in index and need not in _NOT_QUANTITIES:
-                    raise ValueError(f"row {quantity.name!r} needs {need!r}, which is no row")
-
-    @cached_property
-    def inputs(self) -> tuple[Input, ...]:
-        """The numbers a study may set."""
-        return tuple(quantity for quantity in self.quantities if isinstance(quantity, Input))
-
-    @cached_property
-    def choices(self) -> tuple[Choice, ...]:
-        """The words a study may set."""
-        return tuple(quantity for quantity in self.quantities if isinstance(quantity, Choice))
-
-    @cached_property
-    def outputs(self) -> tuple[Output, ...]:
-        """What follows from the inputs."""
-        return tuple(quantity for quantity in self.quantities if isinstance(quantity, Output))
-
-    def names(self, points: Iterable[str]) -> list[str]:
-        """Full name (`quantity` or `quantity@point`) of every output a study can limit, in the table's order."""
-        points = list(points)
-        return [
-            name
-            for quantity in self.outputs
-            if not (quantity.instant or quantity.hidden or isinstance(quantity, FirstOscillation))
-            for name in ([f"{quantity.name}@{point}" for point in points] if quantity.per_point else [quantity.name])
-        ]
-
-    @cached_property
-    def supplied(self) -> tuple[Event | Path | Steady, ...]:
-        """The outputs that a simulation or the optimiser supplies."""
-        return tuple(quantity for quantity in self.outputs if isinstance(quantity, Supplied))
-
-    @cached_property
-    def behind_supplied(self) -> frozenset[str]:
-        """The supplied outputs and all that depends on them, by base name."""
-        supplied = {quantity.name for quantity in self.supplied}
-        return frozenset(
-            quantity.name for quantity in self.outputs if supplied & {quantity.name, *self.ancestors(quantity.name)}
-        )
-
-    @cached_property
-    def first_oscillations(self) -> tuple[FirstOscillation, ...]:
-        """The outputs that are seen in a simulated release."""
-        return tuple(quantity for quantity in self.outputs if isinstance(quantity, FirstOscillation))
-
-    def phase(self, name: str) -> Phase:
-        """The phase of that name."""
-        return next(phase for phase in self.phases if phase.name == name)
-
-    def quantity(self, name: str) -> Quantity:
-        """Return the quantity of a full name; raises InputError where there is none."""
-        base = name.partition("@")[0]
-        if base not in self.by_name:
-            raise InputError(f"no row is named {base!r}")
-        return self.by_name[base]
-
-    def output(self, name: str) -> Output:
-        """Return the output quantity of a full name; raises InputError where it is not an output."""
-        quantity = self.quantity(name)
-        if not isinstance(quantity, Output):
-            raise InputError(f"{name!r} is set by the study, not computed")
-        return quantity
-
-    def unit(self, name: str) -> str:
-        """Unit that people read and write a quantity's numbers in; raises InputError for a choice."""
-        quantity = self.quantity(name)
-        if isinstance(quantity, Choice):
-            raise InputError(f"{name!r} is a word, not a number")
-        return quantity.unit
-
-    def evaluate(self, given: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
-        """Compute the wanted outputs from the given quantities, each quantity once.
-
-        `given` holds SI numbers, arrays or symbols by full name, and the chosen records and options. Returns the wanted
-        values by name. Raises InputError where a quantity is missing from `given`.
-        """
-        return self.resolve(dict(given), wanted)
-
-    def resolve(self, known: dict[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
-        """The same from quantities that are known, to which all that is computed on the way is added."""
-        return {name: self._resolve(name, known) for name in wanted}
-
-    def _resolve(self, name: str, known: dict[str, Any]) -> Any:
-        if name in known:
-            return known[name]
-        base, _, point = name.partition("@")
-        quantity = self.quantity(base)
-        if not isinstance(quantity, Output) or isinstance(quantity, (*Supplied, FirstOscillation)):
-            raise InputError(f"{name!r} has no value")
-        known[name] = quantity.call([self._resolve(self._at(need, point), known) for need in quantity.needs])
-        return known[name]
-
-    def settled(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """The given quantities and all that follow from them alone: neither of an instant nor behind anything
-        supplied."""
-        known = dict(given)
-        for name in self._settled_names:
-            self._resolve(name, known)
-        return known
-
-    @cached_property
-    def _settled_names(self) -> list[str]:
-        open_quantities = {
-            quantity.name
-            for quantity in self.quantities
-            if isinstance(quantity, (*Supplied, FirstOscillation)) or getattr(quantity, "instant", False)
-        }
-        return [
-            quantity.name
-            for quantity in self.outputs
-            if not quantity.per_point
-            and quantity.name not in open_quantities
-            and not open_quantities & self.ancestors(quantity.name)
-        ]
-
-    def evaluate_instant(self, given: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
-        """Compute quantities at one instant of a phase, each once; `given` must hold the state, the current and the
-        phase.
-
-        Of an event the value is what it waits for, of a path what it reduces, of a steady quantity what it takes.
-        Quantities of a first oscillation want the contact at an instant of it instead."""
-        known = dict(given)
-        values: dict[str, Scalar] = {}
-        for name in wanted:
-            quantity = self.quantity(name)
-            if isinstance(quantity, (*Supplied, FirstOscillation)):
-                values[name] = quantity.call([self._resolve(need, known) for need in quantity.needs])
-            else:
-                values[name] = self._resolve(name, known)
-        return values
-
-    def _at(self, need: str, point: str) -> str:
-        if need in _NOT_QUANTITIES or "@" in need:
-            return need
-        quantity = self.by_name[need]
-        per_point = not isinstance(quantity, Choice) and quantity.per_point
-        return f"{need}@{point}" if per_point and point else need
-
-    @cached_property
-    def _ancestors(self) -> dict[str, frozenset[str]]:
-        """Those that were asked for."""
-        return {}
-
-    def ancestors(self, name: str) -> frozenset[str]:
-        """Every quantity, by base name, that the named one depends on."""
-        if name in self._ancestors:
-            return self._ancestors[name]
-        seen: set[str] = set()
-        todo = [name.partition("@")[0]]
-        while todo:
-            quantity = self.by_name[todo.pop()]
-            for need in quantity.needs if isinstance(quantity, Output) else ():
-                base = need.partition("@")[0]
-                if base not in seen and base not in _NOT_QUANTITIES:
-                    seen.add(base)
-                    todo.append(base)
-        found = self._ancestors[name] = frozenset(seen)
-        return found

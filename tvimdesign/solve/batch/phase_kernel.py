@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.phase_model import PhaseFunctions
+from tvimdesign.simulation.phase_functions import PhaseFunctions
 from tvimdesign.solve.batch.elimination import newton_step
 from tvimdesign.solve.batch.kernel import Kernel, stacked
 

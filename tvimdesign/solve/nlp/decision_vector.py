@@ -8,9 +8,9 @@ import numpy as np
 
 from tvimdesign.device import Path
 from tvimdesign.simulation.current_profile import CurrentProfile, ramp_time
-from tvimdesign.simulation.cycle import Cycle, Trajectory
 from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.phase_model import PhaseFunctions
+from tvimdesign.simulation.phase_functions import PhaseFunctions
+from tvimdesign.simulation.trajectory import Cycle, Trajectory
 from tvimdesign.solve.nlp.problem import FreeCurrent, Problem
 from tvimdesign.solve.nlp.solver_run import Array, Ends
 from tvimdesign.solve.nlp.transcription import guess

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.current_profile import CurrentProfile
-from tvimdesign.simulation.cycle import Cycle
 from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.trajectory import Cycle
 
 SAME_OPTIMUM = 1e-4
 """Two solutions are the same optimum if their objectives differ by no more than this share."""

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Trajectory
-from tvimdesign.simulation.phase_model import PhaseFunctions
+from tvimdesign.simulation.phase_functions import PhaseFunctions
+from tvimdesign.simulation.trajectory import Trajectory
 
 ORDER = 5
 """Points of an element. Three of five are as exact as eight of three, with three eighths fewer unknowns."""

@@ -19,9 +19,10 @@ from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si
 from tvimdesign.device import FirstOscillation
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.trajectory import Cycle
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.transcription import guess
 
