@@ -140,7 +140,7 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
     assert "placement_radius" in done.stderr
 
 
-def test_requirements_that_quarrel_end_in_exit_code_3_and_keep_the_results(tvimdesign: Command, tmp_path: Path) -> None:
+def test_requirements_that_conflict_end_in_exit_code_3_and_keep_the_results(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "impossible.yaml"
     file.write_text(
         "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], coil_count: [3, 8]}\n"
@@ -154,7 +154,7 @@ def test_requirements_that_quarrel_end_in_exit_code_3_and_keep_the_results(tvimd
     reported = json.loads((tmp_path / "out/results.json").read_text())
     assert reported["status"].startswith("infeasible")
     assert not reported["feasible"]
-    assert {side["limit"].split(" ")[0] for side in reported["quarrel"]["cannot_hold_together"]} == {
+    assert {side["limit"].split(" ")[0] for side in reported["conflict_set"]["cannot_hold_together"]} == {
         "spring_stiffness",
         "spring_fatigue_safety",
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import cycle
+import switch
 import numpy as np
 import pytest
 
@@ -14,13 +14,13 @@ from tvimdesign.study import given, read_study
 
 @pytest.fixture(scope="module")
 def model() -> DeviceFunctions:
-    study = read_study(cycle.STUDY)
+    study = read_study(switch.STUDY)
     table = table_for(study.mode)
     return DeviceFunctions(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
 
 
 def test_equations_by_hand_and_compiled_are_the_same(model: DeviceFunctions) -> None:
-    hand, machine = cycle.written_by_hand(model, sparse=True), cycle.compiled(model)
+    hand, machine = switch.written_by_hand(model, sparse=True), switch.compiled(model)
     assert hand.start == pytest.approx(machine.start)
     generator = np.random.default_rng(1)
     for _ in range(5):
@@ -36,8 +36,8 @@ def test_equations_by_hand_and_compiled_are_the_same(model: DeviceFunctions) -> 
 
 
 def test_all_rows_find_the_same_times(model: DeviceFunctions) -> None:
-    machine = cycle.compiled(model)
-    ours = cycle.by_tvimdesign(model)(0.0)
-    assert cycle.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-4)
-    assert cycle.by_scipy(machine, "BDF")(1e-7) == pytest.approx(ours, rel=1e-4)
-    assert cycle.by_scipy(cycle.written_by_hand(model, sparse=True), "BDF")(1e-5) == pytest.approx(ours, rel=1e-4)
+    machine = switch.compiled(model)
+    ours = switch.by_tvimdesign(model)(0.0)
+    assert switch.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-4)
+    assert switch.by_scipy(machine, "BDF")(1e-7) == pytest.approx(ours, rel=1e-4)
+    assert switch.by_scipy(switch.written_by_hand(model, sparse=True), "BDF")(1e-5) == pytest.approx(ours, rel=1e-4)

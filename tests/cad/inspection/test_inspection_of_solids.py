@@ -242,7 +242,7 @@ def test_a_coil_clears_its_post_until_the_post_is_too_thick(paper: Design, dims:
 def test_a_rule_that_is_broken_is_a_warning_with_its_reason() -> None:
     broken = design_of("thin wall", {"wall_thickness": 1.0e-3})
     reported = [check for check in rule_checks(broken) if check.level != "pass"]
-    assert [check.name for check in reported] == ["module: rule housing_wall_reserve"]
+    assert [check.name for check in reported] == ["module: rule housing_wall_margin"]
     assert reported[0].value == pytest.approx(-0.2)
     assert "thinner than the process" in reported[0].text
 

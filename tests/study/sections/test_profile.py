@@ -31,7 +31,7 @@ def test_nothing_and_zero_keep_the_currents_constant(read: Read, section: str) -
     [
         (
             "{stiffening: 4}",
-            "4:23: profile.stiffening: the current of this stage has no range: `vary.cooling_current` is missing; "
+            "4:23: profile.stiffening: the current of this phase has no range: `vary.cooling_current` is missing; "
             "expected cooling_current: [0.1 A, 3 A] under `vary`",
         ),
         ("{softning: 4}", "profile.softning: no such setting; expected one of softening, stiffening; did you mean"),
@@ -63,7 +63,7 @@ def test_a_list_of_currents_is_no_range(read: Read, problems: Refuse, vary: str)
         assert read(text).profile.pieces() == {"softening": 4}
     else:
         (line,) = problems(text)
-        assert "profile.softening: the current of this stage has no range" in line
+        assert "profile.softening: the current of this phase has no range" in line
 
 
 def test_a_profile_in_a_study_that_varies_nothing_is_refused(problems: Refuse) -> None:

@@ -83,7 +83,7 @@ class _Document:
         writer.SetMaterialMode(True)
         writer.SetPropsMode(True)
         writer.Transfer(self.document, STEPControl_StepModelType.STEPControl_AsIs)
-        header = APIHeaderSection_MakeHeader(writer.ChangeWriter().DeviceFunctions(False))
+        header = APIHeaderSection_MakeHeader(writer.ChangeWriter().Model(False))
         header.SetName(_text(name))
         header.SetTimeStamp(_text(_TIME))
         for index in range(1, header.NbAuthor() + 1):

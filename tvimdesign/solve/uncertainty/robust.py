@@ -97,8 +97,8 @@ def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Obj
 
 def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
     """Name the limits whose spread is not known: they are kept as drawn, no more."""
-    on_cycle = (limit for limit in optimizer.problem.limits if on_cycle(optimizer.table, limit.output))
-    names = [limit.name for limit in on_cycle if limit.name not in margins]
+    timed = (limit for limit in optimizer.problem.limits if on_cycle(optimizer.table, limit.output))
+    names = [limit.name for limit in timed if limit.name not in margins]
     if names:
         optimizer.progress(f"not robust, as a current follows a profile: {', '.join(names)}")
 
