@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import switch
 import numpy as np
 import pytest
+import switch
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
