@@ -140,7 +140,7 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
     assert "placement_radius" in done.stderr
 
 
-def test_requirements_that_conflict_end_in_exit_code_3_and_keep_the_results(tvimdesign: Command, tmp_path: Path) -> None:
+def test_conflicting_requirements_end_in_exit_code_3_and_keep_the_results(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "impossible.yaml"
     file.write_text(
         "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], coil_count: [3, 8]}\n"
