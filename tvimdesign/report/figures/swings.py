@@ -1,0 +1,53 @@
+"""Oscillations on a logarithmic axis of time: the first swings as a line, what follows as the band they fill."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+SWINGS_DRAWN = 6
+"""Swings drawn one by one; on a logarithmic axis later ones stand closer than a line is wide."""
+_ROUNDING = 2e-3
+"""Share of a curve's range by which it must turn back for a swing."""
+
+
+class Drawn(NamedTuple):
+    """A curve as it is drawn: lines, and a band between two lines over `band_x`, empty where all is drawn as a line."""
+
+    lines: tuple[tuple[Array, Array], ...]
+    band_x: Array
+    low: Array
+    high: Array
+
+
+def drawn(x: Array, y: Array) -> Drawn:
+    """Split a curve into the line of its first swings, the band of those after, and the line once it is at rest."""
+    turns = _turns(y)
+    empty: Array = np.array([])
+    if len(turns) <= 4 * SWINGS_DRAWN:
+        return Drawn(((x, y),), empty, empty, empty)
+    first, last = turns[2 * SWINGS_DRAWN], turns[-1]
+    later = turns[2 * SWINGS_DRAWN :]
+    one, other = later[::2], later[1::2]
+    between = x[later]
+    sides = [np.interp(between, x[side], y[side]) for side in (one, other)]
+    lines = ((x[: first + 1], y[: first + 1]), (x[last:], y[last:]))
+    return Drawn(lines, between, np.minimum(*sides), np.maximum(*sides))
+
+
+def _turns(y: Array) -> NDArray[np.int64]:
+    """Samples at which a curve turns back by more than rounding, alternately highs and lows."""
+    least = _ROUNDING * (float(np.max(y)) - float(np.min(y)))
+    steps = np.diff(y)
+    candidates = np.flatnonzero(steps[:-1] * steps[1:] < 0.0) + 1
+    kept: list[int] = []
+    for at in candidates:
+        before = kept[-1] if kept else 0
+        if abs(y[at] - y[before]) > least:
+            kept.append(int(at))
+        else:  # noise: from here on nothing moves any more
+            break
+    return np.array(kept, dtype=np.int64)
