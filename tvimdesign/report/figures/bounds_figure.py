@@ -18,7 +18,7 @@ _ABOVE, _BELOW = 0.24, 0.5  # inches of a block: its title above, numbers and la
 _KEYS = 0.3  # inches: the legend below all
 _CLIPPED = 100.0
 """Margin [%] at which a bar ends, with an arrow."""
-_KINDS = {
+_KINDS: dict[str, dict[str, Any]] = {
     "kept": {"color": COLOURS[0]},
     "broken": {"facecolor": BROKEN, "hatch": "//////", "edgecolor": "white"},
     "advice": {"facecolor": COLOURS[1], "hatch": "......", "edgecolor": "white"},
@@ -78,7 +78,9 @@ def _margins(axes: Any, group: dict[str, Any]) -> None:
 def _legend(figure: Figure, data: dict[str, Any]) -> None:
     """What the marks say that stand on the figure."""
     kinds = {row["kind"] for group in data["margins"] for row in group["rows"]}
-    far = any(abs(row["margin"]) > _CLIPPED for group in data["margins"] if group["unit"] == "%" for row in group["rows"])
+    far = any(
+        abs(row["margin"]) > _CLIPPED for group in data["margins"] if group["unit"] == "%" for row in group["rows"]
+    )
     marks: list[Any] = []
     if data["free"]:
         marks += [Line2D([], [], marker="o", color="white", markeredgecolor="black", linestyle="", label="start"),

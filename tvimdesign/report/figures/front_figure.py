@@ -43,7 +43,9 @@ def front(data: dict[str, Any]) -> Figure:
 def _marks(axes: Any, data: dict[str, Any], x: int, y: int) -> None:
     if data["knee"] is not None:
         knee = data["points"][data["knee"]]
-        axes.plot(knee[x], knee[y], linestyle="", marker="D", color=BROKEN, markersize=8, fillstyle="none", label="knee")
+        axes.plot(
+            knee[x], knee[y], linestyle="", marker="D", color=BROKEN, markersize=8, fillstyle="none", label="knee"
+        )
     optimum = data["optimum"]
     axes.plot(optimum[x], optimum[y], linestyle="", marker="*", color=COLOURS[1], markeredgecolor="black",
               markeredgewidth=0.5, markersize=9, label="weighted optimum")  # fmt: skip

@@ -24,10 +24,10 @@ MARKERS = "osD^vP"
 HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx", "----", "++++")
 SEQUENCE = "cividis"
 """Colour map whose grey rises steadily, for what has an order."""
-BAND = {"alpha": 0.15, "color": COLOURS[1], "linewidth": 0.0}
-LIMIT = {"color": "black", "linewidth": 0.7, "linestyle": (0, (1, 2))}
+BAND: dict[str, Any] = {"alpha": 0.15, "color": COLOURS[1], "linewidth": 0.0}
+LIMIT: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (1, 2))}
 
-SETTINGS = {
+SETTINGS: dict[str, Any] = {
     "figure.dpi": RESOLUTION,
     "font.size": 7.5,
     "axes.labelsize": 7.0,

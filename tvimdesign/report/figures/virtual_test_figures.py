@@ -41,9 +41,7 @@ def trial(data: dict[str, Any]) -> Figure:
         bottom = key + _BELOW + row * (down - 1 - i // across)
         _panel(place(figure, _LEFT + (i % across) * (wide + _GAP), bottom, wide, _HIGH), panel, styles)
     handles = {
-        label: handle
-        for axes in figure.axes
-        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+        label: handle for axes in figure.axes for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
     }
     if any(axes.collections and axes.get_label() == _MANY for axes in figure.axes):
         handles[_MANY] = Patch(color="0.5", alpha=0.35, linewidth=0.0)

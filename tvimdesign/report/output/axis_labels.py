@@ -7,7 +7,7 @@ from tvimdesign.base.units import pretty
 _CAPITALS = {"pcl": "PCL", "peltier": "Peltier", "peltiers": "Peltiers"}
 
 
-def in_words(name: str) -> str:
+def name_in_words(name: str) -> str:
     """A quantity's full name in words."""
     quantity, _, point = name.partition("@")
     words = " ".join(_CAPITALS.get(word, word) for word in quantity.split("_"))
@@ -16,6 +16,6 @@ def in_words(name: str) -> str:
 
 def axis_label(name: str, unit: str) -> str:
     """What stands at an axis: the quantity in words, and its unit; a dash for a number without one."""
-    words = in_words(name)
+    words = name_in_words(name)
     shown = pretty(unit)
     return f"{words[0].upper()}{words[1:]} ({shown if shown and shown != '1' else '–'})"

@@ -1,4 +1,4 @@
-"""What the figure of bounds and margins is drawn from: what varies between its bounds, limits by their margin's unit."""
+"""What the figure of bounds and margins is drawn from: what varies between its bounds, limits by unit of margin."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.output.axis_labels import in_words
+from tvimdesign.report.output.axis_labels import name_in_words
 from tvimdesign.report.output.tables import NOTHING, margin_of
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
@@ -31,7 +31,7 @@ def free_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
         low, high = (f"{from_si(end, unit):.4g}" for end in (lower, upper))
         text = f"{from_si(value, unit):.4g} {pretty(unit)}".rstrip() + f"  ({low} to {high})"
         share, start = (value - lower) / width, (begin - lower) / width
-        rows.append({"name": in_words(name), "share": share, "start": start, "text": text})
+        rows.append({"name": name_in_words(name), "share": share, "start": start, "text": text})
     return rows
 
 
@@ -67,8 +67,14 @@ def _row(check: ConstraintCheck, unit: str, table: Table, *, advice: bool) -> di
     kind = "advice" if advice else "broken" if not check.kept else "kept" if margin else "binds"
     finite = math.isfinite(margin)
     size = (100.0 if unit == _SHARE else from_si(check.scale, own)) if finite else 0.0
-    text = f"{from_si(margin * check.scale, own):+.3g} {pretty(own)}".rstrip() if finite else "never" if margin < 0.0 else "ample"
-    words = check.text.replace(check.output, in_words(check.output), 1).replace(">=", "≥").replace("<=", "≤")
+    text = (
+        f"{from_si(margin * check.scale, own):+.3g} {pretty(own)}".rstrip()
+        if finite
+        else "never"
+        if margin < 0.0
+        else "ample"
+    )
+    words = check.text.replace(check.output, name_in_words(check.output), 1).replace(">=", "≥").replace("<=", "≤")
     drawn = margin * size if finite else math.copysign(_ENDLESS, margin)
     text = text.replace("-", "−") if margin else f"0 {pretty(own)}"
     return {"name": words, "margin": drawn, "finite": finite, "kind": kind, "text": text}

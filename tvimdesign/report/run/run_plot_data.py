@@ -9,7 +9,7 @@ from typing import Any
 from tvimdesign.base.units import from_si
 from tvimdesign.device import Output, Table
 from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.axis_labels import axis_label, in_words
+from tvimdesign.report.output.axis_labels import axis_label, name_in_words
 from tvimdesign.report.run.margin_plot_data import free_rows, margin_groups
 from tvimdesign.simulation.curves import PHASE_UNITS, Curves, torque_loop
 from tvimdesign.solve.result import StudyResult
@@ -53,7 +53,7 @@ def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
             **phases,
             "labels": labels,
             "springs": shown("spring_stiffness"),
-            "title": f"At {shown('frequency@hot'):g} Hz while it heats, at {shown('frequency@cold'):g} Hz while it cools",
+            "title": f"Heating at {shown('frequency@hot'):g} Hz, cooling at {shown('frequency@cold'):g} Hz",
         },
         "power_and_energy": {**phases, "labels": labels},
         "impedance": {
@@ -63,7 +63,7 @@ def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
             "frequency": shown("frequency@hot"),
             "springs": shown("spring_stiffness"),
         },
-        "torque": _torque(design, table, shown),
+        "torque": _torque(design, shown),
         "mass": {"parts": _parts(design, table), "label": axis_label("mass", "g")},
         "bounds": {"free": free_rows(answer, table), "margins": margin_groups(answer, table)},
     }
@@ -84,14 +84,14 @@ def _depths(answer: StudyResult, table: Table) -> list[float]:
     return [0.0, *((i + 0.5) / cells * depth for i in range(cells)), depth]
 
 
-def _torque(design: Design, table: Table, shown: Callable[[str], float]) -> dict[str, Any]:
+def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
     """Torque over angle at every operating point: of the joint as it is for small motions, and of its springs."""
     loops = []
     for point in design.study["operating_points"]:
         frequency, springs = design.value(f"frequency@{point}"), design.value("spring_stiffness")
         stiffness, damping = (design.value(f"joint_{kind}@{point}") for kind in ("stiffness", "damping"))
         angle, torque = torque_loop(stiffness, damping, frequency, design.value("stroke"))
-        title = f"{in_words(point)}: {shown(f'temperature@{point}'):.0f} °C, {frequency:g} Hz"
+        title = f"{name_in_words(point)}: {shown(f'temperature@{point}'):.0f} °C, {frequency:g} Hz"
         loops.append({"title": title, "angle": angle.tolist(), "torque": torque.tolist(),
                       "springs": (springs * angle).tolist()})  # fmt: skip
     contact = ", while the PCL is in contact" if design.value("parting_share") > 0.0 else ""
@@ -106,4 +106,4 @@ def _parts(design: Design, table: Table) -> dict[str, float]:
     """Mass [g] of each part: the rows the module's mass is the sum of."""
     total = table.quantity("module_mass")
     assert isinstance(total, Output)
-    return {in_words(name.removesuffix("_mass")): from_si(design.value(name), "g") for name in total.needs}
+    return {name_in_words(name.removesuffix("_mass")): from_si(design.value(name), "g") for name in total.needs}
