@@ -18,8 +18,8 @@ BROKEN = "#D55E00"
 """The colour of a limit that does not hold; no series has it."""
 FAINT = "#BBBBBB"
 LINE_STYLES: tuple[Any, ...] = ("-", (0, (4, 1.5)), "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))
-DOTTED = (0, (1, 1))
-"""The line style of a model that stands beside the full one; no series has it."""
+ASIDE: tuple[Any, ...] = ((0, (1, 1)), (0, (2, 1)), (0, (3, 1, 1, 1)), (0, (1, 2)))
+"""Line styles of simpler models that stand beside the full one; no series has them."""
 MARKERS = "osD^vP"
 HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx", "----", "++++")
 SEQUENCE = "cividis"
@@ -27,7 +27,7 @@ SEQUENCE = "cividis"
 BAND: dict[str, Any] = {"alpha": 0.15, "color": COLOURS[1], "linewidth": 0.0}
 LIMIT: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (1, 2))}
 
-SETTINGS: dict[str, Any] = {
+SETTINGS: Any = {
     "figure.dpi": RESOLUTION,
     "font.size": 7.5,
     "axes.labelsize": 7.0,

@@ -29,13 +29,13 @@ def drawn(x: Array, y: Array) -> Drawn:
     empty: Array = np.array([])
     if len(turns) <= 4 * SWINGS_DRAWN:
         return Drawn(((x, y),), empty, empty, empty)
-    first, last = turns[2 * SWINGS_DRAWN], turns[-1]
     later = turns[2 * SWINGS_DRAWN :]
-    one, other = later[::2], later[1::2]
-    between = x[later]
-    sides = [np.interp(between, x[side], y[side]) for side in (one, other)]
-    lines = ((x[: first + 1], y[: first + 1]), (x[last:], y[last:]))
-    return Drawn(lines, between, np.minimum(*sides), np.maximum(*sides))
+    first, last = later[0], later[-1]
+    sides = [np.interp(x[later], x[side], y[side]) for side in (later[::2], later[1::2])]
+    lines = [(x[: first + 1], y[: first + 1])]
+    if x[-1] - x[last] > x[last] - x[later[-3]]:  # longer than a swing: it has come to rest
+        lines.append((x[last:], y[last:]))
+    return Drawn(tuple(lines), x[later], np.minimum(*sides), np.maximum(*sides))
 
 
 def _turns(y: Array) -> NDArray[np.int64]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from matplotlib.patches import Patch
 
 from tvimdesign.report.figures.axes import TICKS, heading, log_ticks
 from tvimdesign.report.figures.canvas import caption, new_figure, place
-from tvimdesign.report.figures.style import COLOURS, DOTTED, LINE_STYLES, NAME_STRIP, WIDTH
+from tvimdesign.report.figures.style import ASIDE, COLOURS, LINE_STYLES, NAME_STRIP, WIDTH
 from tvimdesign.report.figures.swings import drawn
 
 _ACROSS = 3
@@ -30,7 +29,7 @@ def trial(data: dict[str, Any]) -> Figure:
     panels = data["panels"]
     down = -(-len(panels) // _ACROSS)
     across = -(-len(panels) // down)
-    styles = _styles(line for panel in panels for line in panel["lines"])
+    styles = _styles(panels)
     columns = max(1, min(3, _LETTERS // (max(map(len, styles)) + 8)))
     key = _KEY * -(-(len(styles) + 1) // columns) + 0.1
     row = _HIGH + _ABOVE + _BELOW
@@ -49,21 +48,37 @@ def trial(data: dict[str, Any]) -> Figure:
     return figure
 
 
-def _styles(lines: Iterable[dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    """Colour and line style of every label: a colour for each beginning of a label, a style for each in its colour."""
+def _styles(panels: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    """Colour and line style of every label.
+
+    A colour for each family, that is each beginning of a label, and a style for each label in its family; where every
+    panel shows one family alone, a colour for each label in it.
+    """
     families: dict[str, list[str]] = {}
+    aside: list[str] = []
+    for line in (line for panel in panels for line in panel["lines"]):
+        members = families.setdefault(_family(line), [])
+        if line["label"] not in members and not line["dashed"]:
+            members.append(line["label"])
+        model = line["label"].rpartition(", ")[2]
+        if line["dashed"] and model not in aside:
+            aside.append(model)
+    alone = all(len({_family(line) for line in panel["lines"]}) == 1 for panel in panels)
     styles: dict[str, dict[str, Any]] = {}
-    for line in lines:
-        label = line["label"]
-        family = families.setdefault(label.partition(",")[0], [])
-        if label in styles:
-            continue
-        style = DOTTED if line["dashed"] else LINE_STYLES[len(family) % len(LINE_STYLES)]
-        if not line["dashed"]:
-            family.append(label)
-        colour = COLOURS[list(families).index(label.partition(",")[0]) % len(COLOURS)]
-        styles[label] = {"color": colour, "linestyle": style}
+    for line in (line for panel in panels for line in panel["lines"]):
+        label, members = line["label"], families[_family(line)]
+        if line["dashed"]:
+            place_in, style = len(members), ASIDE[aside.index(label.rpartition(", ")[2]) % len(ASIDE)]
+        else:
+            place_in, style = members.index(label), LINE_STYLES[members.index(label) % len(LINE_STYLES)]
+        colour = place_in if alone else list(families).index(_family(line))
+        styles[label] = {"color": COLOURS[colour % len(COLOURS)], "linestyle": style}
     return styles
+
+
+def _family(line: dict[str, Any]) -> str:
+    family: str = line["label"].partition(",")[0]
+    return family
 
 
 def _panel(axes: Any, panel: dict[str, Any], styles: dict[str, dict[str, Any]]) -> None:

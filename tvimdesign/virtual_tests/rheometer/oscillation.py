@@ -82,7 +82,7 @@ def _frequency_panels(tested: Sequence[Specimen]) -> tuple[Panel, ...]:
             for at in tested
         ]
 
-    x = "angular frequency (rad/s)"
+    x = "Angular frequency (rad/s)"
     moduli = (*lines("storage_modulus", ending=", G'"), *lines("loss_modulus", dashed=True, ending=", G''"))
     return (
         Panel("Moduli", x, "Moduli G', G'' (Pa)", moduli, log_x=True, log_y=True),
@@ -254,7 +254,7 @@ def _temperature_panels(sheets: Sequence[CurveTable]) -> tuple[Panel, ...]:
         ]  # fmt: skip
 
     moduli = (*lines("storage_modulus", ", G'"), *lines("loss_modulus", ", G''", dashed=True))
-    x = "temperature (°C)"
+    x = "Temperature (°C)"
     return (
         Panel("Moduli", x, "Moduli G', G'' (Pa)", moduli, log_y=True),
         Panel("Loss factor", x, "Loss factor tan δ (–)", tuple(lines("loss_factor", "")), log_y=True),
