@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import Any
 
 from matplotlib.figure import Figure
@@ -13,24 +14,26 @@ from tvimdesign.report.figures.axes import TICKS, log_ticks, row_texts
 from tvimdesign.report.figures.canvas import caption, new_figure, place
 from tvimdesign.report.figures.style import COLOURS, HATCHES, MARKERS, SMALL, style_of
 
+_LETTERS = 36
+"""Of a line of a label below a panel."""
 _PLACES = {"near_face_time": "near face at its target", "mean_time": "mean at its target",
            "far_face_time": "far face at its target", "softening_time": "joint soft"}  # fmt: skip
 
 
 def level_sets(data: dict[str, Any]) -> Figure:
     """Thickness that gives one response time against other parameters, a line for each place of the sensor."""
-    figure = new_figure(3.1)
+    figure = new_figure(3.2)
     low, high = data["range"]
     caption(figure, f"What gives {data['wanted']:g} s: thickness from {low:g} to {high:g} mm")
     wide = (7.1 - 0.55 - 0.15) / len(data["panels"]) - 0.18
     for i, one in enumerate(data["panels"]):
-        axes = place(figure, 0.55 + i * (wide + 0.27), 0.66, wide, 1.9)
+        axes = place(figure, 0.55 + i * (wide + 0.27), 0.76, wide, 1.9)
         for j, (name, label) in enumerate(_PLACES.items()):
             line = [math.nan if y is None else y for y in one["lines"][name]]
             axes.plot(one["x"], line, marker=MARKERS[j], markersize=3.0, label=label, **style_of(j))
         axes.plot(*one["published"], "k+", markersize=9, label="as assumed here")
         axes.set(ylim=(0.0, high))
-        axes.set_xlabel(one["label"], fontsize=6.0)
+        axes.set_xlabel(textwrap.fill(one["label"], _LETTERS))
         if one["logarithmic"]:
             axes.set_xscale("log")
             log_ticks(axes.xaxis)

@@ -55,7 +55,7 @@ def _panel(found: Spread, table: Table, i: int) -> dict[str, Any]:
     span = (2.0 * edges[0] - edges[-1], 2.0 * edges[-1] - edges[0])
     near = [limit for limit in limits if span[0] <= limit <= span[1]]
     share = min((k.share.share for k in found.kept if k.limit.output == name), default=None)
-    said = "" if share is None else f"{100.0 * share:.3g} % of the modules keep it"
+    said = "" if share is None else f"{100.0 * share:.3g} % of modules within limits"
     return {
         "title": said,
         "label": axis_label(name, unit),
