@@ -38,30 +38,24 @@ def _axes_faults(figure: Figure) -> list[str]:
     found = []
     for axes in figure.axes:
         for side, axis in (("x", axes.xaxis), ("y", axes.yaxis)):
-            shared = [one for one in figure.axes if getattr(one, f"get_shared_{side}_axes")().joined(axes, one)]
-            label = " ".join(getattr(one, f"get_{side}label")() for one in shared).strip()
+            siblings = getattr(axes, f"get_shared_{side}_axes")().get_siblings(axes)
+            label = " ".join(getattr(one, f"get_{side}label")() for one in {axes, *siblings}).strip()
             ticks = _numbers(axis)
             if not ticks:
-                continue  # rows, each with its name
+                continue  # rows, each with its name, or a panel whose neighbour shows the numbers
             if len(ticks) < 2:
                 found.append(f"{side} axis with one tick: {label!r}")
-            if not LABEL.match(label) and not _scale_of_its_neighbour(axes, axis, figure):
+            if not LABEL.match(label):
                 found.append(f"{side} axis without words and unit: {label!r}")
     return found
 
 
 def _numbers(axis: Any) -> list[str]:
-    """Ticks inside an axis's range that have a number."""
+    """Numbers that are drawn at ticks inside an axis's range."""
     low, high = sorted(axis.get_view_interval())
-    inside = [(tick, at) for tick, at in zip(axis.get_ticklabels(), axis.get_majorticklocs(), strict=False)]
-    return [tick.get_text() for tick, at in inside if low <= at <= high and re.search(r"\d|⁰", tick.get_text())]
-
-
-def _scale_of_its_neighbour(axes: Any, axis: Any, figure: Figure) -> bool:
-    """Whether an axis has its numbers hidden, since the panel beside it in the same row shows them."""
-    return not any(label.get_visible() and label.get_text() for label in axis.get_ticklabels()) or not any(
-        tick.label1.get_visible() or tick.label2.get_visible() for tick in axis.get_major_ticks()
-    )
+    shown = [tick for tick in axis.get_major_ticks() if tick.label1.get_visible() or tick.label2.get_visible()]
+    labels = [tick.label1.get_text() for tick in shown if low <= tick.get_loc() <= high]
+    return [label for label in labels if re.search(r"\d", label)]
 
 
 def _covered(figure: Figure) -> list[str]:
@@ -71,7 +65,7 @@ def _covered(figure: Figure) -> list[str]:
     for box in boxes:
         for axes in figure.axes:
             found += [f"a legend covers {line.get_label()!r}" for line in axes.lines if _crosses(box, line)]
-            found += [f"a legend covers a bar or band" for patch in axes.patches
+            found += ["a legend covers a bar or band" for patch in axes.patches
                       if patch.get_clip_box() is not None and _area(box, _visible(patch, axes)) > 0.0]  # fmt: skip
             found += ["a legend covers axes' labels" for text in (axes.xaxis.label, axes.yaxis.label)
                       if text.get_text() and _area(box, text.get_window_extent()) > 0.0]  # fmt: skip

@@ -13,9 +13,9 @@ import pytest
 from matplotlib.figure import Figure
 from PIL import Image
 
+from tests.helpers.figures import faults, signed
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tests.helpers.figures import faults, signed
 from tvimdesign.report.figures.canvas import as_file, png
 from tvimdesign.report.run.run_plot_data import drawings, plot_data
 from tvimdesign.solve.result import StudyResult, answer
@@ -77,12 +77,14 @@ def test_a_margin_beyond_the_scale_ends_in_an_arrow_and_has_its_number(data: dic
 
 def test_margins_stand_in_their_limit_s_own_unit(found: StudyResult, data: dict[str, Any]) -> None:
     rows = [row | {"unit": group["unit"]} for group in data["bounds"]["margins"] for row in group["rows"]]
-    index = next(row for row in rows if row["name"].startswith("spring index"))
-    assert index["unit"] == "%"
-    assert float(index["text"]) == pytest.approx(found.design.value("spring_index") - 4.0, rel=5e-3)
-    gap = next(row for row in rows if row["name"].startswith("tang margin"))
+    gap = next(row for row in rows if row["name"] == "tang margin ≥ 0 mm")
     assert gap["unit"] == "mm"
     assert gap["margin"] == pytest.approx(1e3 * found.design.value("tang_margin"), rel=1e-6)
+    angle = next(row for row in rows if row["name"] == "free angle over preload ≤ 1")
+    assert angle["unit"] == "%"
+    left = 1.0 - found.design.value("free_angle_over_preload")
+    assert angle["margin"] == pytest.approx(100.0 * left, rel=1e-6)
+    assert float(angle["text"].replace("−", "-")) == pytest.approx(left, rel=5e-3)
 
 
 def test_a_file_has_the_pixels_of_its_size_and_no_transparent_ones(data: dict[str, Any]) -> None:
@@ -101,7 +103,7 @@ def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, A
     assert pdf[0].startswith(b"%PDF-")
     assert pdf[0].rstrip().endswith(b"%%EOF")
     assert b"/Type3" not in pdf[0]
-    assert b"/Image" not in pdf[0]
+    assert b"/Subtype /Image" not in pdf[0]
     page = re.search(rb"/MediaBox \[ 0 0 ([0-9.]+) ([0-9.]+) \]", pdf[0])
     assert page
     assert [float(size) for size in page.groups()] == pytest.approx([72.0 * 7.1, 72.0 * 2.6])

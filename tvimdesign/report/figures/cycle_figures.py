@@ -47,7 +47,7 @@ def cycle(data: dict[str, Any]) -> Figure:
     if stiff:
         profiles.append((stiff, "Through the layer while it cools", 0.9))
     for history, title, bottom in profiles:
-        axes = place(figure, 4.82, bottom, 1.58, 1.6)
+        axes = place(figure, 4.8, bottom, 1.42, 1.6)
         _through(axes, history, data, title)
         axes.locator_params(nbins=TICKS)
     for axes in (over_time, current):
