@@ -65,7 +65,7 @@ def test_bounds_have_room_for_any_number_of_limits(count: int, data: dict[str, A
     assert faults(signed(figure)) == []
 
 
-def test_a_margin_beyond_the_scale_ends_in_an_arrow_and_has_its_number(data: dict[str, Any]) -> None:
+def test_a_margin_beyond_the_scale_ends_in_an_arrow_and_has_its_number() -> None:
     row = {"name": "free angle ≤ 1", "margin": -2315.0, "finite": True, "kind": "broken", "text": "−23.2"}
     group = {"unit": "%", "title": "What must hold", "label": "Margin, of the limit (%)", "rows": [row]}
     (axes,) = drawn("bounds_figure.bounds", {"free": [], "margins": [group]}).axes

@@ -73,3 +73,12 @@ def test_many_swings_are_a_line_then_the_band_that_holds_them_then_a_line() -> N
     assert parts.lines[0][0][-1] == parts.band_x[0]
     assert parts.lines[1][0][0] == parts.band_x[-1]
     assert parts.lines[1][0][-1] == x[-1]
+
+
+def test_a_ripple_on_a_swing_is_no_swing() -> None:
+    x = np.linspace(0.0, 20.0, 40001)
+    y = np.cos(2.0 * np.pi * 10.0 * x) + 1e-3 * np.cos(2.0 * np.pi * 190.0 * x)
+    parts = drawn(x, y)
+    assert len(parts.band_x) > 300
+    assert parts.high.min() > 0.99
+    assert len(parts.lines[0][0]) == pytest.approx(6.5 / 200.0 * len(x), rel=0.02)  # six swings and a half

@@ -43,11 +43,11 @@ def _turns(y: Array) -> NDArray[np.int64]:
     least = _ROUNDING * (float(np.max(y)) - float(np.min(y)))
     steps = np.diff(y)
     candidates = np.flatnonzero(steps[:-1] * steps[1:] < 0.0) + 1
-    kept: list[int] = []
+    kept = [0]
     for at in candidates:
-        before = kept[-1] if kept else 0
-        if abs(y[at] - y[before]) > least:
+        step = y[at] - y[kept[-1]]
+        if len(kept) > 1 and step * (y[kept[-1]] - y[kept[-2]]) > 0.0:
+            kept[-1] = int(at)  # higher still, or lower still, after a ripple
+        elif abs(step) > least:
             kept.append(int(at))
-        else:  # noise: from here on nothing moves any more
-            break
-    return np.array(kept, dtype=np.int64)
+    return np.array(kept[1:], dtype=np.int64)

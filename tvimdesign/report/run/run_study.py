@@ -72,6 +72,7 @@ def run_study(
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         front = FrontOfRun(study, table, folder)
         found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs)
+        parts = cad and study.write.cad and found.found
         plotted = drawings(found, table) if drawing and found.found else []
         reported = _told(found, table) | {"doubts": record_checks(study, catalog, table)}
         if found.found and (sensitivities or study.write.sensitivities):
@@ -80,20 +81,20 @@ def run_study(
                 plotted += _sensitivities(folder, found, catalog, table, reported)
         plotted += front.seek(found, progress, reported, troubles)
         if drawing and found.found:
-            drawing.begin(folder.path / "plots", plotted, study.name, vector=study.write.vector)
+            drawing.begin(folder.path / "plots", plotted, study.name, vector=parts or study.write.vector)
         design = _write(folder, path, study, found, reported, table)
         progress("")
         if not as_json:
             print_summary(found, table, wide_console())
             _print_rest(reported, front)
+        if parts:
+            with _noting(troubles):
+                reported["cad"] = _parts(design, folder.path / "cad", progress, as_json)
         if drawing and found.found:
             progress("drawing the plots")
             folder.look_up_versions()
             with _noting(troubles):
                 drawing.finish()
-        if cad and study.write.cad and found.found:
-            with _noting(troubles):
-                reported["cad"] = _parts(design, folder.path / "cad", progress, as_json)
         inputs = {"study": path, **_records(found.design, catalog, table)}
         folder.finish(found.design.status, inputs, found.design.study, found.seconds)
     if as_json:
