@@ -43,9 +43,8 @@ def test_torque_over_angle_is_in_newton_metres_and_angle_over_time_no_blob(test:
     for axes in figure.axes:
         for line in axes.lines:
             y = np.asarray(line.get_ydata(), dtype=float)
-            turned = np.diff(y)[:-1] * np.diff(y)[1:] < 0.0
-            steps = np.abs(np.diff(y)) > 2e-3 * np.ptp(y)
-            assert np.count_nonzero(turned & steps[1:]) <= 30  # a dozen swings can be told apart on an axis
+            there_and_back = np.sum(np.abs(np.diff(y))) / np.ptp(y)
+            assert there_and_back <= 30.0  # a dozen swings can be told apart on an axis, hundreds are a blob
 
 
 LABELS = ["Response time (s)", "Module mass (g)", "Envelope volume (cm³)"]
