@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.simulation.melt_history import HISTORIES, fractions_at
-from tvimdesign.simulation.phase_model import SHOWN
+from tvimdesign.simulation.phase_functions import SHOWN
 from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.simulation.trajectory import Trajectory
 
