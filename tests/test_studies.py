@@ -14,7 +14,8 @@ FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
     "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml",
 }  # fmt: skip
-PLOTS = {"bounds.png", "impedance.png", "mass.png", "cycle.png"}
+PLOTS = {f"{name}.png" for name in ("bounds", "impedance", "mass", "cycle", "stiffness_and_damping", "power_and_energy",
+                                    "torque")}  # fmt: skip
 OPTIMISED = {"why.csv"}
 QUICK = {"paper_as_published", "paper_shear", "paper_compression", "front_shear"}
 """Studies that take seconds; the others are slow tests."""

@@ -42,7 +42,8 @@ def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json
         trial = do(resolved)
         trial = replace(trial, notes=(module, *trial.notes))
         if drawing:
-            drawing.begin(folder.path, [Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))])
+            figure = Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))
+            drawing.begin(folder.path, [figure], study.name)
         reported = findings(trial)
         folder.write(f"tested{source.suffix}", source.read_bytes())
         folder.write_json("findings.json", reported)

@@ -18,7 +18,7 @@ from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
 
-PICTURES = {"fronts.png", "release.png", "heat.png"}
+PICTURES = {f"{name}.{ending}" for name in ("fronts", "release", "heat") for ending in ("png", "pdf", "svg")}
 
 
 def _told(folder: Path) -> dict[str, Any]:

@@ -29,7 +29,8 @@ def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tu
 
 def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
     folder, reported, _ = results
-    expected = {"contributors.csv", "limits.csv", "manifest.json", "outputs.csv", "spread.png", "tolerances.json",
+    expected = {"contributors.csv", "limits.csv", "manifest.json", "outputs.csv", "spread.pdf", "spread.png",
+                "spread.svg", "tolerances.json",
                 "tolerated.yaml"}  # fmt: skip
     assert {path.name for path in folder.iterdir()} == expected
     kept = json.loads((folder / "tolerances.json").read_text())

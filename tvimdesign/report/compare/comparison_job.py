@@ -35,6 +35,7 @@ from tvimdesign.solve.pareto.front import Front, completed, trace_front, undomin
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_study
+from tvimdesign.virtual_tests.joint_tests.release import ANGLE_PANEL
 from tvimdesign.virtual_tests.registry import find_test
 
 Say = Callable[[str], None]
@@ -153,9 +154,9 @@ class ComparisonJob:
 
     def _release(self, best: StudyResult) -> None:
         trial = find_test("release")(resolve_design(best.design, self.catalog, self.table))
-        panel = next(panel for panel in figure_data(trial)["panels"] if panel["title"] == "Angle")
-        lines = [line for line in panel["lines"] if not line["dashed"]]
-        self.found["release"] = {**findings(trial), "x_label": panel["x_label"], "y_label": panel["y_label"],
+        panels = [panel for panel in figure_data(trial)["panels"] if panel["title"].startswith(ANGLE_PANEL)]
+        lines = [line for panel in panels for line in panel["lines"] if not line["dashed"]]
+        self.found["release"] = {**findings(trial), "x_label": panels[0]["x_label"], "y_label": panels[0]["y_label"],
                                  "lines": lines}  # fmt: skip
 
     def _heat(self, best: StudyResult) -> dict[str, Any]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import from_si
 from tvimdesign.report.compare.comparison import Outcome
 from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.study.design import Design
 
 _STILL = 1e-3
@@ -51,7 +52,7 @@ def _fronts(outcome: Outcome) -> dict[str, Any]:
                 "label": label, "x": [x for x, _ in points], "y": [y for _, y in points],
                 "optimum": [[shown(second, optimum)], [shown(first, optimum)]],
             })  # fmt: skip
-        axes = {f"{axis}_label": f"{name} ({pretty(units[name])})" for axis, name in (("x", second), ("y", first))}
+        axes = {f"{axis}_label": axis_label(name, units[name]) for axis, name in (("x", second), ("y", first))}
         panels.append({"lines": lines, **axes})
     return {"title": "Fronts; filled: each study's optimum", "panels": panels}
 

@@ -18,6 +18,7 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.report.run.front_memory import FolderMemory
@@ -155,7 +156,7 @@ def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float
             for number, point in enumerate(front.points, start=1)
         ],
         "knee": None if front.knee is None else front.knee + 1,
-        "in_words": in_words(front, table),
+        "name_in_words": name_in_words(front, table),
         "spread": front.spread,
         "sought": front.sought,
         "dominated": front.dominated,
@@ -164,7 +165,7 @@ def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float
     }  # fmt: skip
 
 
-def in_words(front: Front, table: Table) -> list[str]:
+def name_in_words(front: Front, table: Table) -> list[str]:
     """What the front says: its knee and what things cost there, what is degenerate, what is missing."""
     said = []
     if front.knee is not None:
@@ -203,7 +204,7 @@ def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:
         return [from_si(point.values[name], table.unit(name)) for name in front.outputs]
 
     return {
-        "labels": [f"{name} ({pretty(table.unit(name))})" for name in front.outputs],
+        "labels": [axis_label(name, table.unit(name)) for name in front.outputs],
         "points": [shown(point) for point in front.points],
         "optimum": shown(optimum),
         "knee": front.knee,
@@ -215,7 +216,7 @@ def print_front(front: Front, table: Table, console: Console, kept: Sequence[flo
     title = f"Front of {' against '.join(front.outputs)}"
     if not front.points:
         console.print(f"[bold]{title}[/bold]: no points")
-        for sentence in in_words(front, table):
+        for sentence in name_in_words(front, table):
             console.print(sentence, soft_wrap=True)
         return
     grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
@@ -236,7 +237,7 @@ def print_front(front: Front, table: Table, console: Console, kept: Sequence[flo
             "" if what == "between" else what,
         )
     console.print(grid)
-    for sentence in in_words(front, table):
+    for sentence in name_in_words(front, table):
         console.print(sentence, soft_wrap=True)
     here = "" if len(shown) == len(front.points) else f", {len(shown)} of them here"
     beaten = f"; {front.dominated} more are no better in anything" if front.dominated else ""

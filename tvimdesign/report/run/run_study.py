@@ -56,10 +56,10 @@ def run_study(
     resume: bool = False, prove: bool = False,
 ) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
-    from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+    from tvimdesign.report.figures.plot_process import PlotProcess
     from tvimdesign.report.run.front_report import FrontOfRun
     from tvimdesign.report.run.infeasible_report import complaint
-    from tvimdesign.report.run.run_plot_data import plot_data
+    from tvimdesign.report.run.run_plot_data import drawings
     from tvimdesign.report.run.summary import print_summary
     from tvimdesign.solve.result import answer
 
@@ -72,8 +72,8 @@ def run_study(
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         front = FrontOfRun(study, table, folder)
         found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs)
-        shown = plot_data(found, table) if drawing and found.found else {}
-        plotted = [Drawing(name, name, data) for name, data in shown.items()]
+        parts = cad and study.write.cad and found.found
+        plotted = drawings(found, table) if drawing and found.found else []
         reported = _told(found, table) | {"doubts": record_checks(study, catalog, table)}
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
@@ -81,20 +81,20 @@ def run_study(
                 plotted += _sensitivities(folder, found, catalog, table, reported)
         plotted += front.seek(found, progress, reported, troubles)
         if drawing and found.found:
-            drawing.begin(folder.path / "plots", plotted)
+            drawing.begin(folder.path / "plots", plotted, study.name, vector=parts or study.write.vector)
         design = _write(folder, path, study, found, reported, table)
         progress("")
         if not as_json:
             print_summary(found, table, wide_console())
             _print_rest(reported, front)
+        if parts:
+            with _noting(troubles):
+                reported["cad"] = _parts(design, folder.path / "cad", progress, as_json)
         if drawing and found.found:
             progress("drawing the plots")
             folder.look_up_versions()
             with _noting(troubles):
                 drawing.finish()
-        if cad and study.write.cad and found.found:
-            with _noting(troubles):
-                reported["cad"] = _parts(design, folder.path / "cad", progress, as_json)
         inputs = {"study": path, **_records(found.design, catalog, table)}
         folder.finish(found.design.status, inputs, found.design.study, found.seconds)
     if as_json:
@@ -131,6 +131,7 @@ def _write(
     """Write everything but pictures and parts; returns the design's file."""
     from tvimdesign.report.output.tables import curves_csv, results_csv
     from tvimdesign.report.run.why import why_csv
+    from tvimdesign.simulation.curves import PHASE_UNITS
 
     folder.write("study.yaml", path.read_bytes())
     folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
@@ -138,9 +139,8 @@ def _write(
     folder.write("results.csv", results_csv(reported["values"]))
     if found.solution and found.found:
         folder.write("why.csv", why_csv(found, table))
-    units = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
     for phase, history in found.histories.items():
-        folder.write(f"{phase}.csv", curves_csv(history, units, "degC"))
+        folder.write(f"{phase}.csv", curves_csv(history, PHASE_UNITS, "degC"))
     units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in found.sweep}
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     return write_design(found.design, folder.path / "design.json")

@@ -78,7 +78,8 @@ def tolerate_study(path: Path, out: Path, samples: int, workers: int, *, overwri
         _write(folder, source, subject, data, found, table)
         if drawing:
             progress("drawing the figure")
-            drawing.begin(folder.path, [Drawing("spread", "tolerance_figure.spread", figure_data(found, table))])
+            figure = Drawing("spread", "tolerance_figure.spread", figure_data(found, table))
+            drawing.begin(folder.path, [figure], study.name)
             drawing.finish()
         progress("")
         folder.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"))
