@@ -133,7 +133,7 @@ def test_the_csv_holds_what_the_json_holds(runs: Runs) -> None:
     import csv
 
     folder = runs["paper_shear"]
-    with (folder / "results.csv").open() as stream:
+    with (folder / "results.csv").open(encoding="utf-8-sig") as stream:
         rows = {row["name"]: row for row in csv.DictReader(stream)}
     values = _results(folder)["values"]
     assert rows.keys() == values.keys()

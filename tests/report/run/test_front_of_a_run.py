@@ -37,7 +37,7 @@ def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_table_has_every_variable_and_every_minimised_output(run: Path) -> None:
-    with (run / "front.csv").open() as stream:
+    with (run / "front.csv").open(encoding="utf-8-sig") as stream:
         points = list(csv.DictReader(stream))
     assert len(points) == 5
     assert {"response_time [s]", "module_mass [g]", "wire_diameter [mm]", "pcl_thickness [mm]"} <= points[0].keys()

@@ -36,7 +36,7 @@ def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict
     kept = json.loads((folder / "tolerances.json").read_text())
     assert kept == {name: value for name, value in reported.items() if name != "folder"}
     assert kept["samples"] == 4096
-    rows = list(csv.DictReader((folder / "outputs.csv").read_text().splitlines()))
+    rows = list(csv.DictReader((folder / "outputs.csv").read_text("utf-8-sig").splitlines()))
     (stiffness,) = [row for row in rows if row["output"] == "spring_stiffness"]
     worst, drawn = float(stiffness["worst_high"]), float(stiffness["high"])
     assert float(stiffness["as_drawn"]) < drawn < worst
@@ -44,7 +44,7 @@ def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict
 
 
 def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, Any], str]) -> None:
-    rows = list(csv.DictReader((results[0] / "contributors.csv").read_text().splitlines()))
+    rows = list(csv.DictReader((results[0] / "contributors.csv").read_text("utf-8-sig").splitlines()))
     mine = [row for row in rows if row["output"] == "spring_stiffness"]
     assert sum(float(row["share"]) for row in mine) == pytest.approx(1.0, abs=1e-4)
     assert max(mine, key=lambda row: float(row["share"]))["contributor"] == "wire_diameter"

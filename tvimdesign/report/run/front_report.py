@@ -19,8 +19,10 @@ from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.axis_labels import axis_label
+from tvimdesign.report.output.number_entry import finite
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
+from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults, head
 from tvimdesign.report.run.front_memory import FolderMemory
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -53,7 +55,7 @@ class FrontOfRun:
         self._built.append((built, runs))
 
     def seek(
-        self, found: StudyResult, progress: Progress, reported: dict[str, Any], troubles: list[TvimError]
+        self, found: StudyResult, progress: Progress, reported: RunResults, troubles: list[TvimError]
     ) -> list[Drawing]:
         """Seek the front and write all of it but its figure, which is returned; nothing where none is asked for.
 
@@ -69,7 +71,7 @@ class FrontOfRun:
         folder, names = self._folder, shown_names(self.study, front)
         reported["front"] = plain(front, names, self.table, self.kept)
         folder.write("front.csv", front_csv(front, names, self.table, self.kept))
-        folder.write_json("front.json", reported["front"])
+        folder.write_json("front.json", {**head(), **reported["front"]})
         for number, point in enumerate(front.points, start=1):
             design = design_of(point, number, found)
             folder.write(f"front/{number:02d}.design.json", design_json(design))
@@ -137,26 +139,25 @@ def status(front: Front, place: int) -> str:
     return front.points[place].where if front.points[place].where.startswith("least ") else "between"
 
 
-def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> dict[str, Any]:
-    """The front as plain data, in units; null is never."""
+def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> FrontEntry:
+    """The front as plain data, in units and in SI; null is never."""
 
-    def shown(point: Point, name: str) -> float | None:
-        value = from_si(point.values[name], table.unit(name))
-        return value if math.isfinite(value) else None
+    def entry(number: int, point: Point) -> FrontPoint:
+        found: FrontPoint = {
+            "number": number, "status": status(front, number - 1), "design": f"front/{number:02d}.design.json",
+            "values": {name: finite(from_si(point.values[name], table.unit(name))) for name in names},
+            "si": {name: finite(point.values[name]) for name in names},
+        }  # fmt: skip
+        if kept:
+            found["yield_share"] = kept[number - 1]
+        return found
 
     return {
         "of": list(front.outputs),
         "units": {name: pretty(table.unit(name)) for name in names},
-        "points": [
-            {
-                "number": number, "status": status(front, number - 1), "design": f"front/{number:02d}.design.json",
-                "values": {name: shown(point, name) for name in names},
-                **({"yield": kept[number - 1]} if kept else {}),
-            }
-            for number, point in enumerate(front.points, start=1)
-        ],
+        "points": [entry(number, point) for number, point in enumerate(front.points, start=1)],
         "knee": None if front.knee is None else front.knee + 1,
-        "name_in_words": name_in_words(front, table),
+        "in_words": name_in_words(front, table),
         "spread": front.spread,
         "sought": front.sought,
         "dominated": front.dominated,
@@ -172,11 +173,25 @@ def name_in_words(front: Front, table: Table) -> list[str]:
         point = front.points[front.knee]
         at = ", ".join(f"{name} {format_quantity(point.values[name], table.unit(name))}" for name in front.outputs)
         said.append(f"The knee is point {front.knee + 1}: {at}. Beyond it {'; '.join(_costs(front, front.knee))}.")
+    elif len(front.outputs) - len(front.little_traded) < 2:
+        said.append(_no_trade(front, table))
     elif len(front.points) > 2:
         said.append("It has no knee: it is nearly straight.")
     said += [f"{note[0].upper()}{note[1:]}." for note in front.notes]
     said += [f"No design at {one.where}: {one.reason}." for one in front.failures]
     return said
+
+
+def _no_trade(front: Front, table: Table) -> str:
+    """Which outputs hardly change over the front, and what to do about it."""
+    spans = []
+    for name in front.little_traded:
+        ends = [point.values[name] for point in front.points]
+        low, high = (format_quantity(end, table.unit(name)) for end in (min(ends), max(ends)))
+        spans.append(f"{name} spans {max(ends) / min(ends) - 1.0:.2%} ({low} to {high})")
+    least = ", ".join(name for name in front.outputs if name not in front.little_traded)
+    then = f"take the point with the least {least}" if least else "any point will do"
+    return f"There is no trade to speak of: over the whole front {' and '.join(spans)}; {then}."
 
 
 def _costs(front: Front, knee: int) -> list[str]:

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 from rich.markup import escape
 
@@ -22,6 +22,7 @@ from tvimdesign.study.design import Design, read_design, write_design
 
 if TYPE_CHECKING:
     from tvimdesign.report.figures.plot_process import Drawing
+    from tvimdesign.report.output.results_format import Parts, RunResults
     from tvimdesign.report.run.front_report import FrontOfRun
     from tvimdesign.solve.result import StudyResult
 
@@ -33,14 +34,12 @@ def check_study(path: Path, *, proof: bool = True) -> Study:
 
     Limits that bounds prove impossible are looked for as well, which takes half a second, unless `proof` is not asked.
     """
-    from tvimdesign.solve.infeasibility.infeasibility_proof import refuse_infeasible
+    from tvimdesign.report.run.refusal import refuse_unfit
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
     study = read_study(path)
     catalog, table = catalog_of(study), table_for(study.mode)
-    refuse_impossible(study, catalog, table)
-    if proof:
-        refuse_infeasible(study, catalog, table)
+    (refuse_unfit if proof else refuse_impossible)(study, catalog, table)
     return study
 
 
@@ -61,7 +60,6 @@ def run_study(
     from tvimdesign.report.run.infeasible_report import complaint
     from tvimdesign.report.run.run_plot_data import drawings
     from tvimdesign.report.run.summary import print_summary
-    from tvimdesign.solve.result import answer
 
     study = _proving(read_study(path)) if prove else read_study(path)
     table, catalog = table_for(study.mode), catalog_of(study)
@@ -71,10 +69,10 @@ def run_study(
         progress = stack.enter_context(progress_output())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         front = FrontOfRun(study, table, folder)
-        found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs)
+        found = _answered(path, study, catalog, table, folder, progress, front, as_json=as_json)
         parts = cad and study.write.cad and found.found
         plotted = drawings(found, table) if drawing and found.found else []
-        reported = _told(found, table) | {"doubts": record_checks(study, catalog, table)}
+        reported = _told(found, table, record_checks(study, catalog, table))
         if found.found and (sensitivities or study.write.sensitivities):
             progress("differentiating the outputs")
             with _noting(troubles):
@@ -98,8 +96,8 @@ def run_study(
         inputs = {"study": path, **_records(found.design, catalog, table)}
         folder.finish(found.design.status, inputs, found.design.study, found.seconds)
     if as_json:
-        reported |= {"folder": str(folder.path), "not_done": [str(trouble) for trouble in troubles]}
-        print(json.dumps(reported, indent=2, allow_nan=False))
+        more = {"folder": str(folder.path), "not_done": [str(trouble) for trouble in troubles]}
+        print(json.dumps({**reported, **more}, indent=2, allow_nan=False))
     else:
         wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
     if not found.found:
@@ -113,20 +111,35 @@ def _proving(study: Study) -> Study:
     return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
 
 
-def _told(found: StudyResult, table: Table) -> dict[str, Any]:
+def _answered(
+    path: Path, study: Study, catalog: Catalog, table: Table, folder: ResultsFolder, progress: Progress,
+    front: FrontOfRun, *, as_json: bool,
+) -> StudyResult:  # fmt: skip
+    """The answer, if bounds do not prove that there is none; where there is none the folder says why."""
+    from tvimdesign.report.run.refusal import leaving_the_reason, refuse_unfit
+    from tvimdesign.solve.result import answer
+
+    with leaving_the_reason(folder, path, study, as_json=as_json):
+        refuse_unfit(study, catalog, table, progress)
+        return answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs)
+
+
+def _told(found: StudyResult, table: Table, doubts: list[str]) -> RunResults:
     """Everything a script wants to know of an answer."""
     from tvimdesign.report.output.tables import results
     from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
     from tvimdesign.report.run.why import why
 
-    reported = results(found, table) | {"why": why(found, table)}
+    reported = cast("RunResults", results(found, table))
+    reported["why"], reported["doubts"] = why(found, table), doubts
     if found.solution:
-        reported |= {"starts": starts_reported(found), "conflict_set": conflicts_reported(found.solution.conflict_set)}
+        reported["starts"] = starts_reported(found)
+        reported["conflict_set"] = conflicts_reported(found.solution.conflict_set)
     return reported
 
 
 def _write(
-    folder: ResultsFolder, path: Path, study: Study, found: StudyResult, reported: dict[str, Any], table: Table
+    folder: ResultsFolder, path: Path, study: Study, found: StudyResult, reported: RunResults, table: Table
 ) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
     from tvimdesign.report.output.tables import curves_csv, results_csv
@@ -147,7 +160,7 @@ def _write(
 
 
 def _sensitivities(
-    folder: ResultsFolder, found: StudyResult, catalog: Catalog, table: Table, reported: dict[str, Any]
+    folder: ResultsFolder, found: StudyResult, catalog: Catalog, table: Table, reported: RunResults
 ) -> list[Drawing]:
     """Write the table of sensitivities, tell what is not in it; returns the heat map. Raises SimulationError."""
     from tvimdesign.report.figures.plot_process import Drawing
@@ -160,8 +173,8 @@ def _sensitivities(
     return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
 
 
-def _print_rest(reported: dict[str, Any], front: FrontOfRun) -> None:
-    for doubt in reported["doubts"]:
+def _print_rest(reported: RunResults, front: FrontOfRun) -> None:
+    for doubt in reported.get("doubts", []):
         wide_console().print(f"[yellow]In doubt:[/yellow] {escape(doubt)}", soft_wrap=True)
     names = reported.get("sensitivities_left_out")
     if names:
@@ -190,14 +203,16 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         raise _partly(troubles)
 
 
-def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> dict[str, Any]:
+def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> Parts:
     """Make the parts beside their checks.json, and tell what was found. Raises GeometryError where a check fails."""
     from tvimdesign.cad import make_cad
     from tvimdesign.report.run.solid_checks import print_solid_checks
 
     progress("parts: starting the CAD kernel")
     report = make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
-    reported = {"checks": [check.plain() for check in report.checks], "files": report.files, "notes": report.notes}
+    reported: Parts = {
+        "checks": [check.plain() for check in report.checks], "files": list(report.files), "notes": list(report.notes)
+    }  # fmt: skip
     write_whole(out / "checks.json", (json.dumps(reported, indent=2) + "\n").encode())
     progress("")
     if not as_json:
