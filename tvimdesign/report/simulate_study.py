@@ -14,11 +14,13 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
 
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.device import table_for
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.number_entry import finite
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.results_format import head
 from tvimdesign.report.output.tables import curves_csv, number
 from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
@@ -103,6 +105,7 @@ def _shown(column: Column) -> list[float]:
 def findings(trial: Trial) -> dict[str, Any]:
     """What was read off a test as plain data, every number in its unit."""
     return {
+        **head(),
         "test": trial.test,
         "title": trial.title,
         "findings": [
@@ -110,6 +113,7 @@ def findings(trial: Trial) -> dict[str, Any]:
                 "name": found.name,
                 **{part: _plain(value, found.unit) for part, value in _parts(found)},
                 "unit": pretty(found.unit),
+                "si": {part: finite(value) for part, value in _parts(found)} | {"unit": pretty(si_unit(found.unit))},
                 "meaning": found.meaning,
             }
             for found in trial.findings

@@ -113,22 +113,22 @@ def test_contact_lost_and_advice_that_is_not_followed_are_told(pair: Path) -> No
         warnings = reported["studies"][mode]["optimised"]["warnings"]
         assert "structure_temperature_margin" in {warning["output"] for warning in warnings}
         for warning in warnings:
-            assert f"Mind {mode}: {warning['output']} is" in summary
+            assert f"Warning {mode}: {warning['output']} is" in summary
             assert warning["because"] in summary
 
 
 def test_what_holds_each_back_most_is_told_with_the_machine_s_reasons(pair: Path) -> None:
     reported = _told(pair)
     for mode in ("shear", "compression"):
-        held = reported["studies"][mode]["optimised"]["held"]
-        prices = [one["price"] for one in held]
+        held = reported["studies"][mode]["optimised"]["active_constraints"]
+        prices = [one["shadow_price"] for one in held]
         assert 1 <= len(held) <= 3
         assert prices == sorted(prices, reverse=True)
         (sentence,) = (text for text in reported["conclusions"] if f"{mode} is held back most by" in text)
         for one in held:
             assert one["limit"] in sentence
             assert one["because"] in sentence or one["because"] in {"require", "vary", "module"}
-        assert reported["studies"][mode]["drawn"]["held"] == []
+        assert reported["studies"][mode]["drawn"]["active_constraints"] == []
 
 
 def test_the_leads_follow_from_the_fronts(pair: Path) -> None:

@@ -254,10 +254,10 @@ class FrontPoint(_FrontPoint):
 
 @_closed
 class FrontEntry(TypedDict):
-    """A front; `units` are those of the points' `values`, `knee` is the number of a point."""
+    """A front; `units_of_values` are those of the points' `values`, `knee` is the number of a point."""
 
     of: list[str]
-    units: dict[str, str]
+    units_of_values: dict[str, str]
     points: list[FrontPoint]
     knee: int | None
     in_words: list[str]

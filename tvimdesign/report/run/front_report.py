@@ -154,7 +154,7 @@ def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float
 
     return {
         "of": list(front.outputs),
-        "units": {name: pretty(table.unit(name)) for name in names},
+        "units_of_values": {name: pretty(table.unit(name)) for name in names},
         "points": [entry(number, point) for number, point in enumerate(front.points, start=1)],
         "knee": None if front.knee is None else front.knee + 1,
         "in_words": name_in_words(front, table),

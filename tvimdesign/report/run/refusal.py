@@ -11,7 +11,7 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.results_format import RefusedRun, head
+from tvimdesign.report.output.results_format import FORMAT, UNITS, RefusedRun
 from tvimdesign.study import Study
 
 
@@ -34,8 +34,8 @@ def leaving_the_reason(folder: ResultsFolder, path: Path, study: Study, *, as_js
         yield
     except InfeasibleError as error:
         refused: RefusedRun = {
-            **head(), "name": study.name, "mode": study.mode, "status": "infeasible", "feasible": False,
-            "reason": str(error),
+            "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
+            "status": "infeasible", "feasible": False, "reason": str(error),
         }  # fmt: skip
         folder.write("study.yaml", path.read_bytes())
         folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
