@@ -36,7 +36,7 @@ TRIAL = Trial(
 
 def test_sheets_are_headed_by_name_and_unit_and_hold_numbers_in_it() -> None:
     rows = list(csv.reader(sheet_csv(SHEET).splitlines()))
-    assert rows[0] == ["temperature [degC]", "strain [%]", "strain_low [%]", "strain_high [%]"]
+    assert rows[0] == ["temperature [°C]", "strain [%]", "strain_low [%]", "strain_high [%]"]
     assert [float(value) for value in rows[2]] == pytest.approx([60.0, 2.0, 1.0, 3.0])
 
 

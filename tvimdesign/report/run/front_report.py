@@ -173,7 +173,7 @@ def name_in_words(front: Front, table: Table) -> list[str]:
         point = front.points[front.knee]
         at = ", ".join(f"{name} {format_quantity(point.values[name], table.unit(name))}" for name in front.outputs)
         said.append(f"The knee is point {front.knee + 1}: {at}. Beyond it {'; '.join(_costs(front, front.knee))}.")
-    elif len(front.outputs) - len(front.little_traded) < 2:
+    elif front.little_traded:
         said.append(_no_trade(front, table))
     elif len(front.points) > 2:
         said.append("It has no knee: it is nearly straight.")
@@ -189,9 +189,11 @@ def _no_trade(front: Front, table: Table) -> str:
         ends = [point.values[name] for point in front.points]
         low, high = (format_quantity(end, table.unit(name)) for end in (min(ends), max(ends)))
         spans.append(f"{name} spans {max(ends) / min(ends) - 1.0:.2%} ({low} to {high})")
-    least = ", ".join(name for name in front.outputs if name not in front.little_traded)
-    then = f"take the point with the least {least}" if least else "any point will do"
-    return f"There is no trade to speak of: over the whole front {' and '.join(spans)}; {then}."
+    others = [name for name in front.outputs if name not in front.little_traded]
+    step = f"take the point with the least {others[0]}" if len(others) == 1 else "any point will do"
+    step = f"ask for a front of {' and '.join(others)}" if len(others) > 1 else step
+    where = f" in {' and '.join(front.little_traded)}" if len(others) > 1 else ""
+    return f"There is no trade to speak of{where}: over the whole front {' and '.join(spans)}; {step}."
 
 
 def _costs(front: Front, knee: int) -> list[str]:

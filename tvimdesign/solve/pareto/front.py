@@ -67,13 +67,13 @@ class Front:
 
     @property
     def little_traded(self) -> tuple[str, ...]:
-        """The outputs that hardly change over the front: with one of two, there is no trade to speak of."""
+        """The outputs that hardly change over the front: with them there is no trade to speak of."""
         return tuple(self.outputs[i] for i in shape.little_traded(self._numbers))
 
     @property
     def knee(self) -> int | None:
         """Place of the point beyond which any output gets dear; None where there is none, or nothing is traded."""
-        return shape.knee(self.shares) if len(self.outputs) - len(self.little_traded) > 1 else None
+        return None if self.little_traded else shape.knee(self.shares)
 
 
 def trace_front(trade: Tradeoff, outputs: Sequence[str], count: int) -> Front:

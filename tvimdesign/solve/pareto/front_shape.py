@@ -98,10 +98,7 @@ def neighbours(shares: Array) -> list[tuple[int, int, float]]:
 
 
 def little_traded(numbers: Array) -> list[int]:
-    """Columns of the outputs (SI, a row a point) that hardly change over a front: less of another costs nothing there.
-
-    Nothing is said of a single point.
-    """
+    """Columns of the outputs (SI, a row a point) that hardly change over a front; nothing is said of a single point."""
     if len(numbers) < 2:
         return []
     least = np.min(np.abs(numbers), axis=0)
