@@ -7,8 +7,11 @@ import json
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import pytest
 from support import RELEASED, ROOT, STUDIES, Command
+
+from tvimdesign.report.output.results_format import results_schema
 
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
@@ -76,6 +79,11 @@ def test_a_study_s_design_keeps_every_limit(runs: Runs, study: Path) -> None:
     reported = _results(runs[study.stem])
     assert reported["feasible"], [check for check in reported["checks"] if not check["kept"]]
     assert reported["status"] in {"evaluated", "optimal"}
+
+
+@names
+def test_the_results_of_a_study_are_of_the_schema(runs: Runs, study: Path) -> None:
+    jsonschema.validate(_results(runs[study.stem]), results_schema())
 
 
 @names

@@ -43,6 +43,17 @@ def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict
     assert float(stiffness["deviation"]) == pytest.approx(float(stiffness["deviation_rss"]), rel=0.02)
 
 
+def test_every_output_stands_in_si_too_and_soft_is_told(results: tuple[Path, dict[str, Any], str]) -> None:
+    reported = results[1]
+    assert (reported["format"], reported["units"]) == (1, "SI")
+    rows = {row["output"]: row for row in reported["outputs"]}
+    stiffness = rows["spring_stiffness"]
+    assert stiffness["si"]["unit"] == stiffness["unit"] == "N·m/rad"
+    for name in ("as_drawn", "low", "high", "worst_low", "deviation"):
+        assert stiffness["si"][name] == pytest.approx(stiffness[name])
+    assert any(note.startswith("Soft is |Z| <= ") for note in reported["notes"])
+
+
 def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, Any], str]) -> None:
     rows = list(csv.DictReader((results[0] / "contributors.csv").read_text("utf-8-sig").splitlines()))
     mine = [row for row in rows if row["output"] == "spring_stiffness"]
