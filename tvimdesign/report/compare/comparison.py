@@ -165,7 +165,9 @@ class Outcome:
 
     def _without_design(self) -> list[str]:
         return [
-            f"no design was found for {label} that keeps every limit"
+            f"no design was found for {label} that keeps every limit, so that the modules are compared as drawn"
+            if self.which == "drawn"
+            else f"no design was found for {label} that keeps every limit"
             for label, trouble in self.troubles
             if trouble["step"] == "optimised"
         ]
