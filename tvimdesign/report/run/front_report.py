@@ -157,7 +157,7 @@ def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float
         "units_of_values": {name: pretty(table.unit(name)) for name in names},
         "points": [entry(number, point) for number, point in enumerate(front.points, start=1)],
         "knee": None if front.knee is None else front.knee + 1,
-        "in_words": name_in_words(front, table),
+        "in_words": in_words(front, table),
         "spread": front.spread,
         "sought": front.sought,
         "dominated": front.dominated,
@@ -166,7 +166,7 @@ def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float
     }  # fmt: skip
 
 
-def name_in_words(front: Front, table: Table) -> list[str]:
+def in_words(front: Front, table: Table) -> list[str]:
     """What the front says: its knee and what things cost there, what is degenerate, what is missing."""
     said = []
     if front.knee is not None:
@@ -233,7 +233,7 @@ def print_front(front: Front, table: Table, console: Console, kept: Sequence[flo
     title = f"Front of {' against '.join(front.outputs)}"
     if not front.points:
         console.print(f"[bold]{title}[/bold]: no points")
-        for sentence in name_in_words(front, table):
+        for sentence in in_words(front, table):
             console.print(sentence, soft_wrap=True)
         return
     grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
@@ -254,7 +254,7 @@ def print_front(front: Front, table: Table, console: Console, kept: Sequence[flo
             "" if what == "between" else what,
         )
     console.print(grid)
-    for sentence in name_in_words(front, table):
+    for sentence in in_words(front, table):
         console.print(sentence, soft_wrap=True)
     here = "" if len(shown) == len(front.points) else f", {len(shown)} of them here"
     beaten = f"; {front.dominated} more are no better in anything" if front.dominated else ""
