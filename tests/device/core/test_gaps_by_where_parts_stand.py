@@ -6,9 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 TABLE = table_for("shear")
@@ -78,7 +76,7 @@ def test_pins_stand_on_the_rotor_and_legs_pass_above_it(p: dict[str, Any]) -> No
     pins = around(0.5 * p["pin_diameter"], p["pin_radius_ratio"] * p["placement_radius"], int(2 * p["spring_pairs"]))
     rim, leg, reach = of(p, "pin_rim_gap", "leg_rotor_gap", "leg_reach_gap")
     assert rim == pytest.approx(within(pins, p["pcl_outer_radius"] + p["rotor_rim"]) - p["radial_clearance"], abs=1e-12)
-    # The tang's bend of one wire ends on the floor; from its top the coils rise by a pitch a turn, wound by the preload.
+    # The tang's bend of one wire ends on the floor; from its top the coils rise by a pitch a turn.
     wire, pitch = p["wire_diameter"], p["wire_diameter"] + p["coil_gap"]
     start = wire * np.cos(np.arctan2(pitch, np.pi * p["coil_diameter"]))
     end = start + pitch * (p["coil_count"] + p["preload_angle"] / (2.0 * np.pi))
@@ -170,8 +168,10 @@ def test_energies_and_times_of_a_cycle_add_up_and_a_claim_of_stiffness_is_a_rati
 def test_thresholds_stand_apart_by_the_logarithm_of_their_ratio(
     soft: float, stiff: float, inputs: dict[str, Any]
 ) -> None:
-    known = {**inputs, "impedance_targets": "stated", "soft_impedance": soft, "stiff_impedance": stiff,
-             "softening_band": 1.2, "stiffening_band": 1.5, "joint_impedance@hot": 8.0, "joint_impedance@cold": 90.0}  # fmt: skip
+    known = {
+        **inputs, "impedance_targets": "stated", "soft_impedance": soft, "stiff_impedance": stiff,
+        "softening_band": 1.2, "stiffening_band": 1.5, "joint_impedance@hot": 8.0, "joint_impedance@cold": 90.0,
+    }  # fmt: skip
     names = ["soft_threshold", "stiff_threshold", "thresholds_apart", "soft_reach", "stiff_reach"]
     low, high, apart_by, soft_reach, stiff_reach = TABLE.evaluate(known, names).values()
     # Soft is up to a fifth above its target, stiff down to two thirds of its own.

@@ -174,7 +174,7 @@ def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives() -> None:
         "mount_thread_margin": 16.0 - 10.0 - 5.25, "mount_tip_margin": 6.0 + 10.0 - 16.0,
         "motor_tube_gap": (20.8 - 2.5) - (12.05 + 2.5) - 0.4, "motor_hub_wall_margin": 1.3, "motor_wall_margin": 1.3,
         "motor_barrel_gap": 0.5 * (22.6 - 11.2) - 0.4, "motor_journal_wall_margin": 7.45 - 1.25 - 1.2,
-        # From the stator's upper end at -17 to the retainer at -36.45, which has a board of 3, 1 of air and its own 7.15.
+        # From the stator's upper end at -17 to the retainer: above a board of 3, 1 of air and its own 7.15.
         "motor_lip_margin": (47.6 - 3.0 - 1.0 - 7.15) - 17.0 - 10.0 - 1.2,
         # A screw of 12 through 2 of retainer and 0.4 of air, with 0.5 for its tip; from the journal's end at -36.05.
         "motor_thread_margin": 12.0 - 2.0 - 0.4 - 5.25, "motor_disc_margin": (36.05 - 10.0) - (9.6 + 0.5) - 1.2,
