@@ -99,11 +99,40 @@ def test_the_motor_is_in_the_mass_of_the_module_and_turns_on_its_own_side_of_the
     assert driven["module_mass"] - bare["module_mass"] == pytest.approx(driven["drive_mass"])
     assert driven["parts_inertia"] == bare["parts_inertia"]
     assert driven["structure_stiffness"] == bare["structure_stiffness"]
-    # Stator and rotor 230 g, two bearings of 7 g, board and magnet 3.5 g; the rest is printed, or screws.
-    assert driven["drive_mass"] > 230e-3 + 14e-3 + 3.5e-3
-    # Rotor 21 kg mm2 by its record, and what is far from the axis: four M3 screws of 1.2 g at 57 mm.
-    screws = 4 * 7850.0 * 0.25 * np.pi * (2.5**2 * 16.0 + 5.5**2 * 3.0) * 1e-9 * (57.0 * MM) ** 2
-    assert driven["drive_inertia"] - driven["motor_hub_inertia"] == pytest.approx(21e-6 + screws, rel=0.03)
+
+
+def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one() -> None:
+    found = values_of("drive_mass drive_inertia motor_hub_volume motor_hub_inertia motor_housing_volume", **DRIVEN)
+
+    def tube(inner: float, outer: float, length: float) -> np.ndarray:
+        """Volume [mm^3] and polar moment of volume [mm^5] of a tube about its own axis."""
+        area = np.pi * (outer**2 - inner**2)
+        return np.array([area * length, 0.5 * area * length * (inner**2 + outer**2)])
+
+    def groove(inner: float, outer: float) -> float:
+        y = np.linspace(-4.0, 4.0, 2001)
+        return float(np.trapezoid(np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), y))
+
+    # Base of 8 with four holes of 2.5 x 6.8, wall and tube as high as the stator, 22.6. The bore: 24.1 wide up to the
+    # lower bearing's upper end, 16.15 above the ground, and for 5 at the top; 22 between. A way out for wires, 8 wide.
+    housing = tube(0.0, 37.2, 8.0) + tube(34.7, 37.2, 22.6) + tube(0.0, 14.55, 22.6)
+    housing -= tube(0.0, 12.05, 16.15 + 5.0) + tube(0.0, 11.0, 30.6 - 21.15) + 4 * tube(0.0, 1.25, 6.8)
+    board = tube(12.05, 14.2, 3.0)[0] + 3.0 * groove(14.2, 37.2)
+    assert found["motor_housing_volume"] / MM**3 == pytest.approx(housing[0] - 5.0 * groove(34.7, 37.2) - board)
+    retainer = tube(1.7, 8.5, 2.0) + tube(3.25, 8.5, 5.15)
+    screw = tube(0.0, 1.25, 12.0) + tube(0.0, 2.85, 1.65)
+    mounts = 4 * (tube(0.0, 1.25, 16.0) + tube(0.0, 2.75, 3.0))
+    mounts[1] += mounts[0] * 57.0**2
+    magnet = tube(0.0, 3.0, 2.5)
+    made = 1270.0 * (found["motor_hub_volume"] / MM**3 + housing[0] - 5.0 * groove(34.7, 37.2) - board + retainer[0])
+    grams = 1e-6 * (made + 7850.0 * (screw[0] + mounts[0]) + 7500.0 * magnet[0])
+    # Stator 189 g and rotor 41 g, two bearings of 7 g, a board of 3 g.
+    assert 1e3 * found["drive_mass"] == pytest.approx(grams + 189.0 + 41.0 + 14.0 + 3.0)
+    # The rotor's 21 kg mm^2 is its record's; of a bearing of 15 and 24 turns what is inside of 19.5.
+    inner = 14.0 / tube(7.5, 12.0, 1.0)[0] * tube(7.5, 9.75, 1.0)[1]
+    turning = 1e-6 * (1270.0 * retainer[1] + 7850.0 * (screw[1] + mounts[1]) + 7500.0 * magnet[1]) + inner
+    hub = found["motor_hub_inertia"] * 1e9
+    assert found["drive_inertia"] * 1e9 - hub == pytest.approx(21e3 + turning)
 
 
 def test_the_motor_turns_the_whole_housing_with_what_it_carries() -> None:
