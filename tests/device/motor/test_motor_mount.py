@@ -146,6 +146,20 @@ def test_the_motor_turns_the_whole_housing_with_what_it_carries() -> None:
     assert values_of("driven_inertia motor_acceleration") == {"driven_inertia": 0.0, "motor_acceleration": 0.0}
 
 
+def test_the_motor_turns_cover_and_adjusters_as_well() -> None:
+    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass adjusters_mass "
+    radii = "housing_inner_radius housing_outer_radius"
+    found = values_of(rows + radii, **DRIVEN | {"cover": "plate", "preload_adjuster": "rotary"})
+    springs = (found["springs_mass"] + found["adjusters_mass"]) * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
+    between = (found["pcl_mass"] + found["peltier_mass"]) * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
+    # A plate of 1.5 mm, less the core's hole of 10.4 mm, four of 1.2 mm on the wall's radius and four of 3.5 on 57 mm.
+    polar = 0.5 * np.pi * (found["housing_outer_radius"] ** 4 - (10.4 * MM) ** 4)
+    for radius, circle in ((1.2 * MM, found["housing_inner_radius"]), (3.5 * MM, 57.0 * MM)):
+        polar -= 4 * np.pi * radius**2 * (circle**2 + 0.5 * radius**2)
+    whole = found["drive_inertia"] + found["housing_inertia"] + springs + between + 1270.0 * 1.5 * MM * polar
+    assert found["driven_inertia"] == pytest.approx(whole)
+
+
 def test_a_motor_s_torque_is_held_against_the_springs() -> None:
     rows = "motor_torque_margin motor_hold_current encoder_torque_step spring_stiffness hold_torque"
     found = values_of(rows, **DRIVEN)

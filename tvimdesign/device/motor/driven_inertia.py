@@ -2,7 +2,7 @@
 
 It stands apart from the volumes because nothing else asks for it: without a motor the housing stands still. Holes of
 tangs count at the springs' axes, the rounding of pockets and windows at their mean radius: right to a thousandth or so
-(the checks on the solids hold it to half a hundredth).
+(the checks on the solids hold it to 0.2 %).
 """
 
 from __future__ import annotations
