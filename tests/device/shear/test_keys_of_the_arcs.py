@@ -73,6 +73,9 @@ def test_each_margin_of_the_keys_is_what_its_drawing_gives() -> None:
     }  # fmt: skip
     found = values_of(" ".join(RULES), arc_span=span)
     assert {name: value / MM for name, value in found.items()} == pytest.approx(drawn)
+    # One key in an arc has half of it to either end.
+    alone = values_of("key_pitch_margin", arc_span=span, key_count=1)["key_pitch_margin"]
+    assert alone / MM == pytest.approx(abs(33.0 - 33.0 * np.exp(1j * span)) - 2.5 - 1.2)
 
 
 @pytest.mark.parametrize(
