@@ -50,3 +50,23 @@ def test_what_must_exist_to_be_asked_for_is_ruled_at_or_above_where_it_does(mode
                 # A coil of a little more than its wire is one, all else begins at nothing.
                 assert rule.exists_above == (1.2 if found.name == "spring_index" else 0.0), found.name
                 assert rule.exists_above <= rule.value, found.name
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_a_summary_has_what_a_reader_asks_of_a_module_and_no_size_of_a_bought_part(mode: str) -> None:
+    headlines = {found.name for found in table_for(mode).outputs if found.headline}
+    assert {"envelope_diameter", "module_mass", "joint_stiffness", "holding_torque", "response_time"} <= headlines
+    # A tenth of the table at most: no gap, and nothing that is one of several screwed joints' alike.
+    assert len(headlines) < 0.1 * len(table_for(mode).outputs)
+    for found in table_for(mode).outputs:
+        assert not (found.headline and (found.group == "Gaps" or found.hidden or "screw" in found.name)), found.name
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_only_what_is_drawn_anew_for_each_module_may_be_varied(mode: str) -> None:
+    numbers = {found.name: found for found in table_for(mode).inputs}
+    free = {name for name, found in numbers.items() if found.variable}
+    assert {"wire_diameter", "coil_diameter", "coil_count", "placement_radius", "preload_angle"} <= free
+    # A property of a material or of what is bought, the air, or what the user asks for is nobody's to choose.
+    assert not free & {name for name, found in numbers.items() if found.record is not None}
+    assert not free & {"stroke", "ambient_temperature", "temperature", "frequency", "pcl_density", "target_temperature"}
