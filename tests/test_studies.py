@@ -15,7 +15,7 @@ from tvimdesign.report.output.results_format import results_schema
 
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
-    "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml",
+    "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml", "summary.txt",
 }  # fmt: skip
 PLOTS = {f"{name}.png" for name in ("bounds", "impedance", "mass", "cycle", "stiffness_and_damping", "power_and_energy",
                                     "torque")}  # fmt: skip

@@ -67,6 +67,7 @@ def run(
     prove: Annotated[
         bool, typer.Option("--prove", help="Solve or bound every combination of listed choices as well.")
     ] = False,
+    full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
@@ -74,7 +75,7 @@ def run(
 
     run_study(
         study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        prove=prove, resume=resume, as_json=json,
+        prove=prove, resume=resume, full=full, as_json=json,
     )  # fmt: skip
 
 

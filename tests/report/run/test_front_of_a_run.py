@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 import time
@@ -16,6 +17,7 @@ from rich.console import Console
 from support import ROOT, Command
 
 from tvimdesign.device import table_for
+from tvimdesign.report.run.first_screen.screen import AFTER, LINES
 from tvimdesign.report.run.front_report import figure_data, front_csv, in_words, plain, print_front
 from tvimdesign.solve.pareto.front import Front
 from tvimdesign.solve.pareto.tradeoff import Failure, Point
@@ -29,9 +31,11 @@ def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A study with a front, run to its end."""
     folder = tmp_path_factory.mktemp("front")
     (study,) = written(folder, study=ASKED)
-    done = tvimdesign("run", study, "--no-cad", "--out", folder / "out")
+    done = tvimdesign("run", study, "--no-cad", "--full", "--out", folder / "out")
     assert done.returncode == 0, done.stderr
-    assert "point 3 of 5" in done.stderr
+    screen = done.stdout.partition("\n\n")[0].splitlines()
+    assert len(screen) <= LINES - AFTER
+    assert any(re.match(r"Front +\d designs · response_time \S+ to \S+ s · module_mass ", line) for line in screen)
     assert "Front of response_time against module_mass" in done.stdout
     return folder / "out"
 

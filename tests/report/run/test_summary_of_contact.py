@@ -12,7 +12,8 @@ from rich.console import Console
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.compare.comparison_plot_data import _from_where_it_moves
-from tvimdesign.report.run.summary import print_summary
+from tvimdesign.report.run.first_screen.warnings import warnings_of
+from tvimdesign.report.run.full_summary import print_full_summary
 from tvimdesign.solve.result import answer
 from tvimdesign.study import drawn, read_study_text
 
@@ -21,14 +22,15 @@ def _said(text: str) -> str:
     study, stream = read_study_text(text, "test"), io.StringIO()
     table = table_for(study.mode)
     found = answer(drawn(study, Catalog(), table), Catalog(), table)
-    print_summary(found, table, Console(file=stream, width=130, color_system=None))
+    console = Console(file=stream, width=130, color_system=None)
+    print_full_summary(found, table, console, warnings=warnings_of(found, table, []))
     return " ".join(stream.getvalue().split())
 
 
 def test_a_run_says_where_small_motions_say_little_of_the_joint() -> None:
     said = _said(COMPRESSION)
-    assert "Mind at hot no PCL touches the link for" in said
-    assert "Mind at cold no PCL" not in said
+    assert "Warning at hot no PCL touches the link for" in said
+    assert "Warning at cold no PCL" not in said
 
 
 def test_nothing_is_said_of_contact_where_the_layer_is_bonded() -> None:

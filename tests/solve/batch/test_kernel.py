@@ -115,6 +115,7 @@ def test_a_run_without_a_front_loads_neither_the_compiler_nor_scipy_nor_matplotl
     code = (
         "import sys; from tvimdesign.report.figures import plot_process;"
         "from tvimdesign.report.run import front_report, run_study;"
+        "from tvimdesign.report.run.first_screen import run_screen;"
         "from tvimdesign.solve import result, search;"
         "print([m for m in ('numba', 'llvmlite', 'scipy', 'matplotlib') if m in sys.modules])"
     )

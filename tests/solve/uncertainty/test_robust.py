@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.front_report import kept_at
+from tvimdesign.report.run.full_summary import _robustness
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.run.summary import _robustness
 from tvimdesign.simulation.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer

@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
+import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 
 from rich.console import Console
+from rich.status import Status
+
+from tvimdesign.report.output.remaining_time import RemainingTime, clock
 
 Progress = Callable[[str], None]
 WIDTH = 132
+PLAIN_EVERY = 3.0  # s
+"""Time between plain lines; what is said in between is not shown."""
+_TICK = 0.25  # s
 
 
 def wide_console() -> Console:
@@ -22,10 +30,10 @@ def wide_console() -> Console:
 
 @contextmanager
 def progress_output() -> Iterator[Progress]:
-    """Say on standard error what is going on: one moving line on a terminal, plain lines elsewhere.
+    """Say on standard error what is going on, for how long, and what is left where that is known.
 
-    An interrupt that a library swallows is raised again at the next thing said; CasADi swallows some. An empty text
-    ends the line, to print something else.
+    One moving line on a terminal; plain lines, one every few seconds, elsewhere. An interrupt that a library swallows
+    is raised again at the next thing said; CasADi swallows some. An empty text ends the line, to print something else.
     """
     interrupted: list[int] = []
 
@@ -34,27 +42,64 @@ def progress_output() -> Iterator[Progress]:
         raise KeyboardInterrupt
 
     before = signal.signal(signal.SIGINT, interrupt)
-    console = Console(stderr=True, highlight=False, markup=False)
-    status = console.status("reading") if console.is_terminal else None
+    shown = _Shown(Console(stderr=True, highlight=False, markup=False))
 
     def say(text: str) -> None:
         if interrupted:
             raise KeyboardInterrupt
-        if status is None:
-            if text:
-                console.print(f"... {text}")
-        elif text:
-            status.update(text)
-            status.start()
-        else:
-            status.stop()
+        shown.say(text)
 
     try:
-        with status or nullcontext():
-            yield say
+        yield say
     except RuntimeError as error:
         if interrupted:
             raise KeyboardInterrupt from error
         raise
     finally:
+        shown.end()
         signal.signal(signal.SIGINT, before)
+
+
+class _Shown:
+    """What is said, shown with the time by a thread that ticks, as the work itself says something only now and then."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self._status = Status("", console=console) if console.is_terminal else None
+        self._text, self._new, self._remaining = "", False, RemainingTime()
+        self._began = time.monotonic()
+        self._printed = self._began - PLAIN_EVERY
+        self._lock, self._ended = threading.Lock(), threading.Event()
+        self._thread = threading.Thread(target=self._tick, daemon=True)
+        self._thread.start()
+
+    def say(self, text: str) -> None:
+        """Show a text from now on; an empty one ends the line."""
+        with self._lock:
+            self._text, self._new = text, bool(text)
+            self._remaining.heard(text, time.monotonic())
+            if self._status is not None and not text:
+                self._status.stop()
+            self._show()
+
+    def end(self) -> None:
+        """Show nothing more."""
+        self._ended.set()
+        self._thread.join()
+        if self._status is not None:
+            self._status.stop()
+
+    def _tick(self) -> None:
+        while not self._ended.wait(_TICK):
+            with self._lock:
+                self._show()
+
+    def _show(self) -> None:
+        now = time.monotonic()
+        times = clock(now - self._began, self._remaining.left(now))
+        if self._text and self._status is not None:
+            self._status.update(f"{self._text}{times and ' · '}{times}")
+            self._status.start()
+        elif self._new and now - self._printed >= PLAIN_EVERY:
+            self._console.print(f"... {self._text}{times and ' · '}{times}", soft_wrap=True)
+            self._printed, self._new = now, False

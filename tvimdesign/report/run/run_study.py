@@ -8,8 +8,6 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from rich.markup import escape
-
 from tvimdesign.base.errors import GeometryError, InfeasibleError, InputError, TvimError
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.catalog import Catalog
@@ -52,14 +50,14 @@ def describe(study: Study) -> str:
 
 def run_study(
     path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
-    resume: bool = False, prove: bool = False,
+    resume: bool = False, prove: bool = False, full: bool = False,
 ) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.figures.plot_process import PlotProcess
+    from tvimdesign.report.run.first_screen.run_screen import RunScreen, look_first, show
     from tvimdesign.report.run.front_report import FrontOfRun
     from tvimdesign.report.run.infeasible_report import complaint
     from tvimdesign.report.run.run_plot_data import drawings
-    from tvimdesign.report.run.summary import print_summary
 
     study = _proving(read_study(path)) if prove else read_study(path)
     table, catalog = table_for(study.mode), catalog_of(study)
@@ -67,9 +65,11 @@ def run_study(
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
         progress = stack.enter_context(progress_output())
+        screen = stack.enter_context(RunScreen(study))
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
         front = FrontOfRun(study, table, folder)
         found = _answered(path, study, catalog, table, folder, progress, front, as_json=as_json)
+        screen.ask(found)
         parts = cad and study.write.cad and found.found
         plotted = drawings(found, table) if drawing and found.found else []
         reported = _told(found, table, record_checks(study, catalog, table))
@@ -82,12 +82,10 @@ def run_study(
             drawing.begin(folder.path / "plots", plotted, study.name, vector=parts or study.write.vector)
         design = _write(folder, path, study, found, reported, table)
         progress("")
-        if not as_json:
-            print_summary(found, table, wide_console())
-            _print_rest(reported, front)
+        screen.tell(found, table, reported, front, folder, None if as_json else wide_console(), full=full)
         if parts:
             with _noting(troubles):
-                reported["cad"] = _parts(design, folder.path / "cad", progress, as_json)
+                reported["cad"] = _parts(design, folder.path / "cad", progress, as_json, in_full=full)
         if drawing and found.found:
             progress("drawing the plots")
             folder.look_up_versions()
@@ -99,7 +97,7 @@ def run_study(
         more = {"folder": str(folder.path), "not_done": [str(trouble) for trouble in troubles]}
         print(json.dumps({**reported, **more}, indent=2, allow_nan=False))
     else:
-        wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
+        show(look_first(folder, str(folder.path), wide_console().width), wide_console())
     if not found.found:
         raise InfeasibleError(complaint(found, table))
     if troubles:
@@ -173,16 +171,6 @@ def _sensitivities(
     return [Drawing("sensitivities", "sensitivity_figure.sensitivities", data)] if data["values"] else []
 
 
-def _print_rest(reported: RunResults, front: FrontOfRun) -> None:
-    for doubt in reported.get("doubts", []):
-        wide_console().print(f"[yellow]In doubt:[/yellow] {escape(doubt)}", soft_wrap=True)
-    names = reported.get("sensitivities_left_out")
-    if names:
-        said = f"Not in sensitivities.csv, as they never happen or hang on a profile: {', '.join(names)}."
-        wide_console().print(f"[dim]{said}[/dim]")
-    front.show(wide_console())
-
-
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
     """Make the parts of a design.json, or of a study, which is answered first."""
     if source.suffix != ".json":
@@ -203,10 +191,12 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         raise _partly(troubles)
 
 
-def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> Parts:
+def _parts(design: Path, out: Path, progress: Progress, as_json: bool, *, in_full: bool = True) -> Parts:
     """Make the parts beside their checks.json, and tell what was found. Raises GeometryError where a check fails."""
     from tvimdesign.cad import make_cad
-    from tvimdesign.report.run.solid_checks import print_solid_checks
+    from tvimdesign.report.run.first_screen.layout import block
+    from tvimdesign.report.run.first_screen.run_screen import show
+    from tvimdesign.report.run.solid_checks import in_short, print_solid_checks
 
     progress("parts: starting the CAD kernel")
     report = make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
@@ -215,8 +205,11 @@ def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> Parts:
     }  # fmt: skip
     write_whole(out / "checks.json", (json.dumps(reported, indent=2) + "\n").encode())
     progress("")
-    if not as_json:
-        print_solid_checks(report.checks, wide_console())
+    console = wide_console()
+    if not as_json and in_full:
+        print_solid_checks(report.checks, console)
+    elif not as_json:
+        show(block("Parts", in_short(report.checks), console.width), console)
     if report.failed:
         worst = sorted(report.failed, key=lambda check: -abs(check.value))[:3]
         lines = [

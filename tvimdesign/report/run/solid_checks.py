@@ -31,6 +31,16 @@ def print_solid_checks(checks: Sequence[SolidCheck], console: Console) -> None:
     console.print(_count(checks, max(0, len(found) - _SHOWN)), soft_wrap=True)
 
 
+def in_short(checks: Sequence[SolidCheck]) -> str:
+    """How many checks passed, how many did not, and the worst failure."""
+    found = worst_first(checks)
+    counts = (f"{sum(check.level == level for check in found)} {level}s" for level in _COLOURS)
+    said = [f"{sum(check.level == 'pass' for check in checks)} of {len(checks)} checks on the solids passed"]
+    said += [count for count in counts if not count.startswith("0 ")]
+    said += [f"the worst: {check.text}" for check in found[:1] if check.level == "failure"]
+    return "; ".join([*said, "cad/checks.json"] if found else said)
+
+
 def worst_first(checks: Sequence[SolidCheck]) -> list[SolidCheck]:
     """Failures, then warnings, those that miss their limit by the most first."""
     rank = {"failure": 0, "warning": 1}

@@ -6,7 +6,7 @@ by the implicit function theorem: with F(y, x) = 0, dy/dx = -(dF/dy)^-1 dF/dx; a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +17,7 @@ from scipy.sparse.linalg import splu
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si
-from tvimdesign.device import FirstOscillation
+from tvimdesign.device import FirstOscillation, Table
 from tvimdesign.simulation.casadi_setup import ca
 from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import DeviceFunctions
@@ -131,12 +131,18 @@ def _supplied_behind(model: DeviceFunctions, name: str) -> set[str]:
 
 def _lost(model: DeviceFunctions, cycle: Cycle, driven: set[str]) -> set[str]:
     """Rows the cycle does not supply here: those that never happen, and those of or after a phase with a profile."""
-    lost = {name for name, value in cycle.values.items() if not np.isfinite(value)}
+    return {name for name, value in cycle.values.items() if not np.isfinite(value)} | behind_profiles(
+        model.table, driven
+    )
+
+
+def behind_profiles(table: Table, driven: Collection[str]) -> set[str]:
+    """The supplied rows of phases whose current follows a profile, and of phases that come after or are like them."""
     touched = set(driven)
-    for name, phase in model.phases.items():
-        if phase.phase.after in touched or phase.phase.like in touched:
-            touched.add(name)
-    return lost | {row.name for row in model.table.supplied if row.phase in touched}
+    for phase in table.phases:
+        if phase.after in touched or phase.like in touched:
+            touched.add(phase.name)
+    return {row.name for row in table.supplied if row.phase in touched}
 
 
 def _cycle_by_inputs(

@@ -1,17 +1,18 @@
-"""The summary a run prints: verdict, what was found, what must hold, what holds it, what to mind."""
+"""Every table of a run, for `--full` and summary.txt: what was found, what must hold and rests on what, its price."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
 
 from tvimdesign.base.units import format_quantity, from_si, pretty
-from tvimdesign.device import Input, Table
+from tvimdesign.device import Input, Table, table_for
 from tvimdesign.report.output.choices_tables import best_rows, price_in_words, tally_in_words
 from tvimdesign.report.output.tables import (
     NOTHING,
@@ -24,28 +25,28 @@ from tvimdesign.report.output.tables import (
     variable_rows,
 )
 from tvimdesign.report.output.thresholds import meaning
-from tvimdesign.report.run.infeasible_report import endings
 from tvimdesign.report.run.why import binding, sentences, slack_in_words
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
-_LOOSE = 0.05
-"""Share of the first swing without contact from which on small motions say little of the joint."""
 _SENTENCES_SHOWN = 3
 _ROUND = 1e-5  # of any unit a limit is written in
 
 
-def print_summary(answer: StudyResult, table: Table, console: Console) -> None:
-    """Print an answer for people."""
-    design = answer.design
-    console.print(f"[bold]{escape(design.name)}[/bold]  ({design.mode} mode)")
+def print_full_summary(
+    answer: StudyResult,
+    table: Table,
+    console: Console,
+    uncertainty: Mapping[str, Any] | None = None,
+    warnings: Sequence[tuple[str, str]] = (),
+) -> None:
+    """Print everything of an answer; `uncertainty` is what `uncertainty_data` says, `warnings` what to mend and how."""
     console.print(_verdict(answer))
-    console.print(_in_short(answer, table))
     for sentence in _robustness(answer):
         console.print(sentence)
     if not answer.found:
         _print_variables(answer, table, console, "Where the solver ended; this is not a design")
         return
-    _print_warnings(answer, table, console)
+    _print_warnings(answer, warnings, console)
     _print_variables(answer, table, console, "What was varied")
     _print_choosing(answer, table, console)
     _print_drives(answer, table, console)
@@ -59,6 +60,7 @@ def print_summary(answer: StudyResult, table: Table, console: Console) -> None:
         grid.add_row(name, value, unit, description)
     console.print(grid)
     _print_checks(answer, table, console)
+    _print_assumptions((uncertainty or {}).get("assumptions", {}), console)
     _print_prices(answer, table, console)
 
 
@@ -70,7 +72,7 @@ def _robustness(answer: StudyResult) -> list[str]:
     if reached is None or not reached.shares:
         return [
             f"Limits are kept by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
-            "room they show below; `tvimdesign tolerate` checks that on many modules."
+            "margin they show below; `tvimdesign tolerate` checks that on many modules."
         ]
     least = min(reached.shares, key=lambda name: reached.shares[name])
     return [
@@ -150,25 +152,12 @@ def _print_points(answer: StudyResult, table: Table, console: Console) -> None:
     for row in rows:
         grid.add_row(*row)
     console.print(grid)
-    for point in points:
-        if f"solid_fraction@{point}" in answer.intervals:
-            console.print(
-                f"[yellow]Mind[/yellow] the point {point} lies in the melting range: there the layer depends on its "
-                "history. The figures reach from cooled from the melt, still liquid, to heated and melting late."
-            )
-        lost = answer.design.values.get(f"contact_lost@{point}", 0.0)
-        if lost > _LOOSE:
-            share = f"{100.0 * lost:.2g} %"
-            console.print(
-                f"[yellow]Mind[/yellow] at {point} no PCL touches the link for {share} of its first swing: "
-                "stiffness, damping and damping ratio above are those of small motions, before a hold."
-            )
 
 
 def _grid(title: str, columns: tuple[str, ...], right: tuple[int, ...] = ()) -> Grid:
     grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for i, column in enumerate(columns):
-        grid.add_column(column, justify="right" if i in right else "left", header_style="dim", overflow="fold")
+        grid.add_column(column, justify="right" if i in right else "left", header_style="dim", no_wrap=i == 0)
     return grid
 
 
@@ -204,19 +193,6 @@ def _verdict(answer: StudyResult) -> str:
     )
 
 
-def _in_short(answer: StudyResult, table: Table) -> str:
-    """The answer in one line."""
-
-    def shown(name: str) -> str:
-        text, unit = value_text(answer, name, table), pretty(table.unit(name))
-        return text if text == "never" else f"{text} {unit}"
-
-    return (
-        f"Soft: {shown('softening_time')}. Stiff again: {shown('stiffening_time')}, its layer half frozen: "
-        f"{shown('frozen_time')}. {shown('envelope_diameter')} across, {shown('module_mass')}."
-    )
-
-
 def _print_checks(answer: StudyResult, table: Table, console: Console) -> None:
     """Requirements always; the machine's own rules only where they bind or break."""
     grid = _grid("What must hold", ("", "limit", "value", "unit", "margin", "because"), right=(2, 4))
@@ -237,7 +213,7 @@ def _print_checks(answer: StudyResult, table: Table, console: Console) -> None:
     if grid.row_count:
         console.print(grid)
     if hidden:
-        console.print(f"[dim]{hidden} rules of the machine hold with room to spare.[/dim]")
+        console.print(f"[dim]{hidden} rules of the machine hold with a margin.[/dim]")
 
 
 def _worst(check: ConstraintCheck, table: Table) -> str:
@@ -262,9 +238,9 @@ def _print_prices(answer: StudyResult, table: Table, console: Console) -> None:
         console.print(grid)
         for sentence in sentences(answer)[:_SENTENCES_SHOWN]:
             console.print(escape(sentence))
-    room = slack_in_words(answer, table)
-    if room:
-        console.print(f"[dim]{escape(room)}[/dim]")
+    slack = slack_in_words(answer, table)
+    if slack:
+        console.print(f"[dim]{escape(slack)}[/dim]")
 
 
 def _saved(percent: float) -> str:
@@ -272,27 +248,27 @@ def _saved(percent: float) -> str:
     return f"{percent:.2g} %" if abs(percent) >= 1e-4 else "0 %"
 
 
-def _print_warnings(answer: StudyResult, table: Table, console: Console) -> None:
-    for check in answer.warnings:
-        value = format_quantity(check.value, table.unit(check.output))
-        console.print(f"[yellow]Mind[/yellow] {check.output} is {value}: {check.origin}.")
-    if math.isfinite(answer.design.value("response_time")) and math.isinf(answer.design.value("stiffening_time")):
-        console.print(
-            "[yellow]Mind[/yellow] the joint never gets stiff again within `horizon`: the cooling current heats more "
-            "than it cools, or the cold side is too warm; try less `cooling_current`, or a sink."
-        )
-    for check in answer.undecided:
-        console.print(
-            f"[yellow]Mind[/yellow] {check.text} holds as nominally heated, and not with every history: a point lies "
-            f"in the melting range, and the margin is {_worst(check, table)} at worst."
-        )
-    solution = answer.solution
+def _print_warnings(answer: StudyResult, warnings: Sequence[tuple[str, str]], console: Console) -> None:
+    """What is wrong and what mends it; and every other optimum that starts ended at."""
+    for text, mend in warnings:
+        console.print(f"[yellow]Warning[/yellow] {escape(text)}" + (f"; mend: {escape(mend)}" if mend else ""))
+    solution, table = answer.solution, table_for(answer.design.mode)
     for start in solution.distinct_optima()[1:] if solution else []:
         where = ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in start.end.items())
         count, all_ = solution.reached(start) if solution else 0, len(solution.free_starts) if solution else 0
         console.print(
-            f"[yellow]Mind[/yellow] another optimum, objective {start.objective:.5g}, reached by {count} of {all_} "
-            f"starts: {where}."
+            f"Another optimum, objective {start.objective:.5g}, reached by {count} of {all_} starts: {where}."
         )
-    for line in endings(solution.free_starts) if solution else []:
-        console.print(f"[dim]{escape(line)}[/dim]")
+
+
+def _print_assumptions(assumptions: Mapping[str, Sequence[Mapping[str, Any]]], console: Console) -> None:
+    """What the requirements rest on: assumed inputs, and what each output is at the ends of their ranges."""
+    heads = ("", "at low", "at high", "unit", "assumed", "value", "from", "to", "unit")
+    grid = _grid("What rests on what is assumed", heads, right=(1, 2, 5, 6, 7))
+    for output, rows in assumptions.items():
+        for i, row in enumerate(rows):
+            ends = ("never" if row[end] is None else number(row[end]) for end in ("output_at_low", "output_at_high"))
+            inputs = (number(row["value"]), number(row["low"]), number(row["high"]), row["unit"])
+            grid.add_row(output if i == 0 else "", *ends, row["output_unit"], row["input"], *inputs)
+    if grid.row_count:
+        console.print(grid)

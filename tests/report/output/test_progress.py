@@ -1,0 +1,58 @@
+"""What is told while a run works: elapsed time, what is left, and not more than a line every few seconds."""
+
+from __future__ import annotations
+
+import re
+import time
+
+import pytest
+
+from tvimdesign.report.output import progress
+from tvimdesign.report.output.remaining_time import RemainingTime, clock, duration
+
+
+def test_what_is_left_is_the_mean_of_the_steps_that_are_done() -> None:
+    left = RemainingTime()
+    left.heard("start 1 of 4", 10.0)
+    assert left.left(12.0) is None
+    left.heard("start 2 of 4", 14.0)
+    assert left.left(14.0) == pytest.approx(12.0)
+    left.heard("a word between", 15.0)
+    assert left.left(15.0) == pytest.approx(11.0)
+    left.heard("start 4 of 4", 30.0)
+    assert left.left(30.0) == pytest.approx(20.0 / 3.0)
+    left.heard("drawing the plots", 36.0)
+    assert left.left(36.0) is None
+
+
+def test_another_series_begins_anew() -> None:
+    left = RemainingTime()
+    left.heard("start 1 of 2", 0.0)
+    left.heard("start 2 of 2", 5.0)
+    left.heard("point 1 of 9", 10.0)
+    assert left.left(10.0) is None
+    left.heard("point 3 of 9", 14.0)
+    assert left.left(14.0) == pytest.approx(14.0)
+
+
+def test_times_are_told_as_people_do() -> None:
+    assert [duration(seconds) for seconds in (8.2, 59.4, 125.0, 4320.0)] == ["8 s", "59 s", "2 min 05 s", "1 h 12 min"]
+    assert clock(0.4, 9.0) == ""
+    assert clock(3.0, None) == "3 s"
+    assert clock(3.0, 0.2) == "3 s"
+    assert clock(3.0, 90.0) == "3 s, about 1 min 30 s left"
+
+
+def test_plain_lines_come_every_few_seconds_and_the_last_thing_said_is_told(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(progress, "PLAIN_EVERY", 1.2)
+    with progress.progress_output() as say:
+        for i in range(10):
+            say(f"start {i + 1} of 40")
+        time.sleep(1.6)  # nothing is said: a thread tells the last
+        say("")
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "... start 1 of 40"
+    assert len(lines) == 2
+    assert re.fullmatch(r"\.\.\. start 10 of 40 · [1-9] s(, about .* left)?", lines[1])

@@ -1,0 +1,202 @@
+"""The first screen: at most 40 lines in any width, whole names, blocks in order, and figures that the answer has."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from comparable import COMPRESSION, SHEAR
+from support import ROOT, Command
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table, table_for
+from tvimdesign.report.run.first_screen.requirements import lines_of
+from tvimdesign.report.run.first_screen.screen import AFTER, LINES, Told, first_screen
+from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
+from tvimdesign.report.run.record_checks import record_checks
+from tvimdesign.report.run.why import binding
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import Study, drawn, read_study, read_study_text
+
+LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 2.6 mm}"
+CHOICES = SHEAR.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}")
+MANY = """mode: shear
+require:
+  joint_stiffness@hot: [">= 1 N.m/rad", "<= 900 N.m/rad"]
+  equilibrium_stiffening_time: "<= 900 s"
+  far_face_cooling_time: "<= 90 min"
+  structure_temperature_margin: ">= -90 K"
+  stiffening_structure_margin: ">= -90 K"
+  cold_side_temperature_margin: ">= 0 K"
+  envelope_diameter: "<= 20 mm"
+  envelope_height: "<= 90 mm"
+  module_mass: "<= 300 g"
+  frozen_time: "<= 900 s"
+  peak_power: "<= 15 W"
+  peak_voltage: "<= 12 V"
+  holding_torque: ">= 1 N.m"
+  impedance_range: ">= 2"
+  spring_index: ">= 4"
+  softening_time: "<= 300 s"
+"""
+BLOCKS = ("Weighs", "Soft after", "Stiff again", "Needs", "Chosen", "Held back by", "Warning", "Yield")
+
+
+class Case(NamedTuple):
+    """A study answered, with what its screen tells beside the answer."""
+
+    study: Study
+    table: Table
+    found: StudyResult
+    told: Told
+
+    def screen(self, width: int) -> list[str]:
+        """The lines in so many columns."""
+        return first_screen(self.found, self.table, self.told, width)
+
+
+@cache
+def case(name: str) -> Case:
+    """A shipped study as it is drawn or optimised, or one of the texts above."""
+    texts = {"choices": CHOICES, "many": MANY}
+    study = read_study_text(texts[name], name) if name in texts else read_study(ROOT / f"studies/{name}.yaml")
+    study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
+    table, catalog = table_for(study.mode), Catalog()
+    if name in ("wrist_joint", "paper_compression"):
+        study = drawn(study, catalog, table)
+    found = answer(study, catalog, table)
+    data = Uncertainty(study).data(found.design, 256)
+    return Case(study, table, found, Told(12.3, data, record_checks(study, catalog, table)))
+
+
+CASES = ["paper_shear", "paper_as_published", "paper_compression", "wrist_joint", "choices", "many"]
+each = pytest.mark.parametrize("name", CASES)
+widths = pytest.mark.parametrize("width", [80, 100, 140])
+
+
+@widths
+@each
+def test_no_screen_has_more_than_forty_lines_nor_a_line_that_is_too_wide(name: str, width: int) -> None:
+    lines = case(name).screen(width)
+    assert len(lines) + AFTER <= LINES == 40
+    assert max(map(len, lines)) <= width
+    assert all(lines)
+
+
+@widths
+@each
+def test_no_name_is_broken(name: str, width: int) -> None:
+    one = case(name)
+    records = {path.stem for path in (ROOT / "tvimdesign/catalog/data").rglob("*.yaml")}
+    words = {word for row in one.table.choices for word in row.options}
+    known = {*one.table.by_name, *records, *words}
+    for line in one.screen(width):
+        for found in re.findall(r"[a-z]\w*_\w*", line):
+            assert found in known, line
+
+
+@widths
+@each
+def test_every_requirement_is_there_by_the_name_the_study_gives_it(name: str, width: int) -> None:
+    one = case(name)
+    text = "\n".join(one.screen(width))
+    asked = {requirement.output for requirement in one.study.require}
+    shown = {output for output in asked if re.search(rf"^{re.escape(output)}(\s|$)", text, re.MULTILINE)}
+    assert asked == shown or (name == "many" and "more with larger margins" in text)
+    broken = {check.output for check in one.found.checks if not check.kept}
+    assert all(re.search(rf"^{re.escape(output)}\s.*BROKEN", text, re.MULTILINE) for output in broken & asked)
+
+
+@widths
+@each
+def test_the_blocks_stand_in_their_order(name: str, width: int) -> None:
+    lines = case(name).screen(width)
+    places = [(i, block) for block in BLOCKS for i, line in enumerate(lines) if line.startswith(f"{block} ")]
+    assert places == sorted(places)
+    assert {"Weighs", "Soft after", "Stiff again", "Needs", "Yield"} <= {block for _, block in places}
+    assert case(name).study.name in lines[0]
+
+
+def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
+    assert case("paper_shear").screen(140)[0].endswith(" · shear · OPTIMAL · 2 of 3 starts agree · 12 s")
+    assert case("paper_as_published").screen(140)[0].endswith(" · shear · EVALUATED, ALL LIMITS KEPT · 12 s")
+    assert re.search(r"EVALUATED, \d+ OF \d+ LIMITS BROKEN", case("many").screen(140)[0])
+
+
+def test_what_is_asked_and_got_is_what_the_answer_has() -> None:
+    one = case("paper_shear")
+    lines = {line.name: line for line in lines_of(one.found, one.table, {})}
+    values = one.found.design.values
+    assert lines["spring_stiffness"].asked == "5.2 to 5.8 N·m/rad"
+    assert float(lines["spring_stiffness"].got) == pytest.approx(values["spring_stiffness"], rel=1e-3)
+    assert lines["spring_stiffness"].stands == "BINDS"
+    assert lines["holding_torque"].asked == ">= 12 N·m"  # told as asked, though it is the least of three
+    assert lines["holding_torque"].stands == "BINDS"
+    assert lines["impedance_range"].stands == f"{100.0 * (values['impedance_range'] / 50.0 - 1.0):.2g} %"
+    assert lines["peltier_temperature_margin"].got == "0"
+
+
+def test_what_holds_it_back_has_the_largest_shadow_prices() -> None:
+    one = case("paper_shear")
+    screen = one.screen(140)
+    first = next(i for i, line in enumerate(screen) if line.startswith("Held back by"))
+    prices = sorted((held.shadow_price for held in binding(one.found)), reverse=True)
+    found = [re.search(r"(\S+) .*shadow price (\S+) %", line[13:]) for line in screen[first : first + 3]]
+    assert [match and match[2] for match in found] == [f"{price:.2g}" for price in prices[:3]]
+    held = {one.output for one in binding(one.found)}
+    assert all(match and match[1] in held for match in found)
+
+
+def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(tvimdesign: Command, tmp_path: Path) -> None:
+    study = ROOT / "studies/paper_as_published.yaml"
+    short = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "short")
+    full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "full")
+    assert len(short.stdout.splitlines()) <= LINES
+    assert short.stdout.splitlines()[-1].lstrip().startswith(("Look first", "all tables"))
+    for table in ("At the operating points", "What the module is", "What rests on what is assumed"):
+        assert table not in short.stdout
+        assert table in full.stdout
+        assert table in (tmp_path / "short/summary.txt").read_text()
+    # What a run took is in its manifest: the same study leaves the same file.
+    assert (tmp_path / "short/summary.txt").read_bytes() == (tmp_path / "full/summary.txt").read_bytes()
+
+
+INFEASIBLE = (
+    "mode: shear\nname: Too much asked\n"
+    "vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], coil_count: [3, 8]}\n"
+    'require: {spring_stiffness: ">= 20 N.m/rad", spring_fatigue_safety: ">= 3"}\nminimize: module_mass\n'
+    "solver: {starts: 1, max_iterations: 60}\n"
+)
+
+
+def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_is_on_standard_error(
+    tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONWARNINGS", "always")
+    (tmp_path / "study.yaml").write_text(INFEASIBLE)
+    done = tvimdesign("run", tmp_path / "study.yaml", "--no-cad", "--no-plots", "--out", tmp_path / "out")
+    assert done.returncode == 3
+    lines = done.stdout.splitlines()
+    assert lines[0].startswith("Too much asked · shear · NO DESIGN FOUND")
+    assert "BROKEN" in done.stdout
+    progress = [line for line in done.stderr.splitlines() if line.startswith("... ")]
+    said = [line for line in done.stderr.splitlines() if not line.startswith("... ")]
+    assert progress
+    assert said[0].startswith("Too much asked: no design found that keeps every limit")
+    assert len(lines) + len(said) <= LINES
+    assert "Where the solver ended" in (tmp_path / "out/summary.txt").read_text()
+
+
+@pytest.mark.parametrize("text", [SHEAR, COMPRESSION], ids=["shear", "compression"])
+def test_no_library_warns_on_standard_error(
+    tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
+) -> None:
+    monkeypatch.setenv("PYTHONWARNINGS", "always")
+    (tmp_path / "study.yaml").write_text(text)
+    done = tvimdesign("run", tmp_path / "study.yaml", "--no-cad", "--sensitivities", "--out", tmp_path / "out")
+    assert done.returncode == 0
+    assert [line for line in done.stderr.splitlines() if not line.startswith("... ")] == []
+    assert done.stdout.splitlines()[0].startswith("study · ")

@@ -1,0 +1,77 @@
+"""Every warning has a line that a study can hold, and one that a run proposes does mend what it warns of."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import yaml
+from support import ROOT
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.report.run.first_screen.mending import filled, hints, mending
+from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_of
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import read_study, read_study_text
+
+ADVICE = {row.name: mode for mode in ("compression", "shear") for row in table_for(mode).outputs if row.advice}
+PLACES = {"point": "hot"}
+OTHERS = {kind: entry["mend"] for kind, entry in hints()["others"].items()}
+
+
+def test_every_advice_of_the_table_has_what_mends_it_and_nothing_else_has() -> None:
+    assert hints()["advice"].keys() == ADVICE.keys()
+    assert all(entry["mend"] for entry in hints()["advice"].values())
+
+
+@pytest.mark.parametrize(
+    ("mode", "line"),
+    [(ADVICE[name], line) for name, entry in hints()["advice"].items() for line in entry["mend"]]
+    + [("shear", line) for line in OTHERS.values()],
+)
+def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path: Path, mode: str, line: str) -> None:
+    entry = yaml.safe_load(filled(line, PLACES))
+    assert len(entry) == 1
+    assert "<" not in filled(line, PLACES).replace('"<=', "")
+    if "catalog" in entry:
+        (tmp_path / "my_records").mkdir()
+    rest = {"mode": mode, **({"minimize": "module_mass"} if "vary" in entry else {})}
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({**rest, **entry}, sort_keys=False))
+    read_study(tmp_path / "study.yaml")
+
+
+def _published(extra: str = "") -> StudyResult:
+    text = (ROOT / "studies/paper_as_published.yaml").read_text()
+    study = read_study_text(text.replace("module:\n", f"module:\n{extra}", 1), "a test")
+    return answer(study, Catalog(), table_for(study.mode))
+
+
+def test_the_line_that_is_proposed_mends() -> None:
+    found, table = _published(), table_for("shear")
+    proposed = {check.output: mending(check, found, table) for check in found.warnings}
+    for output in ("stiffening_structure_margin", "free_angle_over_preload"):
+        assert proposed[output].startswith("module: {")
+        words = yaml.safe_load(proposed[output])["module"]
+        again = _published("".join(f"  {name}: {word}\n" for name, word in words.items()))
+        assert output not in {check.output for check in again.warnings}
+    # No material of the list bears the pads' 127 degC, and a study that varies nothing cannot be asked to.
+    assert proposed["structure_temperature_margin"] == (
+        'vary the current or a size, and write require: {structure_temperature_margin: ">= 0 K"}'
+    )
+
+
+def test_a_module_that_never_stiffens_is_warned_of_first() -> None:
+    found = _published("  cooling_current: 1 A\n")
+    said = warnings_of(found, table_for("shear"), ["a sheet contradicts itself."])
+    assert "never gets stiff again" in said[0][0]
+    assert said[0][1] == "module: {cooling_current: 0.2 A, cold_side: sink}"
+    assert said[-1] == ("a sheet contradicts itself", "catalog: my_records")
+
+
+def test_warnings_that_do_not_fit_are_counted() -> None:
+    said = [(f"warning {i} of something", "module: {cover: plate}") for i in range(5)]
+    lines = warning_lines(said, 80, 3)
+    assert len(lines) == 3
+    assert lines[-1].strip() == "3 more: --full, summary.txt"
+    assert warning_lines(said, 80, 5)[-1] == "Warning      warning 4 of something; write module: {cover: plate}"

@@ -1,0 +1,74 @@
+"""What holds a design back: the active constraints with the largest shadow prices; and the yield, in one figure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from tvimdesign.report.run.first_screen.layout import LABEL, block, columns
+from tvimdesign.report.run.why import binding
+from tvimdesign.solve.result import StudyResult
+
+_NAMED = 3
+
+
+def held_back_lines(answer: StudyResult, width: int) -> list[str]:
+    """Three lines at most; what a share is of stands where there is place for it."""
+    held = binding(answer)[:_NAMED]
+    if not held:
+        return []
+    outputs = list(answer.design.study["minimize"])
+    of = outputs[0] if len(outputs) == 1 else "the objective"
+    for words in (f" of {of}", ""):
+        rows = [(one.text, f"shadow price {one.shadow_price:.2g} %{words} per {one.step}") for one in held]
+        lines = columns(rows)
+        if LABEL + max(map(len, lines)) <= width:
+            break
+    else:
+        lines = [f"{one.text}: {one.shadow_price:.2g} % per {one.step}" for one in held]
+    return [f"{('Held back by' if i == 0 else ''):{LABEL}}{line}" for i, line in enumerate(lines)]
+
+
+def yield_lines(answer: StudyResult, data: Mapping[str, Any], width: int, *, timed: bool) -> list[str]:
+    """How many modules keep the limits, with what that covers and what raises it."""
+    if not answer.found:
+        return []
+    if not data:
+        return block("Yield", "not computed: `tvimdesign tolerate` says why", width)
+    tolerances = "the study's tolerances" if data["tolerances"] == "study" else "the usual tolerances"
+    share = data["yield"]
+    if share is None:
+        return block("Yield", f"no limit depends on what spreads under {tolerances}", width)
+    low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
+    said = f"{100.0 * share['share']:.3g} % ({low} to {high}) of modules keep the {data['limits']} limits"
+    said = f"{said} that {tolerances} can move"
+    if data["left_out"]:
+        said += f"; {len(data['left_out'])} that never come in or follow a profile are not counted"
+    if timed:
+        said += f"; {data['modules']} drawn in {data['seconds']:.1f} s"
+    lines = block("Yield", said, width)
+    hint = _to_raise(answer, data)
+    return [*lines, *block("", hint, width)] if hint and share["share"] < _GOOD else lines
+
+
+_GOOD = 0.9973
+"""Yield from which a module is no concern: three standard deviations to either side."""
+
+
+def _to_raise(answer: StudyResult, data: Mapping[str, Any]) -> str:
+    """What to write in the study for a higher yield."""
+    if answer.solution is None:
+        return "which limit loses most: `tvimdesign tolerate`"
+    if answer.design.study.get("robust"):
+        return f"to raise it: `robust: {{yield: 99 %}}`; the study asks for {_robust(answer.design.study['robust'])}"
+    tolerances = "" if data["tolerances"] == "study" else "`tolerances: standard` and "
+    return f"to raise it: {tolerances}`robust: {{yield: 99 %}}`"
+
+
+def _robust(robust: Mapping[str, Any]) -> str:
+    share = robust.get("share")
+    return (
+        f"{100.0 * share:.4g} % of each limit alone"
+        if share is not None
+        else f"{robust['sigma']:.3g} standard deviations"
+    )

@@ -1,0 +1,105 @@
+"""What the terminal and summary.txt say of a run: the first screen, every table if asked, and where to look first."""
+
+from __future__ import annotations
+
+import io
+import time
+from collections.abc import Mapping
+from types import TracebackType
+from typing import Any
+
+from rich.console import Console
+from rich.text import Text
+
+from tvimdesign.device import Table
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.run.first_screen.layout import LABEL, joined
+from tvimdesign.report.run.first_screen.screen import Told, first_screen
+from tvimdesign.report.run.first_screen.uncertainty_process import UncertaintyProcess
+from tvimdesign.report.run.first_screen.warnings import warnings_of
+from tvimdesign.report.run.front_report import FrontOfRun
+from tvimdesign.report.run.full_summary import print_full_summary
+from tvimdesign.solve.result import StudyResult
+from tvimdesign.study import Study
+
+FILE = "summary.txt"
+_FILE_WIDTH = 120
+_COLOURS = {
+    "bold": r"^\S.*? · (?=shear|compression)", "green": r"OPTIMAL|ALL LIMITS KEPT",
+    "red": r"BROKEN|NO DESIGN FOUND|NEVER SOFT", "yellow": r"\bBINDS\b|\bOPEN\b|^Warning",
+}  # fmt: skip
+_LOOK_FIRST = (
+    "cad/preview.png", "plots/front.png", "plots/cycle.png", "why.csv", "results.csv",
+)  # fmt: skip
+"""Files of a run, the one to look at first first."""
+
+
+class RunScreen:
+    """A run's screen: started with the run, so that its clock runs and the uncertainty is known in time."""
+
+    def __init__(self, study: Study) -> None:
+        """Start the clock, and the process that says how sure the study's design is."""
+        self._began = time.perf_counter()
+        self._process = UncertaintyProcess(study)
+        self._asked = False
+        self._lines: list[str] = []
+
+    def __enter__(self) -> RunScreen:
+        """Return itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        """End the process if it has not ended."""
+        self._process.__exit__(kind, value, at)
+
+    def ask(self, answer: StudyResult) -> None:
+        """Ask how sure the design is, if there is one, and come back at once."""
+        if answer.found:
+            self._process.begin(answer.design)
+            self._asked = True
+
+    def tell(
+        self, answer: StudyResult, table: Table, reported: Mapping[str, Any], front: FrontOfRun, folder: ResultsFolder,
+        console: Console | None, *, full: bool,
+    ) -> None:  # fmt: skip
+        """Write summary.txt, and print the first screen, or everything."""
+        uncertainty = self._process.finish() if self._asked else {}
+        doubts = reported["doubts"]
+
+        def lines(width: int, seconds: float | None) -> list[str]:
+            return first_screen(answer, table, Told(seconds, uncertainty, doubts, front.front), width)
+
+        def rest(on: Console) -> None:
+            print_full_summary(answer, table, on, uncertainty, warnings_of(answer, table, doubts))
+            names = reported.get("sensitivities_left_out")
+            if names:
+                on.print(f"Not in sensitivities.csv, as they never happen or follow a profile: {', '.join(names)}.")
+            front.show(on)
+
+        stream = io.StringIO()
+        file = Console(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False)
+        show(lines(_FILE_WIDTH, None), file)
+        file.print()
+        rest(file)
+        folder.write(FILE, "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n")
+        if console is not None:
+            show(lines(console.width, time.perf_counter() - self._began), console)
+            if full:
+                console.print()
+                rest(console)
+
+
+def show(lines: list[str], console: Console) -> None:
+    """Print lines as they are: none is wrapped again."""
+    for line in lines:
+        text = Text(line)
+        for style, pattern in _COLOURS.items():
+            text.highlight_regex(pattern, style)
+        console.print(text, soft_wrap=True)
+
+
+def look_first(folder: ResultsFolder, shown: str, width: int) -> list[str]:
+    """Where to look first: a picture or a table of the folder, and the tables."""
+    first = next((name for name in _LOOK_FIRST if (folder.path / name).exists()), FILE)
+    files = [f"{shown}/{first}"] + ([f"all tables: {shown}/{FILE}, --full"] if first != FILE else [])
+    return joined("Look first", files, max(width, LABEL + 1))

@@ -1,0 +1,60 @@
+"""The first screen, put together: at most 40 lines in any width, the rest is left to the tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from tvimdesign.device import Table
+from tvimdesign.report.run.first_screen.held_back import held_back_lines, yield_lines
+from tvimdesign.report.run.first_screen.requirements import Line, lines_of, screen_lines
+from tvimdesign.report.run.first_screen.verdict import chosen_lines, current_lines, header, module_lines, trade_lines
+from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_of
+from tvimdesign.solve.result import StudyResult
+
+LINES = 40
+AFTER = 5
+"""Lines kept for what comes after the answer: the parts, and where to look first."""
+_REQUIREMENTS = 17
+"""Lines that the requirements may take."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """What a first screen tells beside the answer itself."""
+
+    seconds: float | None = None
+    """How long the run took; None where that is not to be told."""
+    uncertainty: Mapping[str, Any] = field(default_factory=dict)
+    """What `uncertainty_data` says; empty where nothing is known."""
+    doubts: Sequence[str] = ()
+    """What chosen records say against themselves."""
+    front: Any = None
+
+
+def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> list[str]:
+    """Lines of plain text, none wider than `width` but a name that is."""
+    assumptions = told.uncertainty.get("assumptions", {})
+    requirements = lines_of(answer, table, assumptions)
+    top = [*header(answer, told.seconds, width), *_some(requirements, width)]
+    if answer.found:
+        top += module_lines(answer, table, assumptions, width)
+        top += chosen_lines(answer, table, width) + current_lines(answer, width)
+        top += trade_lines(told.front, table, width)
+        top += held_back_lines(answer, width)
+    bottom = yield_lines(answer, told.uncertainty, width, timed=told.seconds is not None)
+    left = LINES - AFTER - len(top) - len(bottom)
+    return [*top, *warning_lines(warnings_of(answer, table, told.doubts), width, max(left, 1)), *bottom]
+
+
+def _some(requirements: Sequence[Line], width: int) -> list[str]:
+    """The requirements; of very many, those with the least margin, and how many more there are."""
+    by_margin = sorted(requirements, key=lambda line: line.least)
+    for count in range(len(requirements), 0, -1):
+        least = by_margin[:count]
+        lines = screen_lines([line for line in requirements if line in least], width)
+        lines += [f"{len(requirements) - count} more with larger margins: --full"] if count < len(requirements) else []
+        if len(lines) <= _REQUIREMENTS:
+            return lines
+    return []

@@ -1,0 +1,147 @@
+"""The first lines: name, mode, status, starts that agree, seconds; and what the module weighs, measures and needs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.device import Table
+from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
+from tvimdesign.report.run.first_screen.layout import block, joined
+from tvimdesign.solve.result import StudyResult
+
+_DIGITS = 3
+
+
+def header(answer: StudyResult, seconds: float | None, width: int) -> list[str]:
+    """One line, or two where the name is long."""
+    parts = [answer.design.name, answer.design.mode, status(answer), *starts(answer)]
+    parts += [] if seconds is None else [f"{seconds:.{1 if seconds < 10.0 else 0}f} s"]
+    return joined("", parts, width)
+
+
+def status(answer: StudyResult) -> str:
+    """What a study came to, in capitals."""
+    broken = sum(not check.kept for check in answer.checks)
+    if not answer.found:
+        return "NO DESIGN FOUND"
+    if answer.solution is not None:
+        return "OPTIMAL"
+    if math.isinf(answer.design.value("response_time")):
+        return "EVALUATED, NEVER SOFT"
+    if broken:
+        return f"EVALUATED, {broken} OF {len(answer.checks)} LIMITS BROKEN"
+    if answer.undecided:
+        return f"EVALUATED, HISTORY DECIDES {len(answer.undecided)} LIMITS"
+    return "EVALUATED, ALL LIMITS KEPT"
+
+
+def starts(answer: StudyResult) -> Iterator[str]:
+    """How many of the solver's starts ended at the optimum."""
+    if answer.solution is None:
+        return
+    free, optima = answer.solution.free_starts, answer.solution.distinct_optima()
+    if not answer.found or not optima:
+        yield f"{sum(start.converged for start in free)} of {len(free)} starts converged"
+        return
+    agree = answer.solution.reached(optima[0])
+    if len(free) == 1:
+        yield "one start: others may be better"
+    else:
+        yield f"found by 1 of {len(free)} starts" if agree == 1 else f"{agree} of {len(free)} starts agree"
+
+
+def module_lines(answer: StudyResult, table: Table, assumptions: Mapping[str, Sequence[Any]], width: int) -> list[str]:
+    """What it weighs and measures, when it is soft and stiff, and what it draws from the supply."""
+    said = _Values(answer, table)
+    peaks = (said.most("peak_voltage", "stiffening_peak_voltage"), said.most("peak_current", "stiffening_peak_current"))
+    measures = f"{said('envelope_diameter')} diameter x {said('envelope_height')} high"
+    energy = f"{said('switch_energy')} to soften, {said('cycle_energy')} a cycle"
+    return [
+        *joined("Weighs", [said("module_mass"), measures, said("envelope_volume")], width),
+        *joined("Soft after", _soft(answer, said, assumptions), width),
+        *joined("Stiff again", _stiff(answer, said), width),
+        *joined("Needs", [f"{', '.join(peaks)}, {said('peak_power')} at most", energy], width),
+    ]
+
+
+class _Values:
+    """Values of a design for people, in three digits."""
+
+    def __init__(self, answer: StudyResult, table: Table) -> None:
+        self.values, self.table = answer.design.values, table
+
+    def __call__(self, name: str) -> str:
+        """One value with its unit."""
+        value, unit = self.values[name], self.table.unit(name)
+        return "never" if math.isinf(value) else f"{number(from_si(value, unit), _DIGITS)} {pretty(unit)}".rstrip()
+
+    def most(self, *names: str) -> str:
+        """The largest of some that happen."""
+        return self(max(names, key=lambda name: self.values[name] if math.isfinite(self.values[name]) else -1.0))
+
+
+def _soft(answer: StudyResult, said: _Values, assumptions: Mapping[str, Sequence[Any]]) -> Iterator[str]:
+    """When the joint is soft, what soft means, and over what it ranges."""
+    yield said("softening_time")
+    yield soft_in_words(answer.design, said.table)
+    row = next(iter(assumptions.get("softening_time", ())), None)
+    if row:
+        ends = sorted((row["output_at_low"], row["output_at_high"]), key=lambda end: math.inf if end is None else end)
+        low, high = ("never" if end is None else number(end, _DIGITS) for end in ends)
+        yield f"{low} to {high} s over {row['input']} {number(row['low'], 3)} to {number(row['high'], 3)} {row['unit']}"
+
+
+def _stiff(answer: StudyResult, said: _Values) -> Iterator[str]:
+    if math.isinf(said.values["softening_time"]) and math.isinf(said.values["stiffening_time"]):
+        yield "never"
+        return
+    yield f"{said('stiffening_time')} from the end of the switch"
+    yield stiff_in_words(answer.design, said.table)
+    yield f"frozen {said('frozen_time')}"
+
+
+def trade_lines(front: Any, table: Table, width: int) -> list[str]:
+    """The front, where the study asks for one."""
+    if front is None or not front.points:
+        return []
+    spans = []
+    for name in front.outputs:
+        values, unit = [point.values[name] for point in front.points], table.unit(name)
+        low, high = (number(from_si(end, unit), _DIGITS) for end in (min(values), max(values)))
+        spans.append(f"{name} {low} to {high} {pretty(unit)}".rstrip())
+    knee = [] if front.knee is None else [f"knee: point {front.knee + 1}"]
+    return joined("Front", [f"{len(front.points)} designs", *spans, *knee], width)
+
+
+def chosen_lines(answer: StudyResult, table: Table, width: int) -> list[str]:
+    """What was chosen of what is listed, and by how much the next best is worse."""
+    choosing = answer.solution.choosing if answer.solution else None
+    if choosing is None or not choosing.best:
+        return []
+    best = choosing.best[0]
+    words = [f"{name} {_choice(name, word, table)}" for name, word in best.choices.items()]
+    others = [f"best of {choosing.combinations} combinations"]
+    if len(choosing.best) > 1:
+        others.append(f"the next is {100.0 * (choosing.best[1].objective / best.objective - 1.0):.2g} % worse")
+    return joined("Chosen", [*words, *others], width)
+
+
+def _choice(name: str, word: str | float, table: Table) -> str:
+    """A record's name as it is, a listed size in its unit."""
+    return word if isinstance(word, str) else format_quantity(word, table.unit(name))
+
+
+def current_lines(answer: StudyResult, width: int) -> list[str]:
+    """What currents that follow a profile buy against the best constant ones."""
+    best = answer.solution.constant if answer.solution else None
+    if best is None or not answer.found or answer.solution is None:
+        return []
+    worse = 100.0 * (best.objective / answer.solution.objective - 1.0)
+    phases = " and ".join(answer.design.current_profiles)
+    return block(
+        "Current", f"follows a profile while {phases}; the best constant current is {worse:.2g} % worse", width
+    )
