@@ -1,0 +1,1 @@
+"""Which pieces of work make a module's files, done in child processes and cached."""
