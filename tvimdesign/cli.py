@@ -88,14 +88,16 @@ def check(
     json: AsJson = False,
 ) -> None:
     """Read a study and say everything that is wrong with it, limits that bounds prove impossible included."""
+    from tvimdesign.report.run.check_study import describe, refuse_what_cannot_be
+    from tvimdesign.study import read_study
+
+    found = read_study(study)
     if deep:
         from tvimdesign.report.run.diagnostics import check_deep
 
-        check_deep(study, as_json=json)
+        check_deep(found, as_json=json)
         return
-    from tvimdesign.report.run.run_study import check_study, describe
-
-    found = check_study(study)
+    refuse_what_cannot_be(found)
     typer.echo(found.model_dump_json(indent=2) if json else describe(found))
 
 

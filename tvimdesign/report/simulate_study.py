@@ -20,9 +20,8 @@ from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, number
-from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.study import Study, read_study
+from tvimdesign.study import Study, catalog_of, read_study
 from tvimdesign.study.design import read_design
 from tvimdesign.virtual_tests.registry import find_test
 from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial

@@ -57,6 +57,8 @@ class StudyTree:
     """The calls and options that changed it."""
     problems: tuple[Mistake, ...] = ()
     """What is wrong with its form already; the reader adds the rest."""
+    path: Path | None = None
+    """Its file, where it has one."""
 
     def section(self, name: str) -> Node | None:
         """What stands under one of the study's keys."""
@@ -80,7 +82,7 @@ def tree_of_file(path: str | os.PathLike[str], settings: Sequenced[str] = ()) ->
     path = Path(path)
     file = printable(path)
     tree = tree_of_text(read_text(path, Mistakes(file)), file, path.stem, path.parent)
-    return with_settings(tree, settings)
+    return with_settings(replace(tree, path=path), settings)
 
 
 def tree_of_values(values: Mapped[str, Any], file: str, folder: Path) -> StudyTree:

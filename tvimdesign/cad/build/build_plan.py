@@ -10,27 +10,27 @@ import cadquery as cq
 from OCP.BinTools import BinTools
 from OCP.TopoDS import TopoDS_Shape
 
+from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.assembly import drawn_part, free_spring, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import bill, bill_csv
-from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
-from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.drawing.drawings import part_sheet
+from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import glb_bytes, instances, product
-from tvimdesign.cad.inspection.inspect import module_checks, part_checks
+from tvimdesign.cad.build.worker import Job, Work
+from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
+from tvimdesign.cad.drawing.drawings import part_sheet
+from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
+from tvimdesign.cad.export.mesh import CHORD, spring_mesh
+from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
+from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
+from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
-from tvimdesign.cad.export.mesh import CHORD, spring_mesh
-from tvimdesign.cad.assembly.module_parts import MODULES
-from tvimdesign.cad.cad_report import SolidCheck
-from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
-from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.geometry.spring_solids import free_coil
-from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
-from tvimdesign.cad.build.worker import Job, Work
-from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
-from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.inspection.inspect import module_checks, part_checks
+from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 
 PICTURES = "pictures"
 """The work without which a module can still be made: a machine may not be able to render."""
@@ -49,7 +49,9 @@ def build_plan(dims: Dimensions) -> list[Work]:
         for index, share in enumerate(POSITIONS)
     ]
     inspections = [
-        Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,)) for kind in kinds if PRODUCTION[kind].drawn
+        Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,))
+        for kind in kinds
+        if PRODUCTION[kind].drawn
     ]
     return [
         *parts,
@@ -168,8 +170,8 @@ def _bill_and_note(job: Job) -> list[SolidCheck]:
 
 def _pictures(job: Job) -> list[SolidCheck]:
     """The module whole and opened, taken apart, and cut through."""
-    from tvimdesign.cad.render.views import write_exploded, write_section
     from tvimdesign.cad.render.preview import write_preview
+    from tvimdesign.cad.render.views import write_exploded, write_section
 
     drawn = _solids(job.needs)
     placed = instances(job.dims, drawn, place(job.dims, drawn))

@@ -19,8 +19,8 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
+from tvimdesign.cad.cad_report import SolidCheck
 
 FOLDER_VARIABLE = "TVIMDESIGN_CACHE"
 """Environment variable that names the folder of kept results; empty keeps none from one run to the next."""
@@ -70,7 +70,9 @@ class Cache:
             (made / part).mkdir()
         return made
 
-    def close(self, name: str, made: Path, reads: Reads, needs: Mapping[str, Result], checks: list[SolidCheck]) -> Result:
+    def close(
+        self, name: str, made: Path, reads: Reads, needs: Mapping[str, Result], checks: list[SolidCheck]
+    ) -> Result:
         """Keep what was written into a fresh folder; returns the result."""
         files = {path.relative_to(made).as_posix(): _digest(path.read_bytes()) for path in _files(made)}
         trace = {

@@ -1,4 +1,4 @@
-"""The child process that makes the parts: `python -m tvimdesign.cad.build.main DESIGN OUT`, a line of JSON for each step.
+"""The child process that makes the parts: `python -m tvimdesign.cad.build.main DESIGN OUT`, a line of JSON a step.
 
 It runs on its own because the CAD kernel can take a process with it, and starts a child of its own for every piece of
 work (`work.py`), because an operation of the kernel can hang.
@@ -16,10 +16,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.whole_files import write_whole
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, read_design
 
 if TYPE_CHECKING:
@@ -36,11 +36,11 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     started = time.perf_counter()
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
-    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.build.build_plan import PICTURES, build_plan
     from tvimdesign.cad.build.cache import Cache, user_folder
     from tvimdesign.cad.build.read_tracking import TrackedDesign
     from tvimdesign.cad.build.worker import WorkerPool
-    from tvimdesign.cad.build.build_plan import PICTURES, build_plan
+    from tvimdesign.cad.geometry.dimensions import dimensions
 
     with tempfile.TemporaryDirectory(prefix="tvimdesign.") as own:
         store = Cache(user_folder() or Path(own))

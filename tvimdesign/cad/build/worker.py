@@ -16,11 +16,11 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.cad_report import SolidCheck
-from tvimdesign.cad.build.cache import Result, Cache
-from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.base.errors import TvimError
+from tvimdesign.cad.build.cache import Cache, Result
+from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
+from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.study.design import Design
 
 TIMEOUT = 90.0
@@ -82,7 +82,12 @@ class WorkerPool:
     """Does pieces of work for one design."""
 
     def __init__(
-        self, subject: TrackedDesign, store: Cache, progress: Progress, timeout_s: float = TIMEOUT, hands: int | None = None
+        self,
+        subject: TrackedDesign,
+        store: Cache,
+        progress: Progress,
+        timeout_s: float = TIMEOUT,
+        hands: int | None = None,
     ) -> None:
         """`hands` is how many pieces of work are in progress at once; as many as there are cores, at most four."""
         self._subject, self._store, self._progress = subject, store, progress

@@ -18,7 +18,8 @@ from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.figures.plot_process import PlotProcess
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.run.run_study import catalog_of, check_study
+from tvimdesign.report.run.check_study import refuse_what_cannot_be
+from tvimdesign.study import catalog_of, read_study
 from tvimdesign.study.conditions import Entrant, refuse_unequal
 from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.text.mistakes import Mistake, StudyError
@@ -92,7 +93,7 @@ def _read(paths: Sequence[Path]) -> list[Entrant]:
     found = []
     for path in paths:
         try:
-            study = check_study(path, proof=False)  # each search looks for itself
+            study = refuse_what_cannot_be(read_study(path), proof=False)  # each search looks for itself
         except StudyError as error:
             problems += error.problems
         except InputError as error:

@@ -25,7 +25,6 @@ from tvimdesign.device import Table, table_for
 from tvimdesign.report.compare import normalization
 from tvimdesign.report.output.tables import check_row
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.report.run.why import binding
 from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.simulation.resolved_module import resolve_design
@@ -34,7 +33,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.study import Study, drawn, read_study
+from tvimdesign.study import Study, catalog_of, drawn, read_study
 from tvimdesign.virtual_tests.registry import find_test
 
 Say = Callable[[str], None]
