@@ -20,7 +20,7 @@ from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.report.run.why import why
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
-from tvimdesign.study import Study, catalog_of, read_tree
+from tvimdesign.study import Study, catalog_of, drawn, read_tree
 from tvimdesign.study.tree import StudyTree
 
 
@@ -48,17 +48,20 @@ def answer_study(
     progress: Progress,
     *,
     prove: bool = False,
+    drawn_only: bool = False,
     sensitivities: bool = False,
     folder: ResultsFolder | None = None,
     search: Search = optimize,
 ) -> AnsweredStudy:
     """Read and answer a study: evaluate or optimise it, and seek its front, which a `folder` lets go on later.
 
-    Raises InputError, and InfeasibleError for what no search can mend; a search that finds no design is a result.
+    With `drawn_only` nothing is optimised: what may change stands at its start. Raises InputError, and InfeasibleError
+    for what no search can mend; a search that finds no design is a result.
     """
     study = read_tree(tree)
     study = proving(study) if prove else study
     table, catalog = table_for(study.mode), catalog_of(study)
+    study = drawn(study, catalog, table) if drawn_only else study
     front = FrontOfRun(study, table, folder)
     found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs, search=search)
     answered = AnsweredStudy(tree, study, table, catalog, found, front, _reported(found, table))
