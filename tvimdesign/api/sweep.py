@@ -15,6 +15,7 @@ from tvimdesign.api.shown_progress import shown_progress
 from tvimdesign.api.study import Study
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.units import from_si, pretty
+from tvimdesign.report.compare.normalization import at_its_start, common
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.solve.warm_search import WarmSearch
@@ -130,9 +131,13 @@ class Sweep:
 
 
 def swept(study: Study, axes: Mapping[str, Sequence[Any]], progress: bool) -> Sweep:
-    """Answer a study at every cell of the grid. Raises InputError for no grid, StudyError for what cannot be set."""
+    """Answer a study at every cell of the grid, what is minimised over its value at the study's own start.
+
+    Raises InputError for no grid, StudyError for what cannot be set.
+    """
     cells = _cells(study, axes)
-    search = WarmSearch()
+    whole = study.resolved
+    search = WarmSearch(common([at_its_start(whole)]) if whole.vary else None)
     found = []
     with shown_progress(progress) as say:
         for number, (at, asked) in enumerate(cells, start=1):

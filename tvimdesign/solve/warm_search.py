@@ -20,17 +20,16 @@ class WarmSearch:
     """Stands in place of `optimize`. The problem is built once, and solved again from the last optimum.
 
     A study is searched from every start as usual where it is the first, where more than fixed numbers differ from the
-    last one, where something is chosen from a list, and where the warm solve ends without an optimum. All outputs are
-    divided by the reference of the first study, so that all minimise the same.
+    last one, where something is chosen from a list, and where the warm solve ends without an optimum.
     """
 
-    def __init__(self) -> None:
-        """Nothing is built yet."""
+    def __init__(self, reference: dict[str, float] | None) -> None:
+        """Nothing is built yet. All studies' outputs are divided by the `reference`, so that all minimise the same."""
         self.warm_solves = 0
         self._study: Study | None = None
         self._optimizer: Optimizer | None = None
         self._last: Run | None = None
-        self._reference: dict[str, float] | None = None
+        self._reference = reference
 
     def __call__(
         self, study: Study, catalog: Catalog, table: Table, progress: Progress, reference: dict[str, float] | None,
@@ -47,10 +46,7 @@ class WarmSearch:
             self._last = min(converged, key=lambda run: run.start.objective, default=None)
             keep(optimizer, runs)
 
-        common = reference or self._reference
-        solution = optimize(study, catalog, table, progress, common, remember, objectives)
-        self._reference = common or solution.reference
-        return solution
+        return optimize(study, catalog, table, progress, reference or self._reference, remember, objectives)
 
     def _warm(self, study: Study, table: Table) -> Solution | None:
         """The optimum sought from the last one; None where that cannot be done, or comes to none."""
