@@ -12,7 +12,7 @@ __version__ = "0.1.0"
 _PUBLIC = {
     "tvimdesign.api.quantity": ("Quantity", "linspace"),
     "tvimdesign.api.result": ("NoDesignError", "Parts", "Reasons", "Result"),
-    "tvimdesign.api.study": ("Study", "load"),
+    "tvimdesign.api.study": ("Study", "example", "load"),
     "tvimdesign.api.sweep": ("Cell", "Sweep"),
     "tvimdesign.base.errors": (
         "CatalogError", "GeometryError", "InfeasibleError", "InputError", "RenamedWarning", "SimulationError",

@@ -6,6 +6,7 @@ from tvimdesign.api.result import Parts as Parts
 from tvimdesign.api.result import Reasons as Reasons
 from tvimdesign.api.result import Result as Result
 from tvimdesign.api.study import Study as Study
+from tvimdesign.api.study import example as example
 from tvimdesign.api.study import load as load
 from tvimdesign.api.sweep import Cell as Cell
 from tvimdesign.api.sweep import Sweep as Sweep

@@ -16,7 +16,8 @@ from tvimdesign.study import Range, catalog_of, read_tree
 from tvimdesign.study import Study as ResolvedStudy
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.text.python_values import node_of
-from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_values, tree_yaml, with_value
+from tvimdesign.study.template import example_text
+from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_text, tree_of_values, tree_yaml, with_value
 
 if TYPE_CHECKING:
     from tvimdesign.api.result import Result
@@ -30,6 +31,11 @@ def load(path: str | os.PathLike[str]) -> Study:
     study = Study._of(tree_of_file(path))
     _ = study.resolved
     return study
+
+
+def example(name: str) -> Study:
+    """Read a shipped study by name, such as "paper_shear"; `tvimdesign new --list` lists them. Raises InputError."""
+    return Study._of(tree_of_text(example_text(name), f"{name}.yaml", name, Path()))
 
 
 class Study:

@@ -99,19 +99,30 @@ def tree_yaml(tree: StudyTree) -> str:
     return changes + yaml_of(tree.root)
 
 
+def study_file(tree: StudyTree) -> str | bytes:
+    """The study as its author wrote it, comments and all; as it is now where options or Python changed it."""
+    return tree_yaml(tree) if tree.changes or tree.path is None else tree.path.read_bytes()
+
+
 def with_settings(tree: StudyTree, settings: Sequenced[str]) -> StudyTree:
-    """The tree with every setting made, each of the form `name=value`. Raises StudyError for what none can be."""
+    """The tree with every setting made, each of the form `name=value`; what none can be is a problem of the tree."""
     for setting in settings:
-        source = f"--set {setting}"
-        name, equals, value = setting.partition("=")
-        problems = Mistakes(_short(source))
-        if not equals or not name.strip():
-            expected = 'name=value, such as --set pcl_thickness="1.2 mm"'
-            problems.add(At(0, 0), "", "there is no '=' after a name", expected)
-            problems.stop()
-        node = _setting_node(value, problems)
-        tree = with_value(tree, name.strip(), node, problems.file, tuple(problems.found))
+        try:
+            tree = _with_setting(tree, setting)
+        except StudyError as error:
+            tree = replace(tree, problems=(*tree.problems, *error.problems))
     return tree
+
+
+def _with_setting(tree: StudyTree, setting: str) -> StudyTree:
+    name, equals, value = setting.partition("=")
+    problems = Mistakes(_short(f"--set {setting}"))
+    if not equals or not name.strip():
+        expected = 'name=value, such as --set pcl_thickness="1.2 mm"'
+        problems.add(At(0, 0), "", "there is no '=' after a name", expected)
+        problems.stop()
+    node = _setting_node(value, problems)
+    return with_value(tree, name.strip(), node, problems.file, tuple(problems.found))
 
 
 def _setting_node(value: str, problems: Mistakes) -> Node:

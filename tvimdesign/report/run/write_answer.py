@@ -10,7 +10,7 @@ from tvimdesign.report.output.tables import curves_csv, results_csv
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.why import why_csv
 from tvimdesign.study.design import write_design
-from tvimdesign.study.tree import StudyTree, tree_yaml
+from tvimdesign.study.tree import study_file
 
 _CURVE_UNITS = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
 
@@ -18,7 +18,7 @@ _CURVE_UNITS = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "froz
 def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
     found, table, reported = answered.result, answered.table, answered.reported
-    folder.write("study.yaml", _study_file(answered.tree))
+    folder.write("study.yaml", study_file(answered.tree))
     folder.write("study.resolved.json", answered.study.model_dump_json(indent=2) + "\n")
     folder.write_json("results.json", reported)
     folder.write("results.csv", results_csv(reported["values"]))
@@ -49,8 +49,3 @@ def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:
         if isinstance(row, Choice) and row.category and choices[row.name] not in row.options
     }
     return {"study": path, **records} if path else records
-
-
-def _study_file(tree: StudyTree) -> str | bytes:
-    """The study as its author wrote it, comments and all; as it is now where options or Python changed it."""
-    return tree_yaml(tree) if tree.changes or tree.path is None else tree.path.read_bytes()
