@@ -173,6 +173,6 @@ def _answered(at: Mapping[str, Any], study: Study, search: WarmSearch, say: Prog
         say("begins")
         result = Result(answer_study(study._tree, say, search=search))
     except TvimError as error:
-        return Cell(at, study, None, str(error).splitlines()[0])
+        return Cell(at, study, None, " ".join(str(error).split()))
     found = result._answered.result.found
     return Cell(at, study, result if found else None, result.status)

@@ -53,7 +53,15 @@ def _stands(answered: AnsweredStudy) -> dict[str, str]:
             continue
         stand = "broken" if not check.kept else "binds" if check.margin <= NOTHING else "kept"
         found[check.output] = max(stand, found.get(check.output, "kept"), key=order.index)
+    for limit in answered.study.require:  # a limit on what is the least of several is put on each of them
+        several = [found[name] for name in _all_of(limit.output, answered.table) if name in found]
+        found |= {limit.output: max(several, key=order.index)} if several else {}
     return found
+
+
+def _all_of(name: str, table: Table) -> list[str]:
+    base, at, point = name.partition("@")
+    return [f"{part}{at}{point}" for part in table.output(base).least_of]
 
 
 def _status(name: str, design: Design, table: Table) -> str:

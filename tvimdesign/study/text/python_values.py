@@ -23,7 +23,8 @@ def node_of(value: Any, file: str, problems: Mistakes, path: str = "", depth: in
     if isinstance(value, tuple) and _has_unit(value):
         numbers = [f"{_number(number)} {value[-1]}" for number in value[:-1]]
         value = numbers[0] if len(numbers) == 1 else numbers
-    value = value.tolist() if hasattr(value, "tolist") else value  # numpy's arrays and numbers
+    if hasattr(getattr(value, "magnitude", value), "tolist"):  # numpy's arrays and numbers, with a unit or without
+        value = value.tolist()
     if isinstance(value, Mapped):
         return _mapping(value, file, problems, path, depth)
     if isinstance(value, list | tuple):
