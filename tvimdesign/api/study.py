@@ -14,9 +14,9 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.study import Range, catalog_of, read_tree
 from tvimdesign.study import Study as ResolvedStudy
+from tvimdesign.study.template import example_text
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.text.python_values import node_of
-from tvimdesign.study.template import example_text
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_text, tree_of_values, tree_yaml, with_value
 
 if TYPE_CHECKING:
