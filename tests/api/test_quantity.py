@@ -39,6 +39,7 @@ def test_it_is_written_with_its_unit() -> None:
 def test_si_is_what_equations_use() -> None:
     assert tvim.Quantity(0.0, "degC").si == pytest.approx(273.15)
     assert tvim.Quantity.parse("2 mm").si == pytest.approx(2e-3)
+    assert tvim.Quantity.parse("3.25") == tvim.Quantity(3.25, "1")
 
 
 def test_linspace_has_both_ends_and_the_first_unit() -> None:

@@ -181,6 +181,11 @@ def test_a_changed_study_is_written_as_text_that_reads_as_the_same_study() -> No
     assert read_study_text(text, "x") == read_tree(tree)
 
 
+def test_a_quoted_word_that_means_nothing_when_plain_stays_quoted() -> None:
+    tree = tree_of_text(f"description: 'null'\n{TEXT}", "x.yaml", "x", Path())
+    assert read_study_text(tree_yaml(tree), "x").description == "null"
+
+
 @pytest.mark.parametrize("path", sorted((Path(__file__).parents[2] / "studies").glob("*.yaml")), ids=lambda p: p.stem)
 def test_every_shipped_study_survives_being_written(path: Path) -> None:
     tree = tree_of_text(path.read_text(), path.name, path.stem, path.parent)
