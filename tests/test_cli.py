@@ -14,6 +14,9 @@ from pathlib import Path
 import pytest
 from support import ROOT, Command
 
+from tvimdesign.cli import _default_folder, _name_of
+from tvimdesign.virtual_tests.registry import TESTS
+
 HEAVY = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy", "numpy", "pint")
 
 
@@ -281,3 +284,33 @@ def test_rows_lists_what_a_study_may_say(tvimdesign: Command) -> None:
     blocks = {row["name"] for row in json.loads(tvimdesign("rows", "--mode", "compression", "--json").stdout)}
     assert {"block_depth", "vane_count", "joint_stiffness@point", "response_time"} <= blocks
     assert "pcl_thickness" not in blocks
+
+
+def test_simulate_without_a_test_lists_the_tests_with_what_they_show(tvimdesign: Command) -> None:
+    done = tvimdesign("simulate", "studies/paper_shear.yaml")
+    assert done.returncode == 2  # nothing was tested: a script must not take it for done
+    lines = {line.split()[0]: line.split()[1:] for line in done.stderr.splitlines() if line.startswith("  ")}
+    assert lines.keys() == TESTS.keys()
+    assert all(len(words) > 5 for words in lines.values())
+    assert "--test release" in done.stderr
+    assert not Path("results/paper_shear-").exists()
+
+
+@pytest.mark.parametrize(
+    ("design", "parts", "test"),
+    [
+        ("results/elbow/design.json", "results/elbow-cad", "elbow"),
+        ("results/elbow/front/01.design.json", "results/elbow-front-01-cad", "elbow-front-01"),
+        ("results/elbow/front/02.design.json", "results/elbow-front-02-cad", "elbow-front-02"),
+        ("results/pair/shear/drawn.json", "results/pair/shear-drawn-cad", "shear-drawn"),
+        ("results/pair/shear/optimised.json", "results/pair/shear-optimised-cad", "shear-optimised"),
+    ],
+)
+def test_every_design_has_a_folder_of_its_own(design: str, parts: str, test: str) -> None:
+    assert _default_folder(Path(design)) == Path(parts).resolve()
+    assert _name_of(Path(design)) == test
+
+
+def test_a_study_or_a_run_gives_its_name(tmp_path: Path) -> None:
+    assert _default_folder(Path("studies/elbow.yaml")) == Path("results/elbow")
+    assert (_name_of(Path("studies/elbow.yaml")), _name_of(tmp_path)) == ("elbow", tmp_path.name)

@@ -7,14 +7,18 @@ import json
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import pytest
 from support import RELEASED, ROOT, STUDIES, Command
+
+from tvimdesign.report.output.results_format import results_schema
 
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
     "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml",
 }  # fmt: skip
-PLOTS = {"bounds.png", "impedance.png", "mass.png", "cycle.png"}
+PLOTS = {f"{name}.png" for name in ("bounds", "impedance", "mass", "cycle", "stiffness_and_damping", "power_and_energy",
+                                    "torque")}  # fmt: skip
 OPTIMISED = {"why.csv"}
 QUICK = {"paper_as_published", "paper_shear", "paper_compression", "front_shear"}
 """Studies that take seconds; the others are slow tests."""
@@ -78,6 +82,11 @@ def test_a_study_s_design_keeps_every_limit(runs: Runs, study: Path) -> None:
 
 
 @names
+def test_the_results_of_a_study_are_of_the_schema(runs: Runs, study: Path) -> None:
+    jsonschema.validate(_results(runs[study.stem]), results_schema())
+
+
+@names
 def test_plots_are_pictures_with_something_on_them(runs: Runs, study: Path) -> None:
     import matplotlib.image as mpimg
 
@@ -132,7 +141,7 @@ def test_the_csv_holds_what_the_json_holds(runs: Runs) -> None:
     import csv
 
     folder = runs["paper_shear"]
-    with (folder / "results.csv").open() as stream:
+    with (folder / "results.csv").open(encoding="utf-8-sig") as stream:
         rows = {row["name"]: row for row in csv.DictReader(stream)}
     values = _results(folder)["values"]
     assert rows.keys() == values.keys()

@@ -187,8 +187,7 @@ def simulate(
     """Put a module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
     from tvimdesign.report.simulate_study import simulate_study
 
-    name = study.resolve().parent.name if study.suffix == ".json" else study.stem
-    folder = out or Path("results") / f"{name}-{test}"
+    folder = out or Path("results") / f"{_name_of(study)}-{test}"
     simulate_study(study, test, folder, overwrite=overwrite, as_json=json, settings=settings or ())
 
 
@@ -204,8 +203,7 @@ def tolerate(
     """Say what tolerances do: worst case, root-sum-square and Monte Carlo, yield, into results/<study>-tolerances."""
     from tvimdesign.report.tolerate.tolerate_study import tolerate_study
 
-    name = study.resolve().name if study.is_dir() else study.resolve().parent.name
-    folder = out or Path("results") / f"{study.stem if study.suffix in ('.yaml', '.yml') else name}-tolerances"
+    folder = out or Path("results") / f"{_name_of(study)}-tolerances"
     tolerate_study(study, folder, samples, workers, overwrite=overwrite, as_json=json)
 
 
@@ -286,11 +284,22 @@ def rows(
 
 
 def _default_folder(source: Path) -> Path:
-    """results/<study>; for a run's design.json the run's folder with -cad after its name."""
+    """results/<study>; for a design a folder of its own beside the run's, with -cad after the design's name."""
     if source.suffix != ".json":
         return Path("results") / source.stem
-    run = source.resolve().parent
-    return run.with_name(f"{run.name}-cad")
+    folder = source.resolve().parent
+    beside = folder.parent.parent if folder.name == "front" and source.name != "design.json" else folder.parent
+    return beside / f"{_name_of(source)}-cad"
+
+
+def _name_of(source: Path) -> str:
+    """What folders of a study or a design are named by: <run>, or <run>-front-03 of one of several in a folder."""
+    if source.suffix != ".json":
+        return source.resolve().name if source.is_dir() else source.stem
+    folder, own = source.resolve().parent, source.name.removesuffix(".json").removesuffix(".design")
+    if own == "design":
+        return folder.name
+    return f"{folder.parent.name}-front-{own}" if folder.name == "front" else f"{folder.name}-{own}"
 
 
 def main() -> None:

@@ -31,3 +31,9 @@ def test_a_molten_film_in_a_rigid_block_is_as_stiff_as_a_block_of_its_own_depth(
 def test_where_the_film_lies_does_not_matter() -> None:
     storage = np.geomspace(1e4, 1e8, 12)
     assert film.soft_share(storage, 0.1 * storage) == pytest.approx(film.soft_share(storage[::-1], 0.1 * storage[::-1]))
+
+
+def test_slices_that_give_way_alike_count_alike_whether_they_store_or_lose() -> None:
+    # |G| is 5 in every slice: 3-4-5 either way round, and 0-5.
+    storage, loss = np.array([3.0, 4.0, 0.0, 5.0]), np.array([4.0, 3.0, 5.0, 0.0])
+    assert film.soft_share(storage, loss) == pytest.approx(1.0, rel=1e-12)

@@ -140,3 +140,14 @@ def test_a_spoke_is_what_an_obround_adds_to_a_disc() -> None:
     found = shapes.spoke(b, rim, length)
     assert found.area == pytest.approx(strip.area + end.area - disc.area, rel=1e-9)
     assert found.polar == pytest.approx(strip.polar + end.polar - disc.polar, rel=1e-9)
+
+
+def test_nothing_adds_nothing() -> None:
+    disc = shapes.ring(0.0, 5e-3)
+    assert shapes.NOTHING.plus(disc) == disc
+    assert shapes.stacked((shapes.NOTHING, 3e-3)) == (0.0, 0.0)
+
+
+def test_small_corners_between_radial_sides_are_those_of_a_rectangle() -> None:
+    # A fillet takes (1 - pi/4) r^2 from a right angle; sides that point to the axis meet every circle at one.
+    assert shapes.corners(0.02e-3, 26e-3, 40e-3) == pytest.approx((4.0 - np.pi) * 0.02e-3**2, rel=1e-3)

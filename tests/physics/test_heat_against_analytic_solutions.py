@@ -138,3 +138,20 @@ def test_a_switched_off_stack_at_ambient_temperature_stays_as_it_is(bare_stack: 
     stack = bare_stack(hot_contact=1e4, plate_contact=1e4, plate_surface=warm, cold_surface=warm)
     state = heat.initial_state(stack, 10, COLD)
     assert np.max(np.abs(heat.rates(state, stack, 0.0))) < 1e-12
+
+
+def test_a_wall_of_layer_joint_and_plate_at_rest_has_the_drops_of_its_resistances(
+    bare_stack: Make, integrate: Run
+) -> None:
+    # 2 W (half of I^2 R) through 1000 mm^2: a drop is the flux over k/L, or over the coefficient of a joint or surface.
+    stack = bare_stack(
+        hot_contact=4000.0, plate_contact=500.0, plate_conductivity=0.8, plate_thickness=3e-3, plate_cells=3,
+        plate_surface=heat.Surface(1e-3, 40.0),
+    )  # fmt: skip
+    profile = integrate(stack, heat.initial_state(stack, 5, COLD), [6000.0], current=2.0).profiles()[-1]
+    flux = 2000.0
+    found = [profile.hot, profile.near, profile.far, profile.plate_face, *profile.plate, COLD]
+    third = flux * 1e-3 / 0.8
+    drops = [flux / 4000, flux * 1e-3 / 0.2, flux / 500, 0.5 * third, third, third, 0.5 * third + flux / 40]
+    assert -np.diff(found) == pytest.approx(drops, rel=1e-5)
+    assert [*profile.through_layer, *profile.through_plate] == pytest.approx(10 * [2.0], rel=1e-5)

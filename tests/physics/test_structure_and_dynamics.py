@@ -49,6 +49,13 @@ def test_shaft_stiffness_is_modulus_times_polar_moment_over_length() -> None:
     assert structure.shaft_stiffness(modulus, radius, length) == pytest.approx(modulus * polar / length, rel=1e-9)
 
 
+def test_shaft_yields_where_the_stress_at_its_surface_does() -> None:
+    # Stress rises with the radius: tau r/R on the rings 2 pi r dr, each on the arm r.
+    shear_yield, radius = 30e6, 8e-3
+    torque, _ = quad(lambda r: shear_yield * r / radius * 2.0 * np.pi * r**2, 0.0, radius, epsabs=0.0)
+    assert structure.shaft_torque(shear_yield, radius) == pytest.approx(torque, rel=1e-9)
+
+
 def test_ring_stiffness_is_the_series_of_its_thin_rings() -> None:
     # A ring of radius r, width dr and thickness h sheared in its plane turns by T dr/(2 pi r^3 h G).
     modulus, thickness, inner, outer = 0.76e9, 4e-3, 10e-3, 33e-3

@@ -36,7 +36,7 @@ TRIAL = Trial(
 
 def test_sheets_are_headed_by_name_and_unit_and_hold_numbers_in_it() -> None:
     rows = list(csv.reader(sheet_csv(SHEET).splitlines()))
-    assert rows[0] == ["temperature [degC]", "strain [%]", "strain_low [%]", "strain_high [%]"]
+    assert rows[0] == ["temperature [°C]", "strain [%]", "strain_low [%]", "strain_high [%]"]
     assert [float(value) for value in rows[2]] == pytest.approx([60.0, 2.0, 1.0, 3.0])
 
 
@@ -63,7 +63,11 @@ def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Comm
     assert done.returncode == 0, done.stderr
     files = {path.name for path in out.iterdir()}
     sheets = {f"frequency_{point}.csv" for point in ("30_degC", "60_degC", "100_degC")} | {"simple_bodies.csv"}
-    assert files == sheets | {"frequency.png", "findings.json", "manifest.json", "tested.yaml"}
+    assert files == sheets | {f"frequency.{ending}" for ending in ("png", "pdf", "svg")} | {
+        "findings.json",
+        "manifest.json",
+        "tested.yaml",
+    }
     manifest = json.loads((out / "manifest.json").read_text())
     assert manifest["status"] == "tested"
     assert manifest["files"].keys() == files - {"manifest.json"}

@@ -15,17 +15,22 @@ _RESOLUTION = 110
 """Dots per inch on a screen."""
 
 
-def drawn(drawing: Drawing) -> Figure:
-    """Draw a figure that shows in a notebook; the settings of matplotlib outside it stay as they are."""
+def drawn(drawing: Drawing, study: str) -> Figure:
+    """Draw a figure, signed with the study's name, that shows in a notebook.
+
+    The settings of matplotlib outside it stay as they are.
+    """
     import matplotlib as mpl
 
     with mpl.rc_context():
-        from tvimdesign.report.figures.canvas import SETTINGS
+        from tvimdesign.report.figures.canvas import sign
+        from tvimdesign.report.figures.style import SETTINGS
 
         mpl.rcParams.update(SETTINGS)
-        room, _, function = drawing.figure.rpartition(".")
-        drawn_by = import_module(f"tvimdesign.report.figures.{room or 'run_figures'}")
-        return shown(getattr(drawn_by, function)(drawing.data))
+        file, _, function = drawing.figure.partition(".")
+        figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(drawing.data)
+        sign(figure, study)
+        return shown(figure)
 
 
 def shown(figure: Figure) -> Figure:

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from tvimdesign.report.output.results_format import LimitEntry, RunResults
+
 
 class NoDesignError(InfeasibleError):
     """No design keeps every limit; `result` is where the search ended, the closest design."""
@@ -40,13 +42,15 @@ class Reasons:
     """Why a design is as it is: what the binding limits cost, in sentences and as a table of every limit."""
 
     sentences: tuple[str, ...]
-    rows: tuple[dict[str, Any], ...]
+    rows: tuple[LimitEntry, ...]
 
     def table(self) -> pd.DataFrame:
         """Every limit: how it stands, what is left of it, and what a step of it costs of each output, in percent."""
         import pandas as pd
 
-        return pd.DataFrame([{**row, **row["outputs"]} for row in self.rows]).drop(columns="outputs", errors="ignore")
+        return pd.DataFrame([{**row, **row["sensitivity"]} for row in self.rows]).drop(
+            columns="sensitivity", errors="ignore"
+        )
 
     def __str__(self) -> str:
         """The sentences, one a line."""
@@ -111,7 +115,7 @@ class Result:
         return self._answered.result.design
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> RunResults:
         """Everything there is to know, as `results.json` has it."""
         return self._answered.reported
 
@@ -119,7 +123,7 @@ class Result:
     def warnings(self) -> list[str]:
         """Advice that the design does not follow, what was not done, and records in doubt."""
         advice = [f"{check.text}, by {self._margin(check)}: {check.origin}" for check in self._answered.result.warnings]
-        return [*advice, *map(str, self._answered.failures), *self.data["doubts"]]
+        return [*advice, *map(str, self._answered.failures), *self.data.get("doubts", [])]
 
     def __getitem__(self, name: str) -> Quantity | Any:
         """A value by its full name, `row` or `row@point`, in the row's unit; a choice's word. Raises InputError."""
@@ -162,7 +166,7 @@ class Result:
         found = {drawing.file: drawing for drawing in drawings(self._answered)}
         if name not in found:
             raise InputError(f"the result has no figure {name!r}; there are: {', '.join(found) or 'none'}")
-        return drawn(found[name])
+        return drawn(found[name], self.name)
 
     def show(self) -> None:
         """Print what `tvimdesign run` prints."""
@@ -182,7 +186,7 @@ class Result:
             asked = drawings(self._answered) if plots else []
             if asked:
                 with PlotProcess() as drawing:
-                    drawing.begin(written.path / "plots", asked)
+                    drawing.begin(written.path / "plots", asked, self.name)
                     drawing.finish()
             finish(written, self._answered)
         return Path(folder)

@@ -265,6 +265,18 @@ def pretty(unit: str) -> str:
     return re.sub(r"\^(-?[1-9])", lambda match: match[1].translate(powers), text).replace("*", "·")
 
 
+_SI_UNITS = {
+    "mm": "m", "cm": "m", "um": "m", "g": "kg", "deg": "rad", "degC": "K", "percent": "1", "MPa": "Pa", "GPa": "Pa",
+    "kPa": "Pa", "kJ": "J", "mV": "V", "mA": "A",
+}  # fmt: skip
+
+
+@cache
+def si_unit(unit: str) -> str:
+    """The SI unit that a unit's numbers have inside: "N*m/rad" for itself, "m" for "mm", "K" for "degC"."""
+    return re.sub(r"[A-Za-z]+", lambda match: _SI_UNITS.get(match[0], match[0]), _respell(unit))
+
+
 def _number(value: float, digits: int) -> str:
     """Write a number to so many digits, without an exponent from 1e-4 to 1e7 and without rounding whole digits away."""
     if not math.isfinite(value) or value == 0.0:

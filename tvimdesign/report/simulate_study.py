@@ -15,11 +15,13 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.device import table_for
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.number_entry import finite
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.results_format import head
 from tvimdesign.report.output.tables import curves_csv, number
 from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import Study, catalog_of, read_tree
@@ -45,7 +47,8 @@ def simulate_study(
         trial = do(resolved)
         trial = replace(trial, notes=(module, *trial.notes))
         if drawing:
-            drawing.begin(folder.path, [Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))])
+            figure = Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))
+            drawing.begin(folder.path, [figure], study.name)
         reported = findings(trial)
         tested = source.read_bytes() if source.suffix == ".json" else study_file(tree_of_file(source, settings))
         folder.write(f"tested{source.suffix}", tested)
@@ -108,6 +111,7 @@ def _shown(column: Column) -> list[float]:
 def findings(trial: Trial) -> dict[str, Any]:
     """What was read off a test as plain data, every number in its unit."""
     return {
+        **head(),
         "test": trial.test,
         "title": trial.title,
         "findings": [
@@ -115,6 +119,7 @@ def findings(trial: Trial) -> dict[str, Any]:
                 "name": found.name,
                 **{part: _plain(value, found.unit) for part, value in _parts(found)},
                 "unit": pretty(found.unit),
+                "si": {part: finite(value) for part, value in _parts(found)} | {"unit": pretty(si_unit(found.unit))},
                 "meaning": found.meaning,
             }
             for found in trial.findings

@@ -8,16 +8,27 @@ from numpy.typing import NDArray
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.device_functions import DeviceFunctions
 from tvimdesign.simulation.melt_history import HISTORIES, fractions_at
+from tvimdesign.simulation.phase_functions import SHOWN
 from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 Curves = dict[str, list[float]]
 SAMPLES = 161
+LOOP_SAMPLES = 73
+PHASE_UNITS = {
+    "time": "s", "current": "A", "frozen": "1", "joint_impedance": "N*m/rad", "joint_stiffness": "N*m/rad",
+    "joint_damping": "N*m*s/rad", "electrical_power": "W", "electrical_energy": "J",
+}  # fmt: skip
+"""Units of a phase's columns; all others are temperatures [degC]."""
 
 
 def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory, phase: str) -> Curves:
-    """Temperatures [degC] through the stack over a phase, current [A], impedance [N*m/rad], frozen share, by column."""
+    """What is drawn of a phase, by column: temperatures [degC] through the stack, and the columns of `PHASE_UNITS`.
+
+    Stiffness and damping are those of the joint at the frequency of the operating point where the phase leads; energy
+    is what the supply gave since the phase began.
+    """
     states, times = trajectory.states, trajectory.times
     currents = trajectory.currents[None, :]
     columns = np.repeat(inputs[:, None], len(times), axis=1)
@@ -30,8 +41,23 @@ def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory,
     names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate, "rotor_rest", "core_and_link"]
     names += ["sink"] * (len(temperatures) - len(names))
     history = dict(zip(names, temperatures.tolist(), strict=True))
-    more = {"current": trajectory.currents.tolist(), "frozen": frozen.tolist(), "joint_impedance": impedance.tolist()}
-    return {"time": times.tolist(), **history, **more}
+    shown = np.asarray(compiled.watch(list(SHOWN.values())).map(len(times))(states, currents, columns))
+    drawn = dict(zip(SHOWN, shown, strict=True))
+    power = drawn["electrical_power"]
+    energy = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(times))])
+    more = {"current": trajectory.currents, "frozen": frozen, "joint_impedance": impedance, **drawn,
+            "electrical_energy": energy}  # fmt: skip
+    return {"time": times.tolist(), **history, **{name: column.tolist() for name, column in more.items()}}
+
+
+def torque_loop(stiffness: float, damping: float, frequency: float, amplitude: float) -> tuple[Array, Array]:
+    """Angles [rad] and torques [N*m] of one period in which a joint is turned as a sine.
+
+    T = K phi + b dphi/dt with phi = amplitude sin(2 pi f t): stiffness [N*m/rad], damping [N*m*s/rad], frequency [Hz].
+    """
+    turned = np.linspace(0.0, 2.0 * np.pi, LOOP_SAMPLES)
+    angle = amplitude * np.sin(turned)
+    return angle, stiffness * angle + damping * 2.0 * np.pi * frequency * amplitude * np.cos(turned)
 
 
 def impedance_sweep(resolved: ResolvedModule) -> Curves:

@@ -16,6 +16,9 @@ _BY_JACOBIAN = {"enable_forward": False}
 """Derivatives of what is mapped over the points go by its sparse Jacobian: a fifth of IPOPT's time less than by
 directions."""
 
+SHOWN = {"joint_stiffness": "stiffness_now", "joint_damping": "damping_now", "electrical_power": "electrical_power"}
+"""Quantities of an instant that a phase is drawn with, by the name of their column."""
+
 
 class PhaseFunctions:
     """One phase of a device with its records chosen. Functions are built when first asked for and kept."""
@@ -43,7 +46,7 @@ class PhaseFunctions:
         state = ca.SX.sym("state", self.state_size)
         known = {**self._known, "stack_now": self._stack, STATE: symbols(state)}
         rows = [row.name for row in (*self.events, *self.paths, *self.steadies)]
-        wanted = ("stack_profile", "state_rates", "impedance_now", *rows)
+        wanted = ("stack_profile", "state_rates", "impedance_now", *SHOWN.values(), *rows)
         return {"state": state, **self.table.evaluate_instant(known, wanted)}
 
     def _function(self, name: str, values: Iterable[Any]) -> Any:

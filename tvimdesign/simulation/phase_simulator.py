@@ -200,9 +200,9 @@ class PhaseSimulator:
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
         values = dict.fromkeys(self._events, np.inf) | found.times
         for row, sampled in zip(self.phase.paths, watched[len(self._events) :], strict=True):
-            # What a phase that never ends adds up to has no end either.
-            whole = integrals.get(row.name, np.max(sampled))
-            values[row.name] = np.inf if row.name in integrals and found.end is None else float(whole)
+            whole = sampled[-1] if row.reduce == "end" else integrals.get(row.name, np.max(sampled))
+            # Of a phase that never ends there is a maximum; what it adds up to, or is at its end, there is not.
+            values[row.name] = np.inf if row.reduce != "maximum" and found.end is None else float(whole)
         return values, Trajectory(times=times, states=states[:size], currents=profile.at(times))
 
     @cached_property

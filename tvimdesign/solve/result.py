@@ -217,5 +217,5 @@ def _plain(solution: Solution | None) -> dict[str, Any]:
         "reference": solution.reference,
         "distinct_optima": [start.number for start in solution.distinct_optima()],
         "starts": [{k: v for k, v in asdict(start).items() if k != "seconds"} for start in solution.starts],
-        "held": [asdict(held) for held in solution.held],
+        "active_constraints": [asdict(held) for held in solution.held],
     }

@@ -113,6 +113,7 @@ class WriteOptions(_Part):
     """What the results folder gets besides the numbers."""
 
     plots: bool = Field(True, description="plots of the result")
+    vector: bool = Field(False, description="plots as PDF and SVG too, as a run that makes parts always writes")
     cad: bool = Field(True, description="STEP, STL and GLB of the parts")
     sensitivities: bool = Field(False, description="what every variable does to every output at the design")
 

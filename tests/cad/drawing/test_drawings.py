@@ -189,7 +189,7 @@ def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
     modulus, bending = 196.5e3, float(lines["coils that bend"].value)
     assert rate == pytest.approx(modulus * 2.413**4 / (64 * 24.4094 * bending) * pi / 180, rel=1e-3)
     assert float(lines["torque M1 at 8.59 deg"].value) == pytest.approx(rate * 8.594, rel=1e-3)
-    reported = list(csv.DictReader(io.StringIO(spring_csv(list(lines.values())).decode())))
+    reported = list(csv.DictReader(io.StringIO(spring_csv(list(lines.values())).decode("utf-8-sig"))))
     assert {row["name"]: row["value"] for row in reported} == {line.name: line.value for line in lines.values()}
 
 
@@ -212,7 +212,7 @@ def test_the_bill_counts_and_weighs_the_module(module: tuple[Design, Solids]) ->
     assert sum(one.quantity * one.mass for one in items) == pytest.approx(1e3 * design.values["module_mass"], rel=1e-4)
     count = {one.kind: one.quantity for one in items}
     assert (count["housing"], count["spring_left"], count["spring_right"]) == (1, 2, 2)
-    rows = list(csv.DictReader(io.StringIO(bill_csv(items).decode())))
+    rows = list(csv.DictReader(io.StringIO(bill_csv(items).decode("utf-8-sig"))))
     springs = next(row for row in rows if row["part"] == "spring_left")
     assert (springs["made_or_bought"], springs["catalogue_record"]) == ("bought", "music_wire")
     assert springs["title"] == "Music wire, ASTM A228"

@@ -196,6 +196,25 @@ def test_a_slot_too_deep_for_its_width_is_found(width: float, level: str) -> Non
     assert place_of(found)[2] == pytest.approx(4.0)
 
 
+@pytest.mark.parametrize("turned_over", [False, True])
+def test_of_several_slots_the_deepest_for_its_width_is_told(turned_over: bool) -> None:
+    # Deep but wide, narrow but shallow, and between: 10/8, 2/1.5 and 9/3 times as deep as they are wide.
+    block = box(60.0, 30.0, 14.0)
+    for along, width, depth in ((-20.0, 8.0, 10.0), (0.0, 1.5, 2.0), (20.0, 3.0, 9.0)):
+        block = block.cut(box(width, 30.0, depth).translate((along, 0.0, 14.0 - depth)))
+    found = milled(block.rotate((0, 0, 7.0), (1.0, 0, 7.0), 180.0) if turned_over else block)["pocket"]
+    assert found.value == pytest.approx(3.0, rel=0.03)
+    assert place_of(found)[0] == pytest.approx(20.0, abs=1.5)
+    assert place_of(found)[2] == pytest.approx(9.0 if turned_over else 5.0)
+
+
+def test_a_slot_below_counts_beside_a_better_one_above() -> None:
+    above, below = box(4.0, 30.0, 4.0).translate((-12.0, 0, 10.0)), box(2.0, 30.0, 6.0).translate((12.0, 0, 0))
+    found = milled(box(50.0, 30.0, 14.0).cut(above).cut(below))["pocket"]
+    assert found.value == pytest.approx(3.0, rel=0.03)
+    assert place_of(found)[2] == pytest.approx(6.0)
+
+
 def test_a_hole_too_deep_for_its_drill_is_found() -> None:
     solid = one_solid(box(30.0, 30.0, 40.0).faces(">Z").workplane().center(5.0, 0.0).hole(2.0, 30.0))
     found = hole_check("part", holes(solid), 10.0)

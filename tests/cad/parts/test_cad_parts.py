@@ -41,15 +41,17 @@ def test_every_check_holds_at_rest_and_through_the_stroke(design: Design) -> Non
     drawn = [f"{kind}_volume" for kind in MODULES[design.mode].drawn(dims)]
     for name in (*drawn, "rotor_inertia", "link_inertia", "parts_inertia"):
         assert sizes[name] == pytest.approx(0.0, abs=1e-9)
-    assert sizes["spring_right_volume"] == pytest.approx(0.0, abs=1e-3)
-    assert sizes["module_mass"] == pytest.approx(0.0, abs=1e-3)
+    # The kernel sweeps a wire to 3e-6 of its volume.
+    assert sizes["spring_right_volume"] == pytest.approx(0.0, abs=1e-5)
+    assert sizes["spring_left_volume"] == pytest.approx(0.0, abs=1e-5)
+    assert sizes["module_mass"] == pytest.approx(0.0, abs=1e-6)
     assert sizes["envelope_diameter"] == pytest.approx(0.0, abs=1e-6)
     assert sizes["envelope_height"] == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.mark.parametrize("row", ["housing_volume", "rotor_inertia", "spring_volume", "structure_density"])
 def test_a_wrong_model_is_found(paper: Design, row: str) -> None:
-    wrong = paper.model_copy(update={"values": paper.values | {row: 1.006 * paper.values[row]}})
+    wrong = paper.model_copy(update={"values": paper.values | {row: 1.0002 * paper.values[row]}})
     assert not all(check.ok for check in size_checks(wrong, build(paper)))
 
 

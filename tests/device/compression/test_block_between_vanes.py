@@ -123,3 +123,23 @@ def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
 
 def test_stroke_squeezes_the_block_by_its_share_of_the_depth(joint: dict[str, Any]) -> None:
     assert joint["block_strain"] == pytest.approx(0.104 * 33.0 / 5.0, rel=1e-9)
+
+
+def test_each_gap_between_hub_blocks_slots_and_feet_is_what_its_drawing_gives(squeezed: dict[str, Any]) -> None:
+    # In mm: six vanes of 5 and twelve blocks of 7 on 33, from 26 to 40, pads of 1.5, slots of 7 from 29.5 to 36.5.
+    mm = 1e-3
+    housing = np.pi / 3.0 - (2 * 7.0 + 5.0) / 33.0
+    reach = np.hypot(0.5 * 24.4094, 2.413) + 0.5 * 2.413
+    block, stroke = 7.0 / 33.0, squeezed["stroke"]
+    # Squeezed, a block keeps its area and its inner radius: (r^2 - 26^2) (a - stroke) = (40^2 - 26^2) a.
+    pressed_out = np.sqrt(26.0**2 + (40.0**2 - 26.0**2) * block / (block - stroke))
+    drawn = {
+        "hub_block_gap": 26.0 - (10.0 + 0.4 + 3.0) - 1.0, "block_breadth": 14.0,
+        "slot_opening": 29.5 * (housing - 2.0 * np.arcsin(1.5 / 29.5)), "slot_reach": 3.5 - 2.0,
+        "slot_web": 0.5 * (14.0 - 7.0), "slot_web_margin": 3.5 - 1.2, "slot_width_margin": 7.0 - 2.1 * 0.2,
+        "vane_root": 5.0 * 26.0 / 33.0, "vane_root_margin": 5.0 * 26.0 / 33.0 - 1.2,
+        "mount_slot_gap": 57.0 - 3.5 - 36.5 - 1.0, "pad_seat": 1.5 - 0.2,
+        "squeezed_block_gap": 57.0 - reach - pressed_out - 1.0,
+    }  # fmt: skip
+    found = TABLE.evaluate(squeezed, list(drawn))
+    assert {name: value / mm for name, value in found.items()} == pytest.approx(drawn)

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 
 TABLE = table_for("shear")
@@ -123,3 +124,24 @@ def test_the_pins_centre_stands_off_the_legs_line_by_coil_wire_and_pin(base: dic
     found = evaluate(base, coil_diameter=20e-3, wire_diameter=2e-3, pin_diameter=4e-3)
     assert found["leg_offset"] == pytest.approx(10e-3 + 1e-3 + 2e-3, rel=1e-12)
     assert found["leg_arm"] == pytest.approx(np.sqrt(28.5e-3**2 - 13e-3**2), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("material", "millimetres", "margin"),
+    [
+        # Shigley, 10th ed., table 10-4: A228 from .004 to .256 in, 0.10 to 6.5 mm; A313 in three ranges, 0.3 to 10 mm.
+        ("music_wire", 2.413, 6.5 / 2.413),
+        ("music_wire", 0.2, 2.0),
+        ("music_wire", 0.08, 0.8),
+        ("music_wire", 8.0, 6.5 / 8.0),
+        ("stainless_302", 0.15, 0.5),
+        ("stainless_302", 4.0, 2.5),
+        ("stainless_302", 12.5, 0.8),
+    ],
+)
+def test_a_wire_thinner_or_thicker_than_the_materials_table_has_no_margin(
+    material: str, millimetres: float, margin: float, base: dict[str, Any]
+) -> None:
+    record = Catalog().record("spring_materials", material)
+    known = base | {"spring_material": record, "wire_diameter": millimetres * 1e-3}
+    assert TABLE.evaluate(known, ["wire_range_margin"])["wire_range_margin"] == pytest.approx(margin, rel=1e-9)

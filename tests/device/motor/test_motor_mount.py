@@ -99,11 +99,40 @@ def test_the_motor_is_in_the_mass_of_the_module_and_turns_on_its_own_side_of_the
     assert driven["module_mass"] - bare["module_mass"] == pytest.approx(driven["drive_mass"])
     assert driven["parts_inertia"] == bare["parts_inertia"]
     assert driven["structure_stiffness"] == bare["structure_stiffness"]
-    # Stator and rotor 230 g, two bearings of 7 g, board and magnet 3.5 g; the rest is printed, or screws.
-    assert driven["drive_mass"] > 230e-3 + 14e-3 + 3.5e-3
-    # Rotor 21 kg mm2 by its record, and what is far from the axis: four M3 screws of 1.2 g at 57 mm.
-    screws = 4 * 7850.0 * 0.25 * np.pi * (2.5**2 * 16.0 + 5.5**2 * 3.0) * 1e-9 * (57.0 * MM) ** 2
-    assert driven["drive_inertia"] - driven["motor_hub_inertia"] == pytest.approx(21e-6 + screws, rel=0.03)
+
+
+def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one() -> None:
+    found = values_of("drive_mass drive_inertia motor_hub_volume motor_hub_inertia motor_housing_volume", **DRIVEN)
+
+    def tube(inner: float, outer: float, length: float) -> np.ndarray:
+        """Volume [mm^3] and polar moment of volume [mm^5] of a tube about its own axis."""
+        area = np.pi * (outer**2 - inner**2)
+        return np.array([area * length, 0.5 * area * length * (inner**2 + outer**2)])
+
+    def groove(inner: float, outer: float) -> float:
+        y = np.linspace(-4.0, 4.0, 2001)
+        return float(np.trapezoid(np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), y))
+
+    # Base of 8 with four holes of 2.5 x 6.8, wall and tube as high as the stator, 22.6. The bore: 24.1 wide up to the
+    # lower bearing's upper end, 16.15 above the ground, and for 5 at the top; 22 between. A way out for wires, 8 wide.
+    housing = tube(0.0, 37.2, 8.0) + tube(34.7, 37.2, 22.6) + tube(0.0, 14.55, 22.6)
+    housing -= tube(0.0, 12.05, 16.15 + 5.0) + tube(0.0, 11.0, 30.6 - 21.15) + 4 * tube(0.0, 1.25, 6.8)
+    board = tube(12.05, 14.2, 3.0)[0] + 3.0 * groove(14.2, 37.2)
+    assert found["motor_housing_volume"] / MM**3 == pytest.approx(housing[0] - 5.0 * groove(34.7, 37.2) - board)
+    retainer = tube(1.7, 8.5, 2.0) + tube(3.25, 8.5, 5.15)
+    screw = tube(0.0, 1.25, 12.0) + tube(0.0, 2.85, 1.65)
+    mounts = 4 * (tube(0.0, 1.25, 16.0) + tube(0.0, 2.75, 3.0))
+    mounts[1] += mounts[0] * 57.0**2
+    magnet = tube(0.0, 3.0, 2.5)
+    made = 1270.0 * (found["motor_hub_volume"] / MM**3 + housing[0] - 5.0 * groove(34.7, 37.2) - board + retainer[0])
+    grams = 1e-6 * (made + 7850.0 * (screw[0] + mounts[0]) + 7500.0 * magnet[0])
+    # Stator 189 g and rotor 41 g, two bearings of 7 g, a board of 3 g.
+    assert 1e3 * found["drive_mass"] == pytest.approx(grams + 189.0 + 41.0 + 14.0 + 3.0)
+    # The rotor's 21 kg mm^2 is its record's; of a bearing of 15 and 24 turns what is inside of 19.5.
+    inner = 14.0 / tube(7.5, 12.0, 1.0)[0] * tube(7.5, 9.75, 1.0)[1]
+    turning = 1e-6 * (1270.0 * retainer[1] + 7850.0 * (screw[1] + mounts[1]) + 7500.0 * magnet[1]) + inner
+    hub = found["motor_hub_inertia"] * 1e9
+    assert found["drive_inertia"] * 1e9 - hub == pytest.approx(21e3 + turning)
 
 
 def test_the_motor_turns_the_whole_housing_with_what_it_carries() -> None:
@@ -115,6 +144,20 @@ def test_the_motor_turns_the_whole_housing_with_what_it_carries() -> None:
     assert found["driven_inertia"] == pytest.approx(whole)
     assert found["motor_acceleration"] == pytest.approx(0.7 / whole)
     assert values_of("driven_inertia motor_acceleration") == {"driven_inertia": 0.0, "motor_acceleration": 0.0}
+
+
+def test_the_motor_turns_cover_and_adjusters_as_well() -> None:
+    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass adjusters_mass "
+    radii = "housing_inner_radius housing_outer_radius"
+    found = values_of(rows + radii, **DRIVEN | {"cover": "plate", "preload_adjuster": "rotary"})
+    springs = (found["springs_mass"] + found["adjusters_mass"]) * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
+    between = (found["pcl_mass"] + found["peltier_mass"]) * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
+    # A plate of 1.5 mm, less the core's hole of 10.4 mm, four of 1.2 mm on the wall's radius and four of 3.5 on 57 mm.
+    polar = 0.5 * np.pi * (found["housing_outer_radius"] ** 4 - (10.4 * MM) ** 4)
+    for radius, circle in ((1.2 * MM, found["housing_inner_radius"]), (3.5 * MM, 57.0 * MM)):
+        polar -= 4 * np.pi * radius**2 * (circle**2 + 0.5 * radius**2)
+    whole = found["drive_inertia"] + found["housing_inertia"] + springs + between + 1270.0 * 1.5 * MM * polar
+    assert found["driven_inertia"] == pytest.approx(whole)
 
 
 def test_a_motor_s_torque_is_held_against_the_springs() -> None:
@@ -164,6 +207,28 @@ def test_a_good_motor_mount_keeps_its_rules_and_each_is_broken_by_what_its_name_
     # The base begins at -39.6 mm: a rotor as long as that reaches into the clearance of 0.4 mm.
     long = inputs_with(**DRIVEN) | {"motor_rotor_bottom_level": -39.3 * MM}
     assert table_for("shear").evaluate(long, ["motor_barrel_gap"])["motor_barrel_gap"] == pytest.approx(-0.1 * MM)
+
+
+def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives() -> None:
+    # In mm: a disc of 20.8 with corners of 0.2, printed walls of 1.2, 0.4 to turn in, M3 in plastic (5.25 of thread).
+    drawn = {
+        "motor_foot_gap": 57.0 - 20.8 - 0.2, "motor_spoke_gap": 21.0 * np.sqrt(0.5) - 3.5 - 0.2,
+        "motor_retainer_gap": (6.0 + 4.0 - 4.0 - 0.4 - 2.5 - 2.2) - 0.4, "motor_spoke_wall_margin": 3.5 - 1.25 - 1.2,
+        "mount_thread_margin": 16.0 - 10.0 - 5.25, "mount_tip_margin": 6.0 + 10.0 - 16.0,
+        "motor_tube_gap": (20.8 - 2.5) - (12.05 + 2.5) - 0.4, "motor_hub_wall_margin": 1.3, "motor_wall_margin": 1.3,
+        "motor_barrel_gap": 0.5 * (22.6 - 11.2) - 0.4, "motor_journal_wall_margin": 7.45 - 1.25 - 1.2,
+        # From the stator's upper end at -17 to the retainer: above a board of 3, 1 of air and its own 7.15.
+        "motor_lip_margin": (47.6 - 3.0 - 1.0 - 7.15) - 17.0 - 10.0 - 1.2,
+        # A screw of 12 through 2 of retainer and 0.4 of air, with 0.5 for its tip; from the journal's end at -36.05.
+        "motor_thread_margin": 12.0 - 2.0 - 0.4 - 5.25, "motor_disc_margin": (36.05 - 10.0) - (9.6 + 0.5) - 1.2,
+        "motor_retainer_wall_margin": 8.5 - 3.25 - 1.2, "motor_base_thread_margin": (8.0 - 1.2) - 0.5 - 5.25,
+        # Midway between the stator's 24.85 and 34.5, around the recess for a board of 14.
+        "motor_base_hole_gap": 0.5 * (24.85 + 34.5) - 1.25 - 14.2 - 1.2, "encoder_ledge_margin": 14.0 - 12.05 - 1.2,
+        "encoder_floor_margin": 8.0 - 3.0 - 1.2,
+    }  # fmt: skip
+    assert set(drawn) == RULES | ENCODER_RULES
+    found = {name: value / MM for name, value in values_of(" ".join(drawn), **DRIVEN).items()}
+    assert found == pytest.approx(drawn, abs=1e-9)
 
 
 @pytest.mark.parametrize("mode", MODES)

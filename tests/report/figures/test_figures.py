@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import io
+import re
+from importlib import import_module
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from PIL import Image
 
+from tests.helpers.figures import faults, signed
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report.figures import run_figures
-from tvimdesign.report.figures.canvas import png
-from tvimdesign.report.run.run_plot_data import plot_data
+from tvimdesign.report.figures.canvas import as_file, png
+from tvimdesign.report.run.run_plot_data import drawings, plot_data
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
@@ -27,7 +30,7 @@ solver: {starts: 1, cells: 8}
 """,
     "evaluated, in compression": "mode: compression\nsolver: {cells: 8}\n",
 }
-NAMES = ("cycle", "impedance", "mass", "bounds")
+NAMES = ("cycle", "stiffness_and_damping", "power_and_energy", "impedance", "torque", "mass", "bounds")
 
 
 @pytest.fixture(scope="module", params=STUDIES)
@@ -41,34 +44,98 @@ def data(found: StudyResult) -> dict[str, Any]:
     return plot_data(found, table_for(found.design.mode))
 
 
-def drawn(name: str, data: dict[str, Any]) -> Figure:
-    figure: Figure = getattr(run_figures, name)(data[name])
-    return figure
-
-
-def whole(figure: Figure) -> bool:
-    """Whether all that is drawn lies on the page."""
-    png(figure)
-    used, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
-    return min(used.x0, used.y0) >= 0.0 and used.x1 <= width and used.y1 <= height
+def drawn(figure: str, data: dict[str, Any]) -> Figure:
+    """A figure by `file.function`."""
+    file, _, function = figure.partition(".")
+    made: Figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(data)
+    return made
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_nothing_is_cut_off(name: str, data: dict[str, Any]) -> None:
-    assert whole(drawn(name, data))
+def test_an_editor_finds_no_fault(name: str, found: StudyResult) -> None:
+    (asked,) = [one for one in drawings(found, table_for(found.design.mode)) if one.file == name]
+    assert faults(signed(drawn(asked.figure, asked.data))) == []
 
 
 @pytest.mark.parametrize("count", [0, 1, 80])
 def test_bounds_have_room_for_any_number_of_limits(count: int, data: dict[str, Any]) -> None:
-    limits = data["bounds"]["limits"]
-    many = (limits * (count // len(limits) + 1))[:count]
-    assert whole(drawn("bounds", {"bounds": data["bounds"] | {"limits": many}}))
+    groups = data["bounds"]["margins"]
+    many = [group | {"rows": (group["rows"] * (count // len(group["rows"]) + 1))[:count]} for group in groups]
+    figure = drawn("bounds_figure.bounds", data["bounds"] | {"margins": many if count else []})
+    assert faults(signed(figure)) == []
+
+
+def test_a_margin_beyond_the_scale_ends_in_an_arrow_and_has_its_number() -> None:
+    row = {"name": "free angle ≤ 1", "margin": -2315.0, "finite": True, "kind": "broken", "text": "−23.2"}
+    group = {"unit": "%", "title": "What must hold", "label": "Margin, of the limit (%)", "rows": [row]}
+    (axes,) = drawn("bounds_figure.bounds", {"free": [], "margins": [group]}).axes
+    (bar,) = axes.patches
+    assert bar.get_width() == -100.0
+    assert [line.get_marker() for line in axes.lines if line.get_marker() in "<>"] == ["<"]
+    assert "−23.2" in [text.get_text() for text in axes.texts]
+
+
+def test_margins_stand_in_their_limit_s_own_unit(found: StudyResult, data: dict[str, Any]) -> None:
+    rows = [row | {"unit": group["unit"]} for group in data["bounds"]["margins"] for row in group["rows"]]
+    gap = next(row for row in rows if row["name"] == "tang margin ≥ 0 mm")
+    assert gap["unit"] == "mm"
+    assert gap["margin"] == pytest.approx(1e3 * found.design.value("tang_margin"), rel=1e-6)
+    angle = next(row for row in rows if row["name"] == "free angle over preload ≤ 1")
+    assert angle["unit"] == "%"
+    left = 1.0 - found.design.value("free_angle_over_preload")
+    assert angle["margin"] == pytest.approx(100.0 * left, rel=1e-6)
+    assert float(angle["text"].replace("−", "-")) == pytest.approx(left, rel=5e-3)
 
 
 def test_a_file_has_the_pixels_of_its_size_and_no_transparent_ones(data: dict[str, Any]) -> None:
-    picture = Image.open(io.BytesIO(png(drawn("mass", data))))
-    assert picture.size == (960, 420)  # 8 by 3.5 inches of 120 dots
+    figure = drawn("module_figures.torque", data["torque"])
+    picture = Image.open(io.BytesIO(png(figure)))
+    assert picture.size == (2130, 780)  # 7.1 by 2.6 inches of 300 dots
     assert picture.mode == "RGB"
+    assert picture.info["dpi"] == pytest.approx((300.0, 300.0), abs=0.01)
+
+
+def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, Any]) -> None:
+    pdf, svg = ([as_file(signed(drawn("module_figures.torque", data["torque"])), ending) for _ in range(2)]
+                for ending in ("pdf", "svg"))  # fmt: skip
+    assert pdf[0] == pdf[1]
+    assert svg[0] == svg[1]
+    assert pdf[0].startswith(b"%PDF-")
+    assert pdf[0].rstrip().endswith(b"%%EOF")
+    assert b"/Type3" not in pdf[0]
+    assert b"/Subtype /Image" not in pdf[0]
+    page = re.search(rb"/MediaBox \[ 0 0 ([0-9.]+) ([0-9.]+) \]", pdf[0])
+    assert page
+    assert [float(size) for size in page.groups()] == pytest.approx([72.0 * 7.1, 72.0 * 2.6])
+    root = ElementTree.fromstring(svg[0])
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    assert len(list(root.iter("{http://www.w3.org/2000/svg}path"))) > 20
+    assert not list(root.iter("{http://www.w3.org/2000/svg}image"))
+
+
+def test_stiffness_and_damping_make_the_impedance(found: StudyResult) -> None:
+    for phase, curves in found.histories.items():
+        point = "hot" if phase == "softening" else "cold"
+        turning = 2.0 * np.pi * found.design.value(f"frequency@{point}")
+        both = np.hypot(curves["joint_stiffness"], turning * np.array(curves["joint_damping"]))
+        assert both == pytest.approx(np.array(curves["joint_impedance"]), rel=1e-9)
+
+
+def test_energy_and_power_end_where_the_table_says(found: StudyResult) -> None:
+    curves = found.histories["softening"]
+    assert curves["electrical_energy"][0] == 0.0
+    assert curves["electrical_energy"][-1] == pytest.approx(found.design.value("switch_energy"), rel=2e-3)
+    assert max(curves["electrical_power"]) == pytest.approx(found.design.value("peak_power"), rel=2e-3)
+
+
+def test_loops_have_the_stiffness_and_the_loss_of_their_point(found: StudyResult, data: dict[str, Any]) -> None:
+    stroke = found.design.value("stroke")
+    for point, loop in zip(found.design.study["operating_points"], data["torque"]["loops"], strict=True):
+        angle, torque = np.array(loop["angle"]), np.array(loop["torque"])
+        top = int(np.argmax(angle))
+        assert torque[top] == pytest.approx(found.design.value(f"joint_stiffness@{point}") * stroke, rel=1e-6)
+        lossy = 2.0 * np.pi * found.design.value(f"frequency@{point}") * found.design.value(f"joint_damping@{point}")
+        assert np.trapezoid(torque, angle) == pytest.approx(np.pi * lossy * stroke**2, rel=2e-3)  # of a Kelvin body
 
 
 def test_profiles_run_from_face_to_face_at_moments_of_the_stage(found: StudyResult, data: dict[str, Any]) -> None:
@@ -86,7 +153,7 @@ def test_profiles_run_from_face_to_face_at_moments_of_the_stage(found: StudyResu
 
 
 def test_bars_are_the_parts_the_module_has_and_add_up_to_its_mass(found: StudyResult, data: dict[str, Any]) -> None:
-    (axes,) = drawn("mass", data).axes
+    (axes,) = drawn("module_figures.mass", data["mass"]).axes
     bars = [bar.get_width() for bar in axes.patches]
     assert min(bars) > 0.0
     assert sum(bars) == pytest.approx(1e3 * found.design.value("module_mass"), rel=1e-9)

@@ -24,7 +24,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def _rows(path: Path) -> list[dict[str, str]]:
-    with path.open(encoding="utf-8", newline="") as stream:
+    with path.open(encoding="utf-8-sig", newline="") as stream:
         return list(csv.DictReader(stream))
 
 
@@ -48,8 +48,8 @@ def test_the_grid_of_times_and_the_figure_are_there(folder: Path) -> None:
     assert all(float(row["far_face_time [s]"]) > float(row["near_face_time [s]"]) for row in times)
     assert (folder / "level_sets.png").read_bytes().startswith(b"\x89PNG")
     assert set(json.loads((folder / "manifest.json").read_text())["files"]) == {
-        "level_sets.csv", "level_sets.png", "paper_case.csv", "paper_case.png", "paper_case_choices.csv",
-        "response_times.csv",
+        *(f"{name}.{ending}" for name in ("level_sets", "paper_case") for ending in ("csv", "png", "pdf", "svg")),
+        "paper_case_choices.csv", "response_times.csv",
     }  # fmt: skip
 
 

@@ -16,7 +16,7 @@ from rich.console import Console
 from support import ROOT, Command
 
 from tvimdesign.device import table_for
-from tvimdesign.report.run.front_report import front_csv, in_words, plain, print_front
+from tvimdesign.report.run.front_report import figure_data, front_csv, in_words, plain, print_front
 from tvimdesign.solve.pareto.front import Front
 from tvimdesign.solve.pareto.tradeoff import Failure, Point
 from tvimdesign.study.design import read_design
@@ -37,7 +37,7 @@ def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_table_has_every_variable_and_every_minimised_output(run: Path) -> None:
-    with (run / "front.csv").open() as stream:
+    with (run / "front.csv").open(encoding="utf-8-sig") as stream:
         points = list(csv.DictReader(stream))
     assert len(points) == 5
     assert {"response_time [s]", "module_mass [g]", "wire_diameter [mm]", "pcl_thickness [mm]"} <= points[0].keys()
@@ -114,6 +114,32 @@ def test_the_words_say_what_a_hundredth_less_costs_beyond_the_knee() -> None:
     # ln 1.3 / ln (1/0.9) = 2.49, ln 1.5 / ln (1/0.9) = 3.85
     assert "1 % less response_time costs 2.5 % module_mass (point 1)" in said
     assert "1 % less module_mass costs 3.8 % response_time (point 3)" in said
+
+
+def test_a_front_that_spans_next_to_nothing_is_no_trade_and_has_no_knee() -> None:
+    """The same bend as above, a hundredth of it in the mass: 100.9 g to 101.3 g is nothing anyone chooses by."""
+    pairs = [(0.9, 1.013), (1.0, 1.01), (1.5, 1.009)]
+    points = tuple(Point("", {"response_time": 100.0 * t, "module_mass": 0.1 * m}, {}) for t, m in pairs)
+    front, table = Front(("response_time", "module_mass"), points), table_for("shear")
+    (said,) = in_words(front, table)
+    assert said == (
+        "There is no trade to speak of: over the whole front module_mass spans 0.40% (100.9 g to 101.3 g); "
+        "take the point with the least response_time."
+    )
+    assert plain(front, list(front.outputs), table)["knee"] is None
+    assert "knee" not in front_csv(front, list(front.outputs), table)
+    assert figure_data(front, points[0], table)["knee"] is None
+
+
+def test_of_three_outputs_the_one_that_is_not_traded_is_named() -> None:
+    rows = [(0.9, 1.3, 1.0), (1.0, 1.0, 1.01), (1.5, 0.9, 1.02)]
+    names = ("response_time", "module_mass", "envelope_diameter")
+    points = tuple(Point("", dict(zip(names, row, strict=True)), {}) for row in rows)
+    front = Front(names, points)
+    (said,) = in_words(front, table_for("shear"))
+    assert said.startswith("There is no trade to speak of in envelope_diameter: ")
+    assert said.endswith("ask for a front of response_time and module_mass.")
+    assert front.knee is None
 
 
 @pytest.mark.slow

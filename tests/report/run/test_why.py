@@ -56,9 +56,9 @@ def test_a_limit_either_binds_or_touches_or_has_room(found: StudyResult) -> None
     assert by_text["spring_stiffness >= 5 N·m/rad"]["stands"] == "binds"
     upper = by_text["spring_stiffness <= 8 N·m/rad"]
     assert upper["stands"] == "slack"
-    assert upper["room"] == pytest.approx(1.0 - 5.0 / 8.0, rel=1e-3)
+    assert upper["margin"] == pytest.approx(1.0 - 5.0 / 8.0, rel=1e-3)
     for row in rows:
-        assert (row["stands"] == "slack") == (row["room"] > 0.0 and row["objective"] < 1e-3) or row[
+        assert (row["stands"] == "slack") == (row["margin"] > 0.0 and row["shadow_price"] < 1e-3) or row[
             "stands"
         ] == "touches"
 
@@ -66,7 +66,7 @@ def test_a_limit_either_binds_or_touches_or_has_room(found: StudyResult) -> None
 def test_slack_limits_stand_in_the_order_of_their_room(found: StudyResult) -> None:
     rooms = [held.margin for held in slack(found)]
     assert rooms == sorted(rooms)
-    assert "spring_stiffness <= 8 N·m/rad (room 37.5%)" in slack_in_words(found, TABLE)
+    assert "spring_stiffness <= 8 N·m/rad (margin 37.5%)" in slack_in_words(found, TABLE)
 
 
 def test_the_table_on_file_has_a_column_for_each_output(found: StudyResult) -> None:
@@ -74,4 +74,4 @@ def test_the_table_on_file_has_a_column_for_each_output(found: StudyResult) -> N
     first = binding(found)[0]
     assert rows[0]["limit"] == first.text
     for name, saving in first.sensitivity.items():
-        assert float(rows[0][f"{name} [%]"]) == pytest.approx(saving, rel=1e-5, abs=1e-12)
+        assert float(rows[0][f"sensitivity of {name} [%]"]) == pytest.approx(saving, rel=1e-5, abs=1e-12)

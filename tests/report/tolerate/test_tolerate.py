@@ -29,21 +29,33 @@ def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tu
 
 def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
     folder, reported, _ = results
-    expected = {"contributors.csv", "limits.csv", "manifest.json", "outputs.csv", "spread.png", "tolerances.json",
+    expected = {"contributors.csv", "limits.csv", "manifest.json", "outputs.csv", "spread.pdf", "spread.png",
+                "spread.svg", "tolerances.json",
                 "tolerated.yaml"}  # fmt: skip
     assert {path.name for path in folder.iterdir()} == expected
     kept = json.loads((folder / "tolerances.json").read_text())
     assert kept == {name: value for name, value in reported.items() if name != "folder"}
     assert kept["samples"] == 4096
-    rows = list(csv.DictReader((folder / "outputs.csv").read_text().splitlines()))
+    rows = list(csv.DictReader((folder / "outputs.csv").read_text("utf-8-sig").splitlines()))
     (stiffness,) = [row for row in rows if row["output"] == "spring_stiffness"]
     worst, drawn = float(stiffness["worst_high"]), float(stiffness["high"])
     assert float(stiffness["as_drawn"]) < drawn < worst
     assert float(stiffness["deviation"]) == pytest.approx(float(stiffness["deviation_rss"]), rel=0.02)
 
 
+def test_every_output_stands_in_si_too_and_soft_is_told(results: tuple[Path, dict[str, Any], str]) -> None:
+    reported = results[1]
+    assert (reported["format"], reported["units"]) == (1, "SI")
+    rows = {row["output"]: row for row in reported["outputs"]}
+    stiffness = rows["spring_stiffness"]
+    assert stiffness["si"]["unit"] == stiffness["unit"] == "N·m/rad"
+    for name in ("as_drawn", "low", "high", "worst_low", "deviation"):
+        assert stiffness["si"][name] == pytest.approx(stiffness[name])
+    assert any(note.startswith("Soft is |Z| <= ") for note in reported["notes"])
+
+
 def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, Any], str]) -> None:
-    rows = list(csv.DictReader((results[0] / "contributors.csv").read_text().splitlines()))
+    rows = list(csv.DictReader((results[0] / "contributors.csv").read_text("utf-8-sig").splitlines()))
     mine = [row for row in rows if row["output"] == "spring_stiffness"]
     assert sum(float(row["share"]) for row in mine) == pytest.approx(1.0, abs=1e-4)
     assert max(mine, key=lambda row: float(row["share"]))["contributor"] == "wire_diameter"

@@ -184,13 +184,17 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(found: So
     choosing = _chosen(found)
     said, data = price_in_words(choosing, TABLE), choosing_data(choosing, TABLE)
     assert choosing.between is not None
+    assert data is not None
     for name, value in choosing.best[0].values.items():
         assert value == pytest.approx(found.values[name], rel=1e-5), "simulated at other samples"
         share = value / choosing.between.values[name] - 1.0
-        assert data["price"][name] == pytest.approx(share, rel=1e-9)
+        assert data["cost_of_standard_sizes"][name] == pytest.approx(share, rel=1e-9)
         assert f"{name} {share:+.1%}" in said
     assert f"wire_diameter 2.1 mm instead of {1e3 * choosing.between.choices['wire_diameter']:.4g}" in said
-    assert data["best"][0]["choices"]["wire_diameter"] == {"value": pytest.approx(2.1), "unit": "mm"}
+    wire = data["best"][0]["choices"]["wire_diameter"]
+    assert isinstance(wire, dict)
+    assert (wire["value"], wire["unit"]) == (pytest.approx(2.1), "mm")
+    assert (wire["si"]["value"], wire["si"]["unit"]) == (pytest.approx(2.1e-3), "m")
 
 
 def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:

@@ -37,6 +37,17 @@ def test_a_straight_front_has_no_knee() -> None:
     assert shape.knee(np.array([[0.0, 1.0], [0.4, 0.6], [1.0, 0.0]])) is None
 
 
+@pytest.mark.parametrize(("second", "little"), [([1.0, 1.02], [1]), ([1.0, 1.05], []), ([-1.02, -1.0], [1])])
+def test_an_output_that_spans_less_than_three_hundredths_is_hardly_traded(
+    second: list[float], little: list[int]
+) -> None:
+    assert shape.little_traded(np.array([[1.0, 2.0], second]).T) == little
+
+
+def test_of_a_single_point_nothing_is_said() -> None:
+    assert shape.little_traded(np.array([[1.0, 2.0]])) == []
+
+
 def test_spread_is_the_largest_gap_over_the_mean_one_whatever_the_order() -> None:
     points = np.array([[0.0, 0.0], [4.0, 0.0], [1.0, 0.0], [2.0, 0.0]])  # gaps 1, 1, 2
     assert shape.spread(points) == pytest.approx(1.5)

@@ -131,7 +131,9 @@ def test_link_that_rattles_on_is_said_to(resolved: ResolvedModule, trial: Callab
 
 def test_loop_that_is_drawn_is_the_first_swing(trial: Callable[[str], Trial]) -> None:
     release = trial("release")
-    assert all(line.sheet.endswith("_first_swing") for line in release.panels[2].lines)
+    loops = [panel for panel in release.panels if panel.x_label.startswith("Angle")]
+    assert len(loops) == 3
+    assert all(line.sheet.endswith("_first_swing") for panel in loops for line in panel.lines)
     whole = sheet(release, "release_melting_nominal").column("time").values
     swing = sheet(release, "release_melting_nominal_first_swing").column("time").values
     assert np.array_equal(swing, whole[: len(swing)])

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import cadquery as cq
 
+from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
@@ -69,4 +70,4 @@ def bill_csv(items: Sequence[Item]) -> bytes:
             number, one.kind, one.quantity, "made" if one.made else "bought", one.material, one.title,
             f"{one.mass:.3f}", f"{one.mass * one.quantity:.3f}", " ".join(one.papers),
         ])  # fmt: skip
-    return stream.getvalue().encode()
+    return stream.getvalue().encode(TABLE_ENCODING)

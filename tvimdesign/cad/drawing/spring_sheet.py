@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from math import atan2, cos, degrees, radians, sin, tan
 
 from tvimdesign import __version__
+from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
@@ -83,7 +84,7 @@ def spring_csv(lines: Sequence[SpringLine]) -> bytes:
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["name", "value", "unit", "tolerance", "note"])
     writer.writerows([line.name, line.value, line.unit, line.tolerance, line.note] for line in lines)
-    return stream.getvalue().encode()
+    return stream.getvalue().encode(TABLE_ENCODING)
 
 
 def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) -> DrawingSheet:

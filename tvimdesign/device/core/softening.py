@@ -92,6 +92,39 @@ def softening_margin(response_time: Scalar, softening_time: Scalar) -> Scalar:
     return response_time - softening_time
 
 
+# --- what the joint is when the switch ends ---------------------------------------------------------------------------
+
+
+@quantities.path(SOFTENING, "N*m/rad", "end")
+def softened_stiffness(stiffness_now: Scalar) -> Scalar:
+    """Stiffness of the joint when the switch ends, at the hot point's frequency."""
+    return stiffness_now
+
+
+@quantities.path(SOFTENING, "N*m/rad", "end")
+def softened_impedance(impedance_now: Scalar) -> Scalar:
+    """Magnitude of the joint's dynamic stiffness when the switch ends, at the hot point's frequency."""
+    return impedance_now
+
+
+@quantities.path(SOFTENING, "degC", "end")
+def softened_temperature(stack_profile: heat.Profile) -> Scalar:
+    """Temperature of the layer's coldest face, at the rotor, when the switch ends."""
+    return stack_profile.far
+
+
+@quantities.output(
+    "K",
+    advice=(
+        Rule(sense=">=", value=0.0, reason="the layer never is at the hot point's temperature during the cycle, so the "
+             "joint is not as soft as it is told to be at `hot`; see softened_stiffness and softened_impedance"),
+    ),
+)  # fmt: skip
+def hot_point_margin(softened_temperature: Scalar, temperature_at_hot: Scalar) -> Scalar:
+    """Temperature of the layer's coldest face when the switch ends less that of the hot point."""
+    return softened_temperature - temperature_at_hot
+
+
 # --- over the phase -------------------------------------------------------------------------------------------------
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.joint_impedance import joint_impedance
+from tvimdesign.device.core.joint_impedance import joint_damping, joint_impedance, joint_stiffness
 from tvimdesign.device.table.quantity import Phase, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import crystallization, heat, layer, peltier, polymer
@@ -183,16 +183,17 @@ def mean_temperature(stack_profile: heat.Profile) -> Scalar:
 
 
 @quantities.helper(instant=True)
+def frequency_now(phase: Phase, frequency_at_hot: Scalar, frequency_at_cold: Scalar) -> Scalar:
+    """Frequency of the operating point where the phase leads [Hz]."""
+    return frequency_at_hot if phase.sign > 0.0 else frequency_at_cold
+
+
+@quantities.helper(instant=True)
 def slice_moduli(
-    stack_profile: heat.Profile,
-    pcl_rheology: polymer.Rheology,
-    phase: Phase,
-    frequency_at_hot: Scalar,
-    frequency_at_cold: Scalar,
+    stack_profile: heat.Profile, pcl_rheology: polymer.Rheology, frequency_now: Scalar
 ) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the phase leads."""
-    frequency = frequency_at_hot if phase.sign > 0.0 else frequency_at_cold
-    return polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency, pcl_rheology)
+    return polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency_now, pcl_rheology)
 
 
 @quantities.helper(instant=True)
@@ -201,14 +202,28 @@ def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
     return layer.series_modulus(*slice_moduli)
 
 
-@quantities.output("N*m/rad", instant=True)
-def impedance_now(
-    layer_moduli: tuple[Scalar, Scalar],
-    moment_now: Scalar,
-    pcl_depth: Scalar,
-    elastic_support: Scalar,
-    spring_stiffness: Scalar,
-) -> Scalar:
-    """Magnitude of the joint's dynamic stiffness at the frequency of where the phase leads."""
+@quantities.helper(instant=True)
+def branch_now(
+    layer_moduli: tuple[Scalar, Scalar], moment_now: Scalar, pcl_depth: Scalar, elastic_support: Scalar
+) -> tuple[Scalar, Scalar]:
+    """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
     storage, loss = (modulus * moment_now / pcl_depth for modulus in layer_moduli)
-    return joint_impedance(spring_stiffness, layer.series_stiffness(storage, loss, elastic_support))
+    return layer.series_stiffness(storage, loss, elastic_support)
+
+
+@quantities.output("N*m/rad", instant=True)
+def impedance_now(spring_stiffness: Scalar, branch_now: tuple[Scalar, Scalar]) -> Scalar:
+    """Magnitude of the joint's dynamic stiffness at the frequency of where the phase leads."""
+    return joint_impedance(spring_stiffness, branch_now)
+
+
+@quantities.output("N*m/rad", instant=True)
+def stiffness_now(spring_stiffness: Scalar, branch_now: tuple[Scalar, Scalar]) -> Scalar:
+    """Stiffness of the joint at the frequency of where the phase leads."""
+    return joint_stiffness(spring_stiffness, branch_now)
+
+
+@quantities.output("N*m*s/rad", instant=True)
+def damping_now(branch_now: tuple[Scalar, Scalar], frequency_now: Scalar) -> Scalar:
+    """Damping of the joint at the frequency of where the phase leads."""
+    return joint_damping(branch_now, frequency_now)

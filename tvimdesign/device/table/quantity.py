@@ -161,10 +161,10 @@ class Event(Output):
 
 @dataclass(frozen=True, kw_only=True)
 class Path(Output):
-    """What `function` adds up to, or reaches, from the start of a phase to the event that ends it."""
+    """What `function` adds up to, or reaches, from the start of a phase to the event that ends it, or is at that."""
 
     phase: str
-    reduce: Literal["integral", "maximum"]
+    reduce: Literal["integral", "maximum", "end"]
 
 
 @dataclass(frozen=True, kw_only=True)

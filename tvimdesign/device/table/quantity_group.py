@@ -208,9 +208,14 @@ class QuantityGroup:
         return self.output("1", per_point=per_point, instant=instant, hidden=True, requires=requires, default=default)
 
     def path(
-        self, phase: Phase, unit: str, reduce: Literal["integral", "maximum"], *, headline: bool = False
+        self,
+        phase: Phase,
+        unit: str,
+        reduce: Literal["integral", "maximum", "end"],
+        *,
+        headline: bool = False,
     ) -> Callable[[F], F]:
-        """Add what an instant's value adds up to, or reaches, over a phase."""
+        """Add what an instant's value adds up to, or reaches, over a phase, or is at its end."""
 
         def add(function: F) -> F:
             quantity = Path(name=function.__name__, unit=unit, description=_summary(function), group=self.group,

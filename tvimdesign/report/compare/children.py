@@ -115,6 +115,12 @@ def _finish(child: _Child) -> dict[str, Any]:
     else:
         last = " ".join(child.errors.read_text(errors="replace").strip().splitlines()[-1:])
         error = f"its process ended with code {code}: {last or 'nothing was said'}"
-        found = {"fronts": [], "seconds": {}, "troubles": [{"step": "all", "error": error, "exit_code": _CRASHED}]}
+        found = {
+            "fronts": [],
+            "seconds": {},
+            "release": {},
+            "heat": {},
+            "troubles": [{"step": "all", "error": error, "exit_code": _CRASHED}],
+        }
     found["seconds"]["whole process"] = time.perf_counter() - child.began
     return found

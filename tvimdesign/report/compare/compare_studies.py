@@ -48,7 +48,7 @@ def compare_studies(
         outcome.seconds["all answers"] = time.perf_counter() - began
         asked_for = drawings(outcome)
         if drawing:
-            drawing.begin(folder.path, asked_for)
+            drawing.begin(folder.path, asked_for, " against ".join(one.study.name for one in entrants.values()))
         _write(folder, outcome, settings)
         progress("")
         if not as_json:

@@ -12,6 +12,7 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.compare.comparison_table import Row, common_rows, lone_values, plain
 from tvimdesign.report.compare.sentence import Contest, against, ahead, conditions, held_back, standing, wins
+from tvimdesign.report.output.results_format import head
 from tvimdesign.solve.pareto.front_leads import leads
 from tvimdesign.study.conditions import Entrant
 from tvimdesign.study.design import Design
@@ -44,6 +45,12 @@ class Outcome:
             }
             for which in COMPARISONS
         }  # fmt: skip
+
+    @property
+    def which(self) -> str:
+        """What is held against each other: the optima where every study that has a design has one, else as drawn."""
+        found = [answer for answer in self.found.values() if any(which in answer for which in COMPARISONS)]
+        return "optimised" if found and all("optimised" in answer for answer in found) else "drawn"
 
     @cached_property
     def rows(self) -> dict[str, list[Row]]:
@@ -89,7 +96,8 @@ class Outcome:
         """Every front, its points in their units; null is never."""
         names = {name for _, _, point in self._points() for name in point["values"]}
         return {
-            "units": {name: pretty(self.unit(name)) for name in sorted(names)},
+            **head(),
+            "units_of_values": {name: pretty(self.unit(name)) for name in sorted(names)},
             "fronts": [
                 {
                     "study": label, "first": first, "second": second,
@@ -118,7 +126,12 @@ class Outcome:
 
     def _point(self, point: dict[str, Any]) -> dict[str, Any]:
         values = {name: self._in_unit(name, value) for name, value in point["values"].items()}
-        return {"where": point["where"], "values": values, "current_profiles": point["current_profiles"]}
+        return {
+            "where": point["where"],
+            "values": values,
+            "si": point["values"],
+            "current_profiles": point["current_profiles"],
+        }
 
     def _in_unit(self, name: str, value: float | None) -> float | None:
         return None if value is None else from_si(value, self.unit(name))
@@ -131,27 +144,30 @@ class Outcome:
         said = [self.sentence]
         for which, rows in self.rows.items():
             labels = list(self.designs[which])
-            texts = self._against(which) if which == "drawn" else []
+            texts = self._against(which) if which != self.which else []
             broken = [
                 f"{label} as drawn does not keep {', '.join(self.found[label][which]['broken'])}"
                 for label in labels if self.found[label][which]["broken"]
             ]  # fmt: skip
             texts += [*broken, *(text for label in labels[1:] if (text := ahead(label, labels[0], rows)))]
-            texts += [text for label in labels if (text := held_back(label, self.found[label][which]["held"]))]
+            texts += [
+                text for label in labels if (text := held_back(label, self.found[label][which]["active_constraints"]))
+            ]
             said += [f"{COMPARISONS[which].capitalize()}: {text}." for text in texts]
         return [*said, *(standing(contest) for contest in self.contests)]
 
     @property
     def sentence(self) -> str:
         """The answer with its conditions: how the others stand against the first, and for what each of them wins."""
-        which = "optimised" if any(entrant.study.vary for entrant in self.entrants.values()) else "drawn"
-        reported = [*self._without_design(), *self._against(which)]
+        reported = [*self._without_design(), *self._against(self.which)]
         reported += [wins(label, self.contests) for label in self.entrants] if self.contests else []
-        return f"With {', '.join(conditions(self.entrants))}, {COMPARISONS[which]}: {'; '.join(reported)}."
+        return f"With {', '.join(conditions(self.entrants))}, {COMPARISONS[self.which]}: {'; '.join(reported)}."
 
     def _without_design(self) -> list[str]:
         return [
-            f"no design was found for {label} that keeps every limit"
+            f"no design was found for {label} that keeps every limit, so that the modules are compared as drawn"
+            if self.which == "drawn"
+            else f"no design was found for {label} that keeps every limit"
             for label, trouble in self.troubles
             if trouble["step"] == "optimised"
         ]
@@ -168,6 +184,7 @@ class Outcome:
     def plain(self) -> dict[str, Any]:
         """Everything a script wants to know."""
         return {
+            **head(),
             "sentence": self.sentence,
             "conclusions": self.conclusions,
             "studies": {label: self._study(label) for label in self.entrants},
@@ -178,8 +195,11 @@ class Outcome:
             "leads": [contest.plain() for contest in self.contests],
             "fronts": self.fronts_plain() if self.fronts else {},
             "release": {
-                label: {key: found["release"][key] for key in ("findings", "notes")}
-                for label, found in self.found.items() if "release" in found
+                which: {
+                    label: {key: found["release"][which][key] for key in ("findings", "notes")}
+                    for label, found in self.found.items() if which in found["release"]
+                }
+                for which in COMPARISONS
             },
             "seconds": self.seconds,
         }  # fmt: skip

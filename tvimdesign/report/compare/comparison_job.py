@@ -24,6 +24,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
 from tvimdesign.report.compare import normalization
 from tvimdesign.report.output.tables import check_row
+from tvimdesign.report.output.thresholds import soft_in_words
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.why import binding
 from tvimdesign.report.simulate_study import figure_data, findings
@@ -35,6 +36,7 @@ from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, catalog_of, drawn, read_tree
 from tvimdesign.study.tree import tree_of_file
+from tvimdesign.virtual_tests.joint_tests.release import ANGLE_PANEL
 from tvimdesign.virtual_tests.registry import find_test
 
 Say = Callable[[str], None]
@@ -60,26 +62,27 @@ class ComparisonJob:
         self.table = table_for(self.study.mode)
         self.points, self.say = points, say
         self._built: list[tuple[Optimizer, list[Run]]] = []
-        self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}}
+        self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}, "release": {}, "heat": {}}
 
     def run(self) -> dict[str, Any]:
         """Do every step that can be done."""
-        best: StudyResult | None = None
+        designs: dict[str, StudyResult] = {}
         with self._step("as drawn"):
             self.say("as drawn")
-            best = answer(drawn(self.study, self.catalog, self.table), self.catalog, self.table)
-            self.found["drawn"] = self._told(best)
+            designs["drawn"] = answer(drawn(self.study, self.catalog, self.table), self.catalog, self.table)
+            self.found["drawn"] = self._told(designs["drawn"])
         if self.study.vary:
             with self._step("optimised"):
-                best = self._optimised()
-            if best and best.solution and self.points:
+                designs["optimised"] = self._optimised()
+            if "optimised" in designs and self.points:
                 with self._step("fronts"):
-                    self._trade(best)
-        if best:
+                    self._trade(designs["optimised"])
+        # Of both, as a neighbour may have no optimum, and is then held against what is drawn here.
+        for which, design in designs.items():
             with self._step("release"):
                 self.say("release")
-                self._release(best)
-            self.found["heat"] = self._heat(best)
+                self.found["release"][which] = self._release(design)
+            self.found["heat"][which] = self._heat(design)
         return self.found
 
     @contextmanager
@@ -91,7 +94,8 @@ class ComparisonJob:
         except TvimError as error:
             self.found["troubles"].append({"step": name, "error": str(error), "exit_code": error.exit_code})
         finally:
-            self.found["seconds"][name] = time.perf_counter() - began
+            spent = self.found["seconds"].get(name, 0.0)
+            self.found["seconds"][name] = spent + time.perf_counter() - began
 
     def _optimised(self) -> StudyResult:
         starts = [normalization.at_its_start(study) for study in (self.study, *self.others)]
@@ -115,8 +119,9 @@ class ComparisonJob:
             "warnings": [
                 {"output": check.output, "value": check.value, "because": check.origin} for check in answered.warnings
             ],
-            "held": [
-                {"limit": held.text, "because": held.origin, "price": held.shadow_price}
+            "soft": soft_in_words(answered.design, self.table),
+            "active_constraints": [
+                {"limit": held.text, "because": held.origin, "shadow_price": held.shadow_price}
                 for held in binding(answered)[:HELD_TOLD]
             ],
             "starts": len(solution.free_starts) if solution else 0,
@@ -151,18 +156,17 @@ class ComparisonJob:
         plain: dict[str, Any] = json.loads(json.dumps(reported), parse_constant=lambda _: None)
         return plain
 
-    def _release(self, best: StudyResult) -> None:
-        trial = find_test("release")(resolve_design(best.design, self.catalog, self.table))
-        panel = next(panel for panel in figure_data(trial)["panels"] if panel["title"] == "Angle")
-        lines = [line for line in panel["lines"] if not line["dashed"]]
-        self.found["release"] = {**findings(trial), "x_label": panel["x_label"], "y_label": panel["y_label"],
-                                 "lines": lines}  # fmt: skip
+    def _release(self, of: StudyResult) -> dict[str, Any]:
+        trial = find_test("release")(resolve_design(of.design, self.catalog, self.table))
+        panels = [panel for panel in figure_data(trial)["panels"] if panel["title"].startswith(ANGLE_PANEL)]
+        lines = [line for panel in panels for line in panel["lines"] if not line["dashed"]]
+        return {**findings(trial), "x_label": panels[0]["x_label"], "y_label": panels[0]["y_label"], "lines": lines}
 
-    def _heat(self, best: StudyResult) -> dict[str, Any]:
+    def _heat(self, of: StudyResult) -> dict[str, Any]:
         """Temperatures [degC] through the polymer while it heats: a row for each depth [mm]."""
-        history = best.histories["softening"]
+        history = of.histories["softening"]
         cells = [name for name in history if name.startswith("cell_")]
-        depth = from_si(self.table.evaluate(best.design.values, ["pcl_depth"])["pcl_depth"], "mm")
+        depth = from_si(self.table.evaluate(of.design.values, ["pcl_depth"])["pcl_depth"], "mm")
         depths = [0.0, *((i + 0.5) / len(cells) * depth for i in range(len(cells))), depth]
         rows = [history[name] for name in ("near_face", *cells, "far_face")]
         return {"time": history["time"], "depth": depths, "temperature": rows}

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.compare.comparison import Outcome
+from tvimdesign.base.units import from_si
+from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.study.design import Design
+from tvimdesign.report.output.axis_labels import axis_label
 
 _STILL = 1e-3
 """Share of its angle by which a released link has moved where its curve begins: the axis of time is logarithmic."""
@@ -18,21 +18,15 @@ def drawings(outcome: Outcome) -> list[Drawing]:
     found = []
     if outcome.fronts:
         found.append(Drawing("fronts", "comparison_figures.fronts", _fronts(outcome)))
-    if any("release" in answer for answer in outcome.found.values()):
+    if any(outcome.which in answer["release"] for answer in outcome.found.values()):
         found.append(Drawing("release", "virtual_test_figures.trial", _release(outcome)))
-    if any("heat" in answer for answer in outcome.found.values()):
+    if any(outcome.which in answer["heat"] for answer in outcome.found.values()):
         found.append(Drawing("heat", "comparison_figures.heat", _heat(outcome)))
     return found
 
 
-def _best(outcome: Outcome, label: str) -> Design:
-    """The design that release and heat are of: the optimum, or the drawn module where there is none."""
-    return outcome.designs["optimised"].get(label) or outcome.designs["drawn"][label]
-
-
 def _title(outcome: Outcome, of: str) -> str:
-    which = "each optimised for itself" if len(outcome.designs["optimised"]) > 1 else "as drawn"
-    return f"{of}, {which}"
+    return f"{of}, {COMPARISONS[outcome.which]}"
 
 
 def _fronts(outcome: Outcome) -> dict[str, Any]:
@@ -46,12 +40,12 @@ def _fronts(outcome: Outcome) -> dict[str, Any]:
         lines = []
         for label, front in fronts.items():
             points = sorted((shown(second, p["values"]), shown(first, p["values"])) for p in front["points"])
-            optimum = _best(outcome, label).values
+            optimum = outcome.designs["optimised"][label].values
             lines.append({
                 "label": label, "x": [x for x, _ in points], "y": [y for _, y in points],
                 "optimum": [[shown(second, optimum)], [shown(first, optimum)]],
             })  # fmt: skip
-        axes = {f"{axis}_label": f"{name} ({pretty(units[name])})" for axis, name in (("x", second), ("y", first))}
+        axes = {f"{axis}_label": axis_label(name, units[name]) for axis, name in (("x", second), ("y", first))}
         panels.append({"lines": lines, **axes})
     return {"title": "Fronts; filled: each study's optimum", "panels": panels}
 
@@ -60,12 +54,13 @@ def _release(outcome: Outcome) -> dict[str, Any]:
     """A panel for each operating point, a colour for each study."""
     panels: dict[str, dict[str, Any]] = {}
     for label, found in outcome.found.items():
-        for line in found.get("release", {}).get("lines", ()):
+        release = found["release"].get(outcome.which, {})
+        for line in release.get("lines", ()):
             point, _, rest = line["label"].partition(", ")
             temperature, _, history = rest.partition(", ")
             panel = panels.setdefault(point, {
-                "title": f"{point}, {temperature}", "x_label": found["release"]["x_label"],
-                "y_label": found["release"]["y_label"], "log_x": True, "log_y": False, "lines": [],
+                "title": f"{point}, {temperature}", "x_label": release["x_label"],
+                "y_label": release["y_label"], "log_x": True, "log_y": False, "lines": [],
             })  # fmt: skip
             panel["lines"].append({**line, "label": f"{label}, {history}" if history else label})
     for panel in panels.values():
@@ -89,9 +84,12 @@ def _begins_to_move(times: list[float], angles: list[float]) -> float:
 
 
 def _heat(outcome: Outcome) -> dict[str, Any]:
-    studies = [{"label": label, **found["heat"]} for label, found in outcome.found.items() if "heat" in found]
+    which = outcome.which
+    studies = [
+        {"label": label, **found["heat"][which]} for label, found in outcome.found.items() if which in found["heat"]
+    ]
     every = [value for one in studies for row in one["temperature"] for value in row]
-    design = _best(outcome, studies[0]["label"])
+    design = outcome.designs[which][studies[0]["label"]]
     melting = [from_si(design.value(name), "degC") for name in ("pcl_melting_start", "pcl_melting_end")]
     title = _title(outcome, "Heat through the PCL until the switch ends (lines: melting range)")
     return {"title": title, "studies": studies, "coldest": min(every), "hottest": max(every), "melting": melting}

@@ -34,6 +34,7 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
             console.print(
                 f"[dim]{COMPARISONS[which].capitalize()}, not in every study: {escape('; '.join(shown))}.[/dim]"
             )
+    _print_soft(outcome, console)
     _print_searches(outcome, console)
     _print_fronts(outcome, console)
     _print_warnings(outcome, console)
@@ -83,6 +84,14 @@ def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
     return "-" if math.isnan(value) else number(from_si(value, row.unit))
 
 
+def _print_soft(outcome: Outcome, console: Console) -> None:
+    """What softening_time waits for, which is not the same impedance in every study."""
+    which = outcome.which
+    said = [f"{label}: {found[which]['soft']}" for label, found in outcome.found.items() if which in found]
+    if said:
+        console.print(f"[dim]Soft is, {COMPARISONS[which]}, {escape('; '.join(said))}.[/dim]")
+
+
 def _print_searches(outcome: Outcome, console: Console) -> None:
     for label, found in outcome.found.items():
         reported: dict[str, Any] | None = found.get("optimised")
@@ -98,14 +107,12 @@ def _print_searches(outcome: Outcome, console: Console) -> None:
 
 
 def _print_warnings(outcome: Outcome, console: Console) -> None:
-    """The advice that designs do not follow: of the optima, or of what is drawn where nothing is optimised."""
+    """The advice that the designs held against each other do not follow."""
     for label, found in outcome.found.items():
-        reported: dict[str, Any] = found.get("optimised") or found.get("drawn") or {"warnings": []}
-        for warning in reported["warnings"]:
+        for warning in found.get(outcome.which, {"warnings": []})["warnings"]:
             value = format_quantity(warning["value"], outcome.unit(warning["output"]))
-            console.print(
-                f"[yellow]Mind[/yellow] {escape(label)}: {warning['output']} is {value}: {escape(warning['because'])}."
-            )
+            said = f"{label}: {warning['output']} is {value}: {warning['because']}."
+            console.print(f"[yellow]Warning[/yellow] {escape(said)}")
 
 
 def _print_fronts(outcome: Outcome, console: Console) -> None:

@@ -9,8 +9,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.device import Output, Table
+from tvimdesign.report.output.number_entry import finite
 from tvimdesign.solve.pareto.front_leads import ALIKE
 from tvimdesign.study.design import Design
 
@@ -106,6 +107,8 @@ def plain(row: Row) -> dict[str, Any]:
         "name": row.name,
         "unit": pretty(row.unit),
         "values": {label: _shown(value, row.unit) for label, value in row.values.items()},
+        "si": {label: finite(value) for label, value in row.values.items()},
+        "si_unit": pretty(si_unit(row.unit)),
         "intervals": {label: [_shown(end, row.unit) for end in ends] for label, ends in row.ends.items()},
         "ratio": {label: row.ratio(label) for label in others},
         "verdict": {label: row.verdict(label) for label in others},

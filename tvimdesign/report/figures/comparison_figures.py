@@ -8,42 +8,54 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.canvas import new_figure
+from tvimdesign.report.figures.axes import TICKS, heading
+from tvimdesign.report.figures.canvas import caption, new_figure, place
+from tvimdesign.report.figures.style import MARKERS, WIDTH, style_of
 
-_MARKS = "osD^vP"
+_LEFT, _GAP = 0.62, 0.65  # inches
 
 
 def fronts(data: dict[str, Any]) -> Figure:
     """Fronts of all studies, a panel for each pair of outputs; the optimum of each study is filled."""
-    figure = new_figure(5.6 * len(data["panels"]), 4.6)
-    every = figure.subplots(1, len(data["panels"]), squeeze=False)[0]
-    for axes, panel in zip(every, data["panels"], strict=True):
+    figure = new_figure(3.25)
+    caption(figure, data["title"])
+    wide = _width(len(data["panels"]), _GAP, 0.15)
+    for k, panel in enumerate(data["panels"]):
+        axes = place(figure, _LEFT + k * (wide + _GAP), 0.72, wide, 1.9)
         for i, line in enumerate(panel["lines"]):
-            mark = _MARKS[i % len(_MARKS)]
-            axes.plot(line["x"], line["y"], color=f"C{i}", marker=mark, markerfacecolor="white", label=line["label"])
-            axes.plot(*line["optimum"], color=f"C{i}", marker=mark, linestyle="", markersize=8)
+            style = {"marker": MARKERS[i % len(MARKERS)], **style_of(i)}
+            axes.plot(line["x"], line["y"], markerfacecolor="white", label=line["label"], **style)
+            axes.plot(*line["optimum"], **style | {"linestyle": "", "markersize": 7})
         axes.set(xlabel=panel["x_label"], ylabel=panel["y_label"])
-        axes.legend(fontsize=8)
-    figure.suptitle(data["title"])
-    figure.subplots_adjust(left=0.09, right=0.98, bottom=0.13, top=0.9, wspace=0.25)
+        axes.locator_params(nbins=TICKS)
+    figure.legend(*axes.get_legend_handles_labels(), loc="lower center", ncols=min(4, len(panel["lines"])))
     return figure
+
+
+def _width(count: int, gap: float, right: float) -> float:
+    """Width [inches] of so many panels side by side."""
+    return (WIDTH - _LEFT - right - gap * (count - 1)) / count
 
 
 def heat(data: dict[str, Any]) -> Figure:
     """Temperature through the polymer over time while it heats, every study on the same scale of colours."""
-    studies = data["studies"]
-    figure = new_figure(4.8 * len(studies) + 1.0, 4.2)
-    every = figure.subplots(1, len(studies), squeeze=False)[0]
+    studies, gap = data["studies"], 0.5
+    figure = new_figure(3.0)
+    caption(figure, data["title"])
+    wide = _width(len(studies), gap, 0.85)
     scale = Normalize(data["coldest"], data["hottest"])
-    for axes, one in zip(every, studies, strict=True):
-        axes.pcolormesh(one["time"], one["depth"], one["temperature"], shading="gouraud", cmap="inferno", norm=scale)
+    for i, one in enumerate(studies):
+        axes = place(figure, _LEFT + i * (wide + gap), 0.45, wide, 1.85)
+        # A gradient of colours is a picture even in a vector file: as triangles it would be a thousand shapes.
+        axes.pcolormesh(one["time"], one["depth"], one["temperature"], shading="gouraud", cmap="inferno", norm=scale,
+                        rasterized=True)  # fmt: skip
         axes.contour(one["time"], one["depth"], one["temperature"], levels=data["melting"], colors="white",
                      linewidths=0.8)  # fmt: skip
-        axes.set(xlabel="time (s)", title=one["label"])
+        axes.set_xlabel("Time (s)")
+        axes.set_ylabel("Depth from the Peltier pads (mm)")
         axes.grid(visible=False)
-    every[0].set_ylabel("depth from the Peltier pads (mm)")
-    figure.subplots_adjust(left=0.08, right=0.88, bottom=0.13, top=0.85, wspace=0.2)
-    place = figure.add_axes((0.9, 0.13, 0.015, 0.72))
-    figure.colorbar(ScalarMappable(scale, "inferno"), cax=place, label="temperature (°C)")
-    figure.suptitle(data["title"])
+        axes.locator_params(nbins=TICKS)
+        heading(axes, one["label"])
+    colours = place(figure, WIDTH - 0.7, 0.45, 0.1, 1.85)
+    figure.colorbar(ScalarMappable(scale, "inferno"), cax=colours, label="Temperature (°C)")
     return figure

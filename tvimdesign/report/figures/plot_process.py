@@ -1,8 +1,8 @@
 """Draws a run's plots from plain data, in a process of its own that loads matplotlib while the solver works.
 
 Run as `python -m tvimdesign.report.figures.plot_process`: reads one JSON object on standard input, `{"folder": ...,
-"drawings": [{"file": ..., "figure": ..., "data": ...}]}`, and writes a PNG file for each. `PlotProcess` is the other
-end.
+"study": ..., "endings": ["png", ...], "drawings": [{"file": ..., "figure": ..., "data": ...}]}`, and writes a file of
+each ending for each drawing. `PlotProcess` is the other end.
 """
 
 from __future__ import annotations
@@ -27,10 +27,7 @@ TIME_LIMIT = 120.0  # s
 
 
 class Drawing(NamedTuple):
-    """One plot: its file's name without ending, the function that draws it, and from what.
-
-    A function of another room than `figures` is written `room.function`.
-    """
+    """One plot: its file's name without ending, the function that draws it (`file.function`), and from what."""
 
     file: str
     figure: str
@@ -57,10 +54,12 @@ class PlotProcess:
             self._child.kill()
         self._child.communicate()
 
-    def begin(self, folder: Path, drawings: Sequence[Drawing]) -> None:
-        """Ask for every plot, and come back at once."""
+    def begin(self, folder: Path, drawings: Sequence[Drawing], study: str, *, vector: bool = True) -> None:
+        """Ask for every plot, signed with the study's name, and come back at once; `vector` for PDF and SVG as well."""
         asked = [drawing._asdict() for drawing in drawings]
-        message = json.dumps({"folder": str(folder.resolve()), "drawings": asked}).encode()
+        endings = ["png", "pdf", "svg"] if vector else ["png"]
+        request = {"folder": str(folder.resolve()), "study": study, "endings": endings, "drawings": asked}
+        message = json.dumps(request).encode()
         assert self._child.stdin is not None
         with contextlib.suppress(BrokenPipeError):  # a process that has died says why in `finish`
             self._child.stdin.write(message)
@@ -82,32 +81,34 @@ def main() -> None:
     """Load matplotlib, wait for the data, draw."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a tenth of the time; all there ever is to collect is a few figures
-    from tvimdesign.report.figures import run_figures
+    from tvimdesign.report.figures.warm_up import warm_up
 
-    run_figures.warm_up()
+    warm_up()
     request = json.load(sys.stdin)
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)
     drawings = [Drawing(**asked) for asked in request["drawings"]]
     if not hasattr(os, "fork"):
-        _draw(folder, drawings)
+        _draw(folder, drawings, request)
         return
     # Matplotlib is slow and single-threaded: two processes with it loaded share the plots. Taking the interpreter down
     # in order would take as long as two plots, so they leave at once.
     other = os.fork()
-    _draw(folder, drawings[int(bool(other)) :: 2])
+    _draw(folder, drawings[int(bool(other)) :: 2], request)
     if not other or os.waitpid(other, 0)[1] == 0:
         os._exit(0)
     raise SystemExit(1)
 
 
-def _draw(folder: Path, drawings: Sequence[Drawing]) -> None:
-    from tvimdesign.report.figures.canvas import png
+def _draw(folder: Path, drawings: Sequence[Drawing], request: dict[str, Any]) -> None:
+    from tvimdesign.report.figures.canvas import as_file, sign
 
     for drawing in drawings:
-        room, _, function = drawing.figure.rpartition(".")
-        drawn_by = import_module(f"tvimdesign.report.figures.{room or 'run_figures'}")
-        write_whole(folder / f"{drawing.file}.png", png(getattr(drawn_by, function)(drawing.data)))
+        file, _, function = drawing.figure.partition(".")
+        figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(drawing.data)
+        sign(figure, request["study"])
+        for ending in request["endings"]:
+            write_whole(folder / f"{drawing.file}.{ending}", as_file(figure, ending))
 
 
 if __name__ == "__main__":

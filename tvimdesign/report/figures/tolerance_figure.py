@@ -5,37 +5,52 @@ from __future__ import annotations
 from typing import Any
 
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from tvimdesign.report.figures.canvas import new_figure
+from tvimdesign.report.figures.axes import heading, row_texts
+from tvimdesign.report.figures.canvas import new_figure, place
+from tvimdesign.report.figures.style import BROKEN, COLOURS, FAINT, HATCHES, LIMIT, NAME_STRIP
 
-_COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb"]
+_ACROSS = 3
 
 
 def spread(data: dict[str, Any]) -> Figure:
-    """Bars of contributors on the left, histograms with limits on the right."""
-    panels = data["panels"]
-    down = max((len(panels) + 1) // 2, 1)
-    figure = new_figure(13.0, max(4.0, 2.3 * down))
-    grid = figure.add_gridspec(down, 3, width_ratios=[1.5, 1.0, 1.0])
-    bars = figure.add_subplot(grid[:, 0])
-    left = [0.0] * len(data["outputs"])
-    for i, part in enumerate(data["parts"]):
-        bars.barh(data["outputs"], part["shares"], left=left, color=_COLOURS[i % len(_COLOURS)], label=part["name"])
-        left = [a + b for a, b in zip(left, part["shares"], strict=True)]
-    bars.invert_yaxis()
-    bars.set(xlabel="share of the variance (%)", xlim=(0.0, 100.0))
-    bars.tick_params(axis="y", labelsize=8)
-    bars.grid(visible=False)
-    bars.legend(fontsize=7, ncols=2, loc="lower center", bbox_to_anchor=(0.4, 1.0))
+    """Bars of contributors above, histograms with limits below."""
+    panels, outputs = data["panels"], data["outputs"]
+    down = -(-len(panels) // _ACROSS)
+    bars_high, row = 0.17 * len(outputs) + 0.1, 1.85
+    keys = 0.14 * -(-len(data["parts"]) // 4) + 0.1
+    figure = new_figure(NAME_STRIP + keys + bars_high + 0.5 + row * down + 0.3)
+    top = figure.get_figheight() - NAME_STRIP - keys
+    _contributors(place(figure, 2.0, top - bars_high, 4.9, bars_high), data)
     for i, panel in enumerate(panels):
-        axes = figure.add_subplot(grid[i // 2, 1 + i % 2])
-        axes.stairs(panel["counts"], panel["edges"], fill=True, color="#4477aa", alpha=0.6)
-        for limit in panel["limits"]:
-            axes.axvline(limit, color="#ee6677", linewidth=1.5)
-        axes.axvline(panel["as_drawn"], color="black", linewidth=0.8, linestyle=":")
-        axes.set_title(panel["title"], fontsize=8)
-        axes.set(yticks=[])
-        axes.tick_params(axis="x", labelsize=8)
-        axes.grid(visible=False)
-    figure.subplots_adjust(left=0.15, right=0.985, bottom=0.1, top=0.84, hspace=0.75, wspace=0.12)
+        bottom = top - bars_high - 0.5 - row * (i // _ACROSS + 1) + 0.5
+        _histogram(place(figure, 0.6 + (i % _ACROSS) * 2.28, bottom, 1.75, 1.0), panel)
+    marks = [Line2D([], [], color=BROKEN, linewidth=1.5, label="limit"), Line2D([], [], label="as drawn", **LIMIT)]
+    figure.legend(handles=marks, loc="lower center", ncols=2)
     return figure
+
+
+def _contributors(axes: Any, data: dict[str, Any]) -> None:
+    rows = range(len(data["outputs"]))
+    left = [0.0] * len(rows)
+    for i, part in enumerate(data["parts"]):
+        colour = COLOURS[i] if i < len(COLOURS) else FAINT
+        axes.barh(rows, part["shares"], left=left, facecolor=colour, hatch=HATCHES[i % len(HATCHES)],
+                  edgecolor="white", linewidth=0.3, label=part["name"])  # fmt: skip
+        left = [a + b for a, b in zip(left, part["shares"], strict=True)]
+    axes.set(xlabel="Share of the variance (%)", xlim=(0.0, 100.0), ylim=(len(rows) - 0.4, -0.6))
+    axes.grid(visible=False)
+    row_texts(axes, data["outputs"], [])
+    axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def _histogram(axes: Any, panel: dict[str, Any]) -> None:
+    axes.stairs(panel["counts"], panel["edges"], fill=True, color=COLOURS[0], alpha=0.5)
+    for limit in panel["limits"]:
+        axes.axvline(limit, color=BROKEN, linewidth=1.5)
+    axes.axvline(panel["as_drawn"], **LIMIT)
+    axes.set(xlabel=panel["label"], ylabel="Modules (count)")
+    axes.locator_params(nbins=4)
+    axes.grid(visible=False)
+    heading(axes, panel["title"])

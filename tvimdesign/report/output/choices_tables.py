@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
-from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.device import Table
+from tvimdesign.report.output.number_entry import number_entry
+from tvimdesign.report.output.results_format import ChoosingEntry, Listed, NumberEntry
 from tvimdesign.solve.nlp.solution import Choosing, Standard
 
 _NEAR = 1e-4
@@ -82,12 +83,12 @@ def _fates(choosing: Choosing) -> str:
     return ", ".join(parts)
 
 
-def choosing_data(choosing: Choosing | None, table: Table) -> dict[str, Any]:
-    """The account as plain data in the rows' units; empty where nothing is listed."""
+def choosing_data(choosing: Choosing | None, table: Table) -> ChoosingEntry | None:
+    """The account as plain data; None where nothing is listed."""
     if choosing is None:
-        return {}
+        return None
     best, between = choosing.best[0] if choosing.best else None, choosing.between
-    shadow_price = _shares(best, between) if best and between else {}
+    shares = _shares(best, between) if best and between else {}
     return {
         "combinations": choosing.combinations,
         "solved": choosing.solved,
@@ -101,16 +102,15 @@ def choosing_data(choosing: Choosing | None, table: Table) -> dict[str, Any]:
         "iterations": choosing.work.warm_iterations + choosing.work.cold_iterations,
         "best": [_plain(one, table) for one in choosing.best],
         "between_sizes": _plain(between, table) if between else None,
-        "price": shadow_price | ({"objective": best.objective / between.objective - 1.0} if best and between else {}),
+        "cost_of_standard_sizes": shares
+        | ({"objective": best.objective / between.objective - 1.0} if best and between else {}),
     }
 
 
-def _plain(one: Standard, table: Table) -> dict[str, Any]:
-    def numbers(values: Mapping[str, str | float]) -> dict[str, Any]:
+def _plain(one: Standard, table: Table) -> Listed:
+    def numbers(values: Mapping[str, str | float]) -> dict[str, str | NumberEntry]:
         return {
-            name: value
-            if isinstance(value, str)
-            else {"value": from_si(value, table.unit(name)), "unit": pretty(table.unit(name))}
+            name: value if isinstance(value, str) else number_entry(value, table.unit(name))
             for name, value in values.items()
         }
 

@@ -17,7 +17,7 @@ from typing import Any
 
 from tvimdesign import __version__
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.whole_files import write_whole
+from tvimdesign.base.whole_files import TABLE_ENCODING, write_whole
 
 MANIFEST = "manifest.json"
 RUNNING = "running"
@@ -118,10 +118,12 @@ class ResultsFolder:
         return [path for path in self.path.rglob("*") if path.is_file()]
 
     def write(self, name: str, data: str | bytes) -> Path:
-        """Write one file, whole."""
+        """Write one file, whole; text of a table in the encoding that Excel reads."""
         path = self.path / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, data.encode() if isinstance(data, str) else data)
+        write_whole(
+            path, data.encode(TABLE_ENCODING if path.suffix == ".csv" else "utf-8") if isinstance(data, str) else data
+        )
         return path
 
     def write_json(self, name: str, data: Any) -> Path:

@@ -7,11 +7,17 @@ import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any
+from pathlib import Path
+from typing import Any, cast
 
 from tvimdesign.base.units import from_si, pretty
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Output, Table
 from tvimdesign.report.output.choices_tables import choosing_data
+from tvimdesign.report.output.number_entry import finite, number_entry
+from tvimdesign.report.output.provenance import provenance
+from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, ValueEntry, Yield, head
+from tvimdesign.report.output.thresholds import meaning, notes
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import Design
@@ -40,10 +46,11 @@ def value_text(answer: StudyResult, name: str, table: Table) -> str:
 def headline_rows(answer: StudyResult, table: Table) -> list[tuple[str, str, str, str, str]]:
     """(group, name, value, unit, description) of the rows with one value that stand in a summary."""
     return [
-        (row.group, row.name, value_text(answer, row.name, table), pretty(row.unit), row.description)
+        (row.group, row.name, value_text(answer, row.name, table), pretty(row.unit),
+         meaning(row.name, answer.design, table))
         for row in table.outputs
         if row.headline and not row.per_point
-    ]
+    ]  # fmt: skip
 
 
 def point_rows(answer: StudyResult, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
@@ -119,91 +126,63 @@ def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
     return f"{margin:+.3g} {pretty(unit)}".rstrip()
 
 
-def check_row(check: ConstraintCheck, table: Table) -> dict[str, Any]:
-    """One check as plain data, in the row's unit."""
-    unit = table.unit(check.output)
+def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | None = None) -> CheckEntry:
+    """One check as plain data; `ends` (SI) where history leaves its output open."""
     margin, margin_unit = margin_of(check, table)
     return {
         "limit": check.text,
-        "value": _finite(from_si(check.value, unit)),
-        "unit": pretty(unit),
-        "margin": _finite(margin),
+        "output": check.output,
+        **number_entry(check.value, table.unit(check.output), ends),
+        "margin": finite(margin),
         "margin_unit": pretty(margin_unit),
         "kept": check.kept,
         "origin": check.origin,
     }
 
 
-def results(answer: StudyResult, table: Table) -> dict[str, Any]:
-    """Everything a script wants to know: every number in its unit, every check, how it was found."""
+def results(answer: StudyResult, table: Table) -> Answered:
+    """Everything a script wants to know: every number in its unit and in SI, every check, how it was found."""
     design, reached = answer.design, answer.solution.yield_reached if answer.solution else None
+    folder = design.study.get("catalog_folder")
+    catalog, ends = Catalog(Path(folder) if folder else None), answer.intervals
+
+    def entries(values: Mapping[str, float]) -> dict[str, ValueEntry]:
+        return {name: _entry(name, value, design, table, catalog) for name, value in values.items()}
+
+    constant = answer.solution.constant if answer.solution else None
+    best: BestConstant | None = (
+        {"objective": constant.objective, "values": entries(constant.values)} if constant else None
+    )
     return {
+        **head(),
         "name": design.name,
         "mode": design.mode,
         "status": design.status,
         "feasible": answer.feasible,
         "choices": design.choices,
-        "values": {
-            name: _entry(name, value, design, table) | _ends(answer, name, table)
-            for name, value in design.values.items()
-        },
-        "checks": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.checks],
-        "warnings": [check_row(check, table) | _ends(answer, check.output, table) for check in answer.warnings],
-        "current_profiles": design.current_profiles,
-        "at_default_currents": {
-            name: _entry(name, value, design, table) for name, value in answer.constant_current.items()
-        },
-        "best_constant_currents": _best_constant(answer, table),
-        "yield_reached": asdict(reached) if reached else None,
+        "values": entries(design.values),
+        "checks": [check_row(check, table, ends.get(check.output)) for check in answer.checks],
+        "warnings": [check_row(check, table, ends.get(check.output)) for check in answer.warnings],
+        "current_profiles": cast("Any", design.current_profiles),
+        "at_default_currents": entries(answer.constant_current),
+        "best_constant_currents": best,
+        "yield_reached": cast("Yield", asdict(reached)) if reached else None,
         "choosing": choosing_data(answer.solution.choosing if answer.solution else None, table),
-        "solution": _all_finite(design.solution),
+        "solution": _all_finite(design.solution) or None,
     }
 
 
-def _origin(name: str, design: Design, table: Table) -> str:
-    """Where a value comes from: computed, found, set by the study, or the source of the row's default."""
-    row, base = table.quantity(name), name.partition("@")[0]
-    if not isinstance(row, Input):
-        return "computed"
-    if base in design.study["vary"]:
-        return "found by the optimiser"
-    if base in design.study["module"]:
-        return "set by the study"
-    return "an operating point of the study" if row.per_point else row.source
-
-
-def _entry(name: str, value: float, design: Design, table: Table) -> dict[str, Any]:
-    row = table.quantity(name)
-    unit = table.unit(name)
+def _entry(name: str, value: float, design: Design, table: Table, catalog: Catalog) -> ValueEntry:
+    row, known = table.quantity(name), provenance(name, design, table, catalog)
     return {
-        "value": _finite(from_si(value, unit)),
-        "unit": pretty(unit),
+        **number_entry(value, table.unit(name), (known.low, known.high)),
         "kind": "input" if isinstance(row, Input) else "output",
-        "source": _origin(name, design, table),
+        "status": known.status,
+        "source": known.source,
         "group": row.group,
         "description": row.description,
+        "note": notes(design, table).get(name, ""),
     }
-
-
-def _best_constant(answer: StudyResult, table: Table) -> dict[str, Any]:
-    constant, design = answer.solution.constant if answer.solution else None, answer.design
-    if constant is None:
-        return {}
-    values = {name: _entry(name, value, design, table) for name, value in constant.values.items()}
-    return {"objective": constant.objective, "values": values}
-
-
-def _ends(answer: StudyResult, name: str, table: Table) -> dict[str, Any]:
-    """`low` and `high` of an output that history leaves open; its value is that of the equilibrium curve on heating."""
-    if name not in answer.intervals:
-        return {}
-    low, high = (_finite(from_si(end, table.unit(name))) for end in answer.intervals[name])
-    return {"low": low, "high": high}
-
-
-def _finite(value: float) -> float | None:
-    """JSON has no infinity: what never happens is null."""
-    return value if math.isfinite(value) else None
 
 
 def _all_finite(data: Any) -> Any:
@@ -212,14 +191,14 @@ def _all_finite(data: Any) -> Any:
         return {key: _all_finite(value) for key, value in data.items()}
     if isinstance(data, list | tuple):
         return [_all_finite(value) for value in data]
-    return _finite(data) if isinstance(data, float) else data
+    return finite(data) if isinstance(data, float) else data
 
 
-def results_csv(entries: Mapping[str, Mapping[str, Any]]) -> str:
-    """The values of `results` as CSV."""
+def results_csv(entries: Mapping[str, ValueEntry]) -> str:
+    """The values of `results` as CSV, in the units people read: what each is, how well it is known, and from where."""
     stream = io.StringIO()
-    columns = ["name", "value", "low", "high", "unit", "kind", "group", "description", "source"]
-    writer = csv.DictWriter(stream, columns, lineterminator="\n")
+    columns = ["name", "value", "unit", "status", "low", "high", "source", "kind", "group", "description", "note"]
+    writer = csv.DictWriter(stream, columns, lineterminator="\n", extrasaction="ignore")
     writer.writeheader()
     for name, entry in entries.items():
         writer.writerow({"name": name, **entry})
@@ -230,6 +209,6 @@ def curves_csv(curves: Mapping[str, list[float]], units: Mapping[str, str], othe
     """Columns of equal length as CSV, each headed by name and unit; `other` is the unit of what is not in `units`."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(f"{name} [{units.get(name, other)}]" for name in curves)
+    writer.writerow(f"{name} [{pretty(units.get(name, other)) or 1}]" for name in curves)
     writer.writerows([f"{value:.8g}" for value in row] for row in zip(*curves.values(), strict=True))
     return stream.getvalue()

@@ -39,11 +39,12 @@ def write_level_sets(out: Path, overwrite: bool) -> Path:
     with ResultsFolder(out, overwrite) as folder, progress_output() as say, PlotProcess() as drawing:
         sets = [level_set(model, name, list(values), thin, wanted, say) for name, values in AGAINST.items()]
         say("what the ratio of compression to shear hangs on: every assumed input through its range")
-        case = Drawing("paper_case", "virtual_test_figures.tornado", paper_case.figure_data())
+        case = Drawing("paper_case", "paper_figures.tornado", paper_case.figure_data())
         say("drawing")
         drawing.begin(
             folder.path,
-            [Drawing("level_sets", "virtual_test_figures.level_sets", _figure_data(sets, model, wanted)), case],
+            [Drawing("level_sets", "paper_figures.level_sets", _figure_data(sets, model, wanted)), case],
+            "The paper's module as published",
         )
         units = {one.parameter: model.table.unit(one.parameter) for one in sets}
         folder.write("level_sets.csv", _table(_line_rows(sets, units)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.catalog import Catalog
@@ -13,10 +13,12 @@ from tvimdesign.device import Table, table_for
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.results_format import RunResults
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
 from tvimdesign.report.run.record_checks import record_checks
+from tvimdesign.report.run.refusal import refuse_unfit
 from tvimdesign.report.run.why import why
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
@@ -34,7 +36,7 @@ class AnsweredStudy:
     catalog: Catalog
     result: StudyResult
     front: FrontOfRun
-    reported: dict[str, Any]
+    reported: RunResults
     """Everything a script wants to know: the content of results.json."""
     failures: list[TvimError] = field(default_factory=list)
     sensitivities: str = ""
@@ -56,13 +58,14 @@ def answer_study(
     """Read and answer a study: evaluate or optimise it, and seek its front, which a `folder` lets go on later.
 
     With `drawn_only` nothing is optimised: what may change stands at its start. Raises InputError, and InfeasibleError
-    for what no search can mend; a search that finds no design is a result.
+    for what no search can mend, which bounds prove first; a search that finds no design is a result.
     """
     study = read_tree(tree)
     study = proving(study) if prove else study
     table, catalog = table_for(study.mode), catalog_of(study)
     study = drawn(study, catalog, table) if drawn_only else study
     front = FrontOfRun(study, table, folder)
+    refuse_unfit(study, catalog, table, progress)
     found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs, search=search)
     answered = AnsweredStudy(tree, study, table, catalog, found, front, _reported(found, table))
     answered.reported["doubts"] = record_checks(study, catalog, table)
@@ -80,10 +83,12 @@ def proving(study: Study) -> Study:
     return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
 
 
-def _reported(found: StudyResult, table: Table) -> dict[str, Any]:
-    reported = results(found, table) | {"why": why(found, table)}
+def _reported(found: StudyResult, table: Table) -> RunResults:
+    reported = cast("RunResults", results(found, table))
+    reported["why"] = why(found, table)
     if found.solution:
-        reported |= {"starts": starts_reported(found), "conflict_set": conflicts_reported(found.solution.conflict_set)}
+        reported["starts"] = starts_reported(found)
+        reported["conflict_set"] = conflicts_reported(found.solution.conflict_set)
     return reported
 
 
@@ -99,11 +104,11 @@ def _differentiate(answered: AnsweredStudy) -> None:
 
 def drawings(answered: AnsweredStudy) -> list[Drawing]:
     """Every figure of an answer, with what it is drawn from; none where there is no design."""
-    from tvimdesign.report.run.run_plot_data import plot_data
+    from tvimdesign.report.run import run_plot_data
 
     if not answered.result.found:
         return []
-    found = [Drawing(name, name, data) for name, data in plot_data(answered.result, answered.table).items()]
+    found = run_plot_data.drawings(answered.result, answered.table)
     if answered.heat_map.get("values"):
         found.append(Drawing("sensitivities", "sensitivity_figure.sensitivities", answered.heat_map))
     return found + answered.front.drawings()

@@ -12,13 +12,10 @@ def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
 
     Limits that bounds prove impossible are looked for as well, which takes half a second, unless `proof` is not asked.
     """
-    from tvimdesign.solve.infeasibility.infeasibility_proof import refuse_infeasible
+    from tvimdesign.report.run.refusal import refuse_unfit
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
-    catalog, table = catalog_of(study), table_for(study.mode)
-    refuse_impossible(study, catalog, table)
-    if proof:
-        refuse_infeasible(study, catalog, table)
+    (refuse_unfit if proof else refuse_impossible)(study, catalog_of(study), table_for(study.mode))
     return study
 
 

@@ -18,8 +18,11 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.axis_labels import axis_label
+from tvimdesign.report.output.number_entry import finite
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
+from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults, head
 from tvimdesign.report.run.front_memory import FolderMemory
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -54,7 +57,7 @@ class FrontOfRun:
         """Take what found the study's optimum: the front is sought with it."""
         self._built.append((built, runs))
 
-    def seek(self, found: StudyResult, progress: Progress, reported: dict[str, Any], troubles: list[TvimError]) -> None:
+    def seek(self, found: StudyResult, progress: Progress, reported: RunResults, troubles: list[TvimError]) -> None:
         """Seek the front; nothing where none is asked for.
 
         What is to be told goes into `reported`, points without a design into `troubles`.
@@ -78,7 +81,7 @@ class FrontOfRun:
             return
         names = shown_names(self.study, self.front)
         folder.write("front.csv", front_csv(self.front, names, self.table, self.kept))
-        folder.write_json("front.json", plain(self.front, names, self.table, self.kept))
+        folder.write_json("front.json", {**head(), **plain(self.front, names, self.table, self.kept)})
         for number, point in enumerate(self.front.points, start=1):
             folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, found)))
         shutil.rmtree(folder.path / PROGRESS, ignore_errors=True)
@@ -145,24 +148,23 @@ def status(front: Front, place: int) -> str:
     return front.points[place].where if front.points[place].where.startswith("least ") else "between"
 
 
-def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> dict[str, Any]:
-    """The front as plain data, in units; null is never."""
+def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> FrontEntry:
+    """The front as plain data, in units and in SI; null is never."""
 
-    def shown(point: Point, name: str) -> float | None:
-        value = from_si(point.values[name], table.unit(name))
-        return value if math.isfinite(value) else None
+    def entry(number: int, point: Point) -> FrontPoint:
+        found: FrontPoint = {
+            "number": number, "status": status(front, number - 1), "design": f"front/{number:02d}.design.json",
+            "values": {name: finite(from_si(point.values[name], table.unit(name))) for name in names},
+            "si": {name: finite(point.values[name]) for name in names},
+        }  # fmt: skip
+        if kept:
+            found["yield_share"] = kept[number - 1]
+        return found
 
     return {
         "of": list(front.outputs),
-        "units": {name: pretty(table.unit(name)) for name in names},
-        "points": [
-            {
-                "number": number, "status": status(front, number - 1), "design": f"front/{number:02d}.design.json",
-                "values": {name: shown(point, name) for name in names},
-                **({"yield": kept[number - 1]} if kept else {}),
-            }
-            for number, point in enumerate(front.points, start=1)
-        ],
+        "units_of_values": {name: pretty(table.unit(name)) for name in names},
+        "points": [entry(number, point) for number, point in enumerate(front.points, start=1)],
         "knee": None if front.knee is None else front.knee + 1,
         "in_words": in_words(front, table),
         "spread": front.spread,
@@ -180,11 +182,27 @@ def in_words(front: Front, table: Table) -> list[str]:
         point = front.points[front.knee]
         at = ", ".join(f"{name} {format_quantity(point.values[name], table.unit(name))}" for name in front.outputs)
         said.append(f"The knee is point {front.knee + 1}: {at}. Beyond it {'; '.join(_costs(front, front.knee))}.")
+    elif front.little_traded:
+        said.append(_no_trade(front, table))
     elif len(front.points) > 2:
         said.append("It has no knee: it is nearly straight.")
     said += [f"{note[0].upper()}{note[1:]}." for note in front.notes]
     said += [f"No design at {one.where}: {one.reason}." for one in front.failures]
     return said
+
+
+def _no_trade(front: Front, table: Table) -> str:
+    """Which outputs hardly change over the front, and what to do about it."""
+    spans = []
+    for name in front.little_traded:
+        ends = [point.values[name] for point in front.points]
+        low, high = (format_quantity(end, table.unit(name)) for end in (min(ends), max(ends)))
+        spans.append(f"{name} spans {max(ends) / min(ends) - 1.0:.2%} ({low} to {high})")
+    others = [name for name in front.outputs if name not in front.little_traded]
+    step = f"take the point with the least {others[0]}" if len(others) == 1 else "any point will do"
+    step = f"ask for a front of {' and '.join(others)}" if len(others) > 1 else step
+    where = f" in {' and '.join(front.little_traded)}" if len(others) > 1 else ""
+    return f"There is no trade to speak of{where}: over the whole front {' and '.join(spans)}; {step}."
 
 
 def _costs(front: Front, knee: int) -> list[str]:
@@ -212,7 +230,7 @@ def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:
         return [from_si(point.values[name], table.unit(name)) for name in front.outputs]
 
     return {
-        "labels": [f"{name} ({pretty(table.unit(name))})" for name in front.outputs],
+        "labels": [axis_label(name, table.unit(name)) for name in front.outputs],
         "points": [shown(point) for point in front.points],
         "optimum": shown(optimum),
         "knee": front.knee,

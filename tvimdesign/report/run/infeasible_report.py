@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
 
 from tvimdesign.device import Table
+from tvimdesign.report.output.results_format import Conflict, Optimum, SideEntry, Starts
 from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.solve.nlp.solution import ConflictSet, Side, Start
 from tvimdesign.solve.optimizer.statuses import meaning
@@ -80,7 +80,7 @@ def endings(starts: Sequence[Start]) -> list[str]:
     return lines
 
 
-def optima(answer: StudyResult) -> list[dict[str, Any]]:
+def optima(answer: StudyResult) -> list[Optimum]:
     """Every distinct optimum: its objective, the first start that found it, how many did, and its free numbers (SI)."""
     solution = answer.solution
     if solution is None:
@@ -91,7 +91,7 @@ def optima(answer: StudyResult) -> list[dict[str, Any]]:
     ]
 
 
-def starts_reported(answer: StudyResult) -> dict[str, Any]:
+def starts_reported(answer: StudyResult) -> Starts:
     """Share of the free starts that converged, every optimum, and what became of the others."""
     starts = answer.solution.free_starts if answer.solution else ()
     failed = [start for start in starts if not start.converged]
@@ -106,7 +106,7 @@ def starts_reported(answer: StudyResult) -> dict[str, Any]:
     }
 
 
-def conflicts_reported(conflict_set: ConflictSet | None) -> dict[str, Any] | None:
+def conflicts_reported(conflict_set: ConflictSet | None) -> Conflict | None:
     """The conflict as plain data, SI; None where there is none."""
     if conflict_set is None:
         return None
@@ -118,7 +118,7 @@ def conflicts_reported(conflict_set: ConflictSet | None) -> dict[str, Any] | Non
     }
 
 
-def _plain(side: Side) -> dict[str, Any]:
+def _plain(side: Side) -> SideEntry:
     return {
         "limit": side.text, "origin": side.origin, "broken_by": side.by, "move_to": side.move_words or None,
         "not_enough_for": list(side.beside),

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.output.progress import Progress
+from tvimdesign.report.output.results_format import Parts
 
 CAD_TIME_LIMIT = 300.0  # s
 
@@ -25,9 +25,11 @@ def make_parts_of(design: Path, out: Path, progress: Progress) -> CadReport:
     return report
 
 
-def plain_report(report: CadReport) -> dict[str, Any]:
+def plain_report(report: CadReport) -> Parts:
     """The parts' checks, files and notes as plain data."""
-    return {"checks": [check.plain() for check in report.checks], "files": report.files, "notes": report.notes}
+    return {
+        "checks": [check.plain() for check in report.checks], "files": list(report.files), "notes": list(report.notes)
+    }  # fmt: skip
 
 
 def refuse_failed(report: CadReport, out: Path) -> None:

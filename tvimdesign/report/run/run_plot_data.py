@@ -1,49 +1,71 @@
-"""What the figures are drawn from: an answer's numbers in the units of the axes."""
+"""What a run's figures are drawn from: an answer's numbers in the units of the axes."""
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_left
+from collections.abc import Callable
 from typing import Any
 
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import from_si
 from tvimdesign.device import Output, Table
-from tvimdesign.report.output.tables import margin_text
-from tvimdesign.simulation.curves import Curves
+from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.axis_labels import axis_label, name_in_words
+from tvimdesign.report.run.margin_plot_data import free_rows, margin_groups
+from tvimdesign.simulation.curves import PHASE_UNITS, Curves, torque_loop
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.design import Design
 
-_OVER_TIME = ("time", "hot_side", "near_face", "far_face", "cold_side", "joint_impedance", "current")
+_TEMPERATURES = ("hot_side", "near_face", "far_face", "cold_side")
 _PROFILES = 5
-_NEAR = 0.25
-"""Margin below which a rule of the machine is worth a bar."""
 
 
-def plot_data(answer: StudyResult, table: Table) -> dict[str, Any]:
+def drawings(answer: StudyResult, table: Table) -> list[Drawing]:
+    """Every figure of a run, with its data."""
+    data = plot_data(answer, table)
+    rooms = {
+        "cycle": "cycle_figures", "stiffness_and_damping": "cycle_figures", "power_and_energy": "cycle_figures",
+        "impedance": "module_figures", "torque": "module_figures", "mass": "module_figures", "bounds": "bounds_figure",
+    }  # fmt: skip
+    return [Drawing(name, f"{room}.{name}", data[name]) for name, room in rooms.items()]
+
+
+def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
     """Data of every figure by the figure's name."""
     design = answer.design
 
     def shown(name: str) -> float:
         return from_si(design.value(name), table.unit(name))
 
+    phases = {phase: _history(curves) for phase, curves in answer.histories.items()}
+    labels = {name: axis_label(name, unit) for name, unit in PHASE_UNITS.items()}
     melting = [shown("pcl_melting_start"), shown("pcl_melting_end")]
     return {
         "cycle": {
-            **{phase: _history(curves) for phase, curves in answer.histories.items()},
+            **phases,
+            "labels": labels,
             "melting": melting,
             "soft": shown("soft_threshold"),
             "stiff": shown("stiff_threshold"),
             "target": shown("target_temperature"),
             "depths": _depths(answer, table),
         },
+        "stiffness_and_damping": {
+            **phases,
+            "labels": labels,
+            "springs": shown("spring_stiffness"),
+            "title": f"Heating at {shown('frequency@hot'):g} Hz, cooling at {shown('frequency@cold'):g} Hz",
+        },
+        "power_and_energy": {**phases, "labels": labels},
         "impedance": {
             "sweep": answer.sweep,
+            "labels": {kind: axis_label(kind, PHASE_UNITS[f"joint_{kind}"]) for kind in ("stiffness", "damping")},
             "melting": melting,
             "frequency": shown("frequency@hot"),
             "springs": shown("spring_stiffness"),
         },
-        "mass": {"parts": _parts(design, table)},
-        "bounds": {"free": _free(answer, table), "limits": _limits(answer, table)},
+        "torque": _torque(design, shown),
+        "mass": {"parts": _parts(design, table), "label": axis_label("mass", "g")},
+        "bounds": {"free": free_rows(answer, table), "margins": margin_groups(answer, table)},
     }
 
 
@@ -52,7 +74,7 @@ def _history(curves: Curves) -> dict[str, Any]:
     time, through = curves["time"], ["near_face", *(name for name in curves if name.startswith("cell_")), "far_face"]
     moments = [min(bisect_left(time, time[-1] * i / (_PROFILES - 1)), len(time) - 1) for i in range(_PROFILES)]
     profiles = [{"time": time[at], "temperatures": [curves[name][at] for name in through]} for at in moments]
-    return {name: curves[name] for name in _OVER_TIME} | {"profiles": profiles}
+    return {name: curves[name] for name in (*_TEMPERATURES, *PHASE_UNITS)} | {"profiles": profiles}
 
 
 def _depths(answer: StudyResult, table: Table) -> list[float]:
@@ -62,36 +84,26 @@ def _depths(answer: StudyResult, table: Table) -> list[float]:
     return [0.0, *((i + 0.5) / cells * depth for i in range(cells)), depth]
 
 
+def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
+    """Torque over angle at every operating point: of the joint as it is for small motions, and of its springs."""
+    loops = []
+    for point in design.study["operating_points"]:
+        frequency, springs = design.value(f"frequency@{point}"), design.value("spring_stiffness")
+        stiffness, damping = (design.value(f"joint_{kind}@{point}") for kind in ("stiffness", "damping"))
+        angle, torque = torque_loop(stiffness, damping, frequency, design.value("stroke"))
+        title = f"{name_in_words(point)}: {shown(f'temperature@{point}'):.0f} °C, {frequency:g} Hz"
+        loops.append({"title": title, "angle": angle.tolist(), "torque": torque.tolist(),
+                      "springs": (springs * angle).tolist()})  # fmt: skip
+    contact = ", while the PCL is in contact" if design.value("parting_share") > 0.0 else ""
+    return {
+        "title": f"Torque that turns the joint through its stroke{contact}",
+        "labels": {"angle": axis_label("angle", "rad"), "torque": axis_label("torque", "N*m")},
+        "loops": loops,
+    }
+
+
 def _parts(design: Design, table: Table) -> dict[str, float]:
     """Mass [g] of each part: the rows the module's mass is the sum of."""
     total = table.quantity("module_mass")
     assert isinstance(total, Output)
-    return {name.removesuffix("_mass"): from_si(design.value(name), "g") for name in total.needs}
-
-
-def _free(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
-    if answer.solution is None:
-        return []
-    rows = []
-    for name, begin in answer.solution.starts[0].begin.items():
-        vary, value = answer.design.study["vary"][name], answer.design.value(name)
-        lower, upper = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
-        width = (upper - lower) or 1.0
-        unit = table.unit(name)
-        text = f"{from_si(value, unit):.4g} {pretty(unit)}"
-        rows.append({"name": name, "share": (value - lower) / width, "start": (begin - lower) / width, "text": text})
-    return rows
-
-
-def _limits(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
-    """The study's limits, the machine's where they are near, and the advice the design does not follow."""
-    near = [check for check in answer.checks if check.origin == "require" or check.margin < _NEAR]
-    return [
-        {
-            "name": check.text if check in answer.checks else f"advice: {check.text}",
-            "margin": check.margin if math.isfinite(check.margin) else -1.0,
-            "kept": check.kept,
-            "text": margin_text(check, table),
-        }
-        for check in (*near, *answer.warnings)
-    ]
+    return {name_in_words(name.removesuffix("_mass")): from_si(design.value(name), "g") for name in total.needs}

@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rich.markup import escape
 
@@ -18,6 +18,7 @@ from tvimdesign.study.design import read_design, write_design
 from tvimdesign.study.tree import tree_of_file
 
 if TYPE_CHECKING:
+    from tvimdesign.report.output.results_format import Parts
     from tvimdesign.report.run.answered_study import AnsweredStudy
 
 
@@ -29,6 +30,7 @@ def run_study(
     from tvimdesign.report.figures.plot_process import PlotProcess
     from tvimdesign.report.run.answered_study import answer_study, done_in_part, drawings, noting
     from tvimdesign.report.run.infeasible_report import complaint
+    from tvimdesign.report.run.refusal import leaving_the_reason
     from tvimdesign.report.run.write_answer import finish, write_answer
 
     tree = tree_of_file(path, settings)
@@ -37,25 +39,28 @@ def run_study(
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
         progress = stack.enter_context(progress_output())
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        answered = answer_study(tree, progress, prove=prove, sensitivities=sensitivities, folder=folder)
+        with leaving_the_reason(folder, tree, study, as_json=as_json):
+            answered = answer_study(tree, progress, prove=prove, sensitivities=sensitivities, folder=folder)
         found, failures = answered.result, answered.failures
+        parts = cad and study.write.cad and found.found
         if drawing and found.found:
-            drawing.begin(folder.path / "plots", drawings(answered))
+            vector = parts or study.write.vector
+            drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
         design = write_answer(folder, answered)
         if not as_json:
             print_answer(answered)
+        if parts:
+            with noting(failures):
+                answered.reported["cad"] = _parts(design, folder.path / "cad", progress, as_json)
         if drawing and found.found:
             progress("drawing the plots")
             folder.look_up_versions()
             with noting(failures):
                 drawing.finish()
-        if cad and study.write.cad and found.found:
-            with noting(failures):
-                answered.reported["cad"] = _parts(design, folder.path / "cad", progress, as_json)
         finish(folder, answered)
     if as_json:
-        reported = answered.reported | {"folder": str(folder.path), "not_done": [str(failure) for failure in failures]}
-        print(json.dumps(reported, indent=2, allow_nan=False))
+        more = {"folder": str(folder.path), "not_done": [str(failure) for failure in failures]}
+        print(json.dumps({**answered.reported, **more}, indent=2, allow_nan=False))
     else:
         wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
     if not found.found:
@@ -69,7 +74,7 @@ def print_answer(answered: AnsweredStudy) -> None:
     from tvimdesign.report.run.summary import print_summary
 
     print_summary(answered.result, answered.table, wide_console())
-    for doubt in answered.reported["doubts"]:
+    for doubt in answered.reported.get("doubts", []):
         wide_console().print(f"[yellow]In doubt:[/yellow] {escape(doubt)}", soft_wrap=True)
     names = answered.reported.get("sensitivities_left_out")
     if names:
@@ -100,7 +105,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         raise done_in_part(failures)
 
 
-def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> dict[str, Any]:
+def _parts(design: Path, out: Path, progress: Progress, as_json: bool) -> Parts:
     """Make the parts and print what was found. Raises GeometryError where a check fails."""
     from tvimdesign.report.run.parts_of_design import make_parts_of, plain_report, refuse_failed
     from tvimdesign.report.run.solid_checks import print_solid_checks

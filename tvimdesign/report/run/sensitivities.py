@@ -9,6 +9,7 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
+from tvimdesign.report.output.axis_labels import name_in_words
 from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.sensitivity.output_sensitivity import FINER, OutputSensitivities, entries, output_sensitivities
@@ -53,4 +54,8 @@ def heat_map(found: OutputSensitivities, resolved: ResolvedModule) -> dict[str, 
     outputs = [name for name in found.outputs if any(name == output for output, _ in reported)]
     variables = [name for name in found.variables if any(name == variable for _, variable in reported)]
     values = [[cells[output, variable] or 0.0 for variable in variables] for output in outputs]
-    return {"outputs": outputs, "variables": variables, "values": values}
+    return {
+        "outputs": [name_in_words(name) for name in outputs],
+        "variables": [name_in_words(name) for name in variables],
+        "values": values,
+    }

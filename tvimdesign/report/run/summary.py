@@ -23,6 +23,7 @@ from tvimdesign.report.output.tables import (
     value_text,
     variable_rows,
 )
+from tvimdesign.report.output.thresholds import meaning
 from tvimdesign.report.run.infeasible_report import endings
 from tvimdesign.report.run.why import binding, sentences, slack_in_words
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
@@ -119,7 +120,9 @@ def _print_drives(answer: StudyResult, table: Table, console: Console) -> None:
     for name, value in answer.constant_current.items():
         unit = table.unit(name)
         values = (answer.design.value(name), *([best.values[name]] if best else []), value)
-        grid.add_row(name, *(number(from_si(v, unit)) for v in values), pretty(unit), table.quantity(name).description)
+        grid.add_row(
+            name, *(number(from_si(v, unit)) for v in values), pretty(unit), meaning(name, answer.design, table)
+        )
     console.print(grid)
     driven = [table.phase(phase).current_input for phase in answer.design.current_profiles]
 

@@ -6,10 +6,10 @@ import csv
 import io
 import math
 from collections.abc import Sequence
-from typing import Any
 
 from tvimdesign.base.units import pretty
 from tvimdesign.device import Table
+from tvimdesign.report.output.results_format import LimitEntry, Stands, Why
 from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.result import StudyResult
@@ -27,7 +27,7 @@ def binding(answer: StudyResult) -> list[ActiveConstraint]:
 
 
 def slack(answer: StudyResult) -> list[ActiveConstraint]:
-    """The limits that could be somewhat tighter and change nothing, those with the least room first."""
+    """The limits that could be somewhat tighter and change nothing, those with the least margin first."""
     held = answer.solution.held if answer.solution and answer.found else ()
     found = [one for one in held if one.shadow_price <= PRICE_SHOWN and one.margin > NOTHING]
     return sorted(found, key=lambda one: one.margin)
@@ -59,38 +59,41 @@ def _listed(parts: Sequence[str]) -> str:
 
 
 def slack_in_words(answer: StudyResult, table: Table) -> str:
-    """The study's slack requirements with their room, and the machine's rules that have the least."""
+    """The study's slack requirements with their margin, and the machine's rules that have the least."""
     found = slack(answer)
     own = [one for one in found if one.origin == "require"]
     rules = [one for one in found if one.origin not in ("require", "vary")]
-    shown = [f"{one.text} (room {_room(one, table)})" for one in (*own, *rules[:_RULES_SHOWN])]
+    shown = [f"{one.text} (margin {_margin(one, table)})" for one in (*own, *rules[:_RULES_SHOWN])]
     left = len(found) - len(shown)
     more = f"; {left} other rules and ends of ranges have more, or are in why.csv" if left else ""
     return f"Slack: {'; '.join(shown)}{more}." if shown else ""
 
 
-def _room(held: ActiveConstraint, table: Table) -> str:
+def _margin(held: ActiveConstraint, table: Table) -> str:
     return margin_text(held, table).lstrip("+")
 
 
-def why_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
-    """Every limit and end of a range at the optimum: how it stands, its room, and what a step of it costs."""
-    rows = []
+def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
+    """Every limit and end of a range at the optimum: how it stands, its margin, and what a step of it costs."""
+    rows: list[LimitEntry] = []
     tight, loose = binding(answer), slack(answer)
     held = answer.solution.held if answer.solution and answer.found else ()
     others = [one for one in held if one not in tight and one not in loose]
-    for stands, group in (("binds", tight), ("touches", others), ("slack", loose)):
+    groups: tuple[tuple[Stands, list[ActiveConstraint]], ...] = (
+        ("binds", tight), ("touches", others), ("slack", loose)
+    )  # fmt: skip
+    for stands, group in groups:
         for one in group:
-            room, unit = margin_of(one, table)
+            margin, unit = margin_of(one, table)
             rows.append({
                 "limit": one.text, "stands": stands, "origin": one.origin,
-                "room": room if math.isfinite(room) else None, "room_unit": pretty(unit),
-                "step": one.step, "objective": one.shadow_price, "outputs": dict(one.sensitivity),
+                "margin": margin if math.isfinite(margin) else None, "margin_unit": pretty(unit),
+                "step": one.step, "shadow_price": one.shadow_price, "sensitivity": dict(one.sensitivity),
             })  # fmt: skip
     return rows
 
 
-def why(answer: StudyResult, table: Table) -> dict[str, Any]:
+def why(answer: StudyResult, table: Table) -> Why:
     """Everything this page says, as plain data; costs are percent of each output for a step of the limit."""
     return {"limits": why_rows(answer, table), "sentences": sentences(answer)}
 
@@ -100,11 +103,11 @@ def why_csv(answer: StudyResult, table: Table) -> str:
     outputs = list(answer.design.study["minimize"])
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    costs = [f"{name} [%]" for name in ("objective", *outputs)]
-    writer.writerow(["limit", "stands", "origin", "room", "room_unit", "step", *costs])
+    costs = ["shadow_price [%]", *(f"sensitivity of {name} [%]" for name in outputs)]
+    writer.writerow(["limit", "stands", "origin", "margin", "margin_unit", "step", *costs])
     for row in why_rows(answer, table):
-        each = [f"{row['outputs'][name]:.6g}" if name in row["outputs"] else "" for name in outputs]
-        room = "" if row["room"] is None else f"{row['room']:.6g}"
-        places = [row["limit"], row["stands"], row["origin"], room, row["room_unit"], row["step"]]
-        writer.writerow([*places, f"{row['objective']:.6g}", *each])
+        each = [f"{row['sensitivity'][name]:.6g}" if name in row["sensitivity"] else "" for name in outputs]
+        margin = "" if row["margin"] is None else f"{row['margin']:.6g}"
+        places = [row["limit"], row["stands"], row["origin"], margin, row["margin_unit"], row["step"]]
+        writer.writerow([*places, f"{row['shadow_price']:.6g}", *each])
     return stream.getvalue()

@@ -9,10 +9,9 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, results_csv
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.why import why_csv
+from tvimdesign.simulation.curves import PHASE_UNITS
 from tvimdesign.study.design import write_design
 from tvimdesign.study.tree import study_file
-
-_CURVE_UNITS = {"time": "s", "joint_impedance": "N*m/rad", "current": "A", "frozen": "1"}
 
 
 def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
@@ -27,7 +26,7 @@ def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     if answered.sensitivities:
         folder.write("sensitivities.csv", answered.sensitivities)
     for phase, history in found.histories.items():
-        folder.write(f"{phase}.csv", curves_csv(history, _CURVE_UNITS, "degC"))
+        folder.write(f"{phase}.csv", curves_csv(history, PHASE_UNITS, "degC"))
     units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in found.sweep}
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     answered.front.write(folder, found)

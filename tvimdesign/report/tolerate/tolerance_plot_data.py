@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import from_si
 from tvimdesign.device import Table
+from tvimdesign.report.output.axis_labels import axis_label, name_in_words
 from tvimdesign.report.tolerate.tolerance_tables import spreads
 from tvimdesign.solve.uncertainty.tolerance import Spread
 
@@ -24,7 +25,10 @@ def figure_data(found: Spread, table: Table) -> dict[str, Any]:
     shown = [i for i, name in enumerate(found.outputs) if name in found.asked and spreads(found, i)]
     order = np.argsort(-np.sum(found.shares[shown], axis=0), kind="stable")
     parts = [
-        {"name": found.contributors[j].name, "shares": [100.0 * float(found.shares[i, j]) for i in shown]}
+        {
+            "name": name_in_words(found.contributors[j].name),
+            "shares": [100.0 * float(found.shares[i, j]) for i in shown],
+        }
         for j in order[:_PARTS]
     ]
     rest = [100.0 * float(np.sum(found.shares[i, order[_PARTS:]])) for i in shown]
@@ -34,7 +38,7 @@ def figure_data(found: Spread, table: Table) -> dict[str, Any]:
     rows = dict.fromkeys(found.outputs.index(kept.limit.output) for kept in by_yield)
     every = dict.fromkeys([*rows, *shown])
     panels = [_panel(found, table, i) for i in every if spreads(found, i)][:_PANELS]
-    return {"outputs": [found.outputs[i] for i in shown], "parts": parts, "panels": panels}
+    return {"outputs": [name_in_words(found.outputs[i]) for i in shown], "parts": parts, "panels": panels}
 
 
 def _panel(found: Spread, table: Table, i: int) -> dict[str, Any]:
@@ -51,9 +55,10 @@ def _panel(found: Spread, table: Table, i: int) -> dict[str, Any]:
     span = (2.0 * edges[0] - edges[-1], 2.0 * edges[-1] - edges[0])
     near = [limit for limit in limits if span[0] <= limit <= span[1]]
     share = min((k.share.share for k in found.kept if k.limit.output == name), default=None)
-    said = "" if share is None else f": {100.0 * share:.3g} % keep it"
+    said = "" if share is None else f"{100.0 * share:.3g} % of modules within limits"
     return {
-        "title": f"{name} [{pretty(unit) or 1}]{said}",
+        "title": said,
+        "label": axis_label(name, unit),
         "counts": [int(count) for count in counts],
         "edges": [from_si(float(edge), unit) for edge in edges],
         "limits": [from_si(limit, unit) for limit in near],

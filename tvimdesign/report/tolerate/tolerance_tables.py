@@ -8,8 +8,9 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from tvimdesign.base.units import from_si, pretty, to_si
+from tvimdesign.base.units import from_si, pretty, si_unit, to_si
 from tvimdesign.device import Table
+from tvimdesign.report.output.results_format import head
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread
 from tvimdesign.study import Study
@@ -83,15 +84,30 @@ def as_csv(rows: Sequence[Mapping[str, Any]]) -> str:
 def reported(found: Spread, preload: Preload | None, table: Table, study: Study, samples: int) -> dict[str, Any]:
     """Everything as plain data."""
     return {
+        **head(),
         "samples": samples,
         "yield": {"share": found.together.share, "low": found.together.low, "high": found.together.high},
-        "outputs": list(output_rows(found, table)),
+        "outputs": [
+            {**row, "si": si} for row, si in zip(output_rows(found, table), _outputs_in_si(found, table), strict=True)
+        ],
         "limits": list(limit_rows(found, table)),
         "contributors": list(contributor_rows(found, table, study)),
         "corners": found.worst.corners,
         "free_angle": None if preload is None else _preload(preload),
         "left_out": list(found.left_out),
     }
+
+
+def _outputs_in_si(found: Spread, table: Table) -> Iterator[dict[str, str | float | None]]:
+    """The numbers of each output's row in SI."""
+    columns = {
+        "as_drawn": found.nominal, "worst_low": found.worst.low, "worst_high": found.worst.high,
+        "mean": found.drawn.mean, "low": found.drawn.low, "high": found.drawn.high,
+        "deviation_rss": found.deviation, "deviation": found.drawn.deviation,
+    }  # fmt: skip
+    for i, name in enumerate(found.outputs):
+        numbers = {key: _finite(float(column[i])) for key, column in columns.items()}
+        yield {**numbers, "unit": pretty(si_unit(table.unit(name)))}
 
 
 def _preload(preload: Preload) -> dict[str, float]:

@@ -21,6 +21,7 @@ from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.thresholds import soft_of_module
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.tolerate.tolerance_plot_data import figure_data
 from tvimdesign.report.tolerate.tolerance_tables import (
@@ -69,15 +70,17 @@ def tolerate_study(path: Path, out: Path, samples: int, workers: int, *, overwri
         subject = _subject(source, study, progress)
         found, preload = _analysed(subject.resolved, count, threads, progress)
         table, study = subject.resolved.table, subject.resolved.study
-        data = reported(found, preload, table, study, count) | {"notes": list(subject.notes)}
+        data = reported(found, preload, table, study, count)
+        data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]
         data["sentences"] = sentences(found, preload, table)
         if subject.nominal is not None:
             before, _ = _analysed(subject.nominal, count, threads, progress)
-            data["price"] = _price(before, found, table, study)
+            data["cost_of_robustness"] = _price(before, found, table, study)
         _write(folder, source, subject, data, found, table)
         if drawing:
             progress("drawing the figure")
-            drawing.begin(folder.path, [Drawing("spread", "tolerance_figure.spread", figure_data(found, table))])
+            figure = Drawing("spread", "tolerance_figure.spread", figure_data(found, table))
+            drawing.begin(folder.path, [figure], study.name)
             drawing.finish()
         progress("")
         folder.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"))
@@ -184,9 +187,9 @@ def _print(found: Spread, data: dict[str, Any], table: Table, console: Console) 
             by = f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
             grid.add_row(in_words(kept.limit, table), f"{100.0 * kept.share.share:.4g} %", f"{kept.capability:.2f}", by)
         console.print(grid)
-    if "price" in data:
+    if "cost_of_robustness" in data:
         grid = _grid("What robustness costs", ("", "nominal optimum", "robust optimum", "unit"))
-        for row in data["price"]:
+        for row in data["cost_of_robustness"]:
             grid.add_row(row["output"], number(row["nominal"]), number(row["robust"]), row["unit"])
         console.print(grid)
     for sentence in data["sentences"]:

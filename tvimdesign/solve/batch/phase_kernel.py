@@ -68,7 +68,8 @@ class PhaseKernel:
         """Write and compile the Newton step, what is watched, and what stays the same all through the phase."""
         self.steps, self.after, self.size = steps, phase.phase.after, phase.state_size
         self.events, self.paths, self.steadies = list(events), list(paths), list(steadies)
-        self.integrals = np.array([row.reduce == "integral" for row in phase.paths if row.name in paths], dtype=bool)
+        reduced = np.array([row.reduce for row in phase.paths if row.name in paths], dtype=str)
+        self.integrals, self.maxima, self.lasts = (reduced == one for one in ("integral", "maximum", "end"))
         self.ends = self.events.index(phase.phase.ends) if phase.phase.ends in self.events else None
         self.horizon = float(model.start[model.index["horizon"]])
         free = ca.SX.sym("moving", len(moving))
@@ -126,6 +127,7 @@ class PhaseKernel:
         times[begun] = 0.0
         if self.ends is not None:
             passage.end[:, begun[self.ends]] = state[:, begun[self.ends]]
+            sums[:, begun[self.ends]] = integrate.sums[:, begun[self.ends]]
         usual = pace / self.steps.of_pace
         step = self.steps.first * usual
         while integrate.time < self.horizon and not np.all(np.isfinite(times) | lost):
@@ -142,7 +144,7 @@ class PhaseKernel:
             step = step * _GROWTH if integrate.time > _LATE * pace else min(2.0 * step, usual)
         # A maximum is one even of a phase that never ends, as in the simulator.
         highest = np.maximum(integrate.sums, -np.inf)
-        sums = np.where(np.isinf(sums) & ~self.integrals[:, None], highest, sums) if self.paths else sums
+        sums = np.where(np.isinf(sums) & self.maxima[:, None], highest, sums) if self.paths else sums
         passage.values |= dict(zip(self.events, times, strict=True)) | dict(zip(self.paths, sums, strict=True))
         if self.steadies:
             passage.values |= self._at_rest(columns, balance, passage.end)
@@ -214,8 +216,9 @@ class _March:
         return _Window(begin, step, states, sums, self.phase._gaps(self.watched(self.state)))
 
     def _added(self, sums: Array, before: Array, now: Array, step: Array | float) -> Array:
-        """Integrals by the trapezoid, maxima of the samples."""
-        return np.where(self.phase.integrals[:, None], sums + 0.5 * step * (before + now), np.maximum(sums, now))
+        """Integrals by the trapezoid, maxima of the samples, and of what is wanted at the end the last sample."""
+        reached = np.where(self.phase.lasts[:, None], now, np.maximum(sums, now))
+        return np.where(self.phase.integrals[:, None], sums + 0.5 * step * (before + now), reached)
 
     def _step(self, state: Array, constants: Array, step: Array) -> Array:
         """One step of SDIRK2: two implicit phases, the second is the result."""

@@ -290,6 +290,8 @@ class Problem:
             for row, sampled in zip(paths, samples, strict=True):
                 if row.reduce == "integral":
                     values[row.name] = ca.mtimes(sampled[1:], block.weights)
+                elif row.reduce == "end":
+                    values[row.name] = sampled[-1]
                 else:
                     scale = self.peak_scale(row)
                     peaks[row.name] = ca.MX.sym(row.name)

@@ -51,7 +51,7 @@ class Front:
         """Every point's outputs, from 0 (the least on the front) to 1 (the most)."""
         if not self.points:
             return np.zeros((0, len(self.outputs)))
-        numbers = np.array([[point.values[name] for name in self.outputs] for point in self.points])
+        numbers = self._numbers
         ranges = np.ptp(numbers, axis=0)
         return np.asarray((numbers - numbers.min(axis=0)) / np.where(ranges > 0.0, ranges, 1.0))
 
@@ -61,9 +61,19 @@ class Front:
         return shape.spread(self.shares)
 
     @property
+    def _numbers(self) -> Array:
+        """Every point's outputs, SI."""
+        return np.array([[point.values[name] for name in self.outputs] for point in self.points])
+
+    @property
+    def little_traded(self) -> tuple[str, ...]:
+        """The outputs that hardly change over the front: with them there is no trade to speak of."""
+        return tuple(self.outputs[i] for i in shape.little_traded(self._numbers))
+
+    @property
     def knee(self) -> int | None:
-        """Place of the point beyond which any output gets dear; None where there is none."""
-        return shape.knee(self.shares)
+        """Place of the point beyond which any output gets dear; None where there is none, or nothing is traded."""
+        return None if self.little_traded else shape.knee(self.shares)
 
 
 def trace_front(trade: Tradeoff, outputs: Sequence[str], count: int) -> Front:

@@ -21,6 +21,8 @@ Values = Mapping[str, float]
 
 FLAT = 0.03
 """Greatest distance from the chord, or the plane of the ends, of a front that has no knee."""
+SPAN = 0.03
+"""Share of an output's least by which it must differ over a front for there to be a trade to speak of."""
 _THIN = 0.1
 """Width over length of the hull of the ends below which a front is a curve."""
 _STEPS = 24
@@ -93,6 +95,14 @@ def neighbours(shares: Array) -> list[tuple[int, int, float]]:
         (int(min(i, j)), int(max(i, j)), float(d))
         for i, j, d in zip(relaxation.row, relaxation.col, relaxation.data, strict=True)
     )
+
+
+def little_traded(numbers: Array) -> list[int]:
+    """Columns of the outputs (SI, a row a point) that hardly change over a front; nothing is said of a single point."""
+    if len(numbers) < 2:
+        return []
+    least = np.min(np.abs(numbers), axis=0)
+    return [int(i) for i in np.flatnonzero(np.ptp(numbers, axis=0) < SPAN * least)]
 
 
 def knee(shares: Array) -> int | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -115,6 +115,20 @@ def cases(resolved: ResolvedModule) -> list[Case]:
             modes = case.rows(resolved, ("pcl_modes",))["pcl_modes"]
             found.append(replace(case, modes=[(float(time), float(k)) for time, k in modes]))
     return found
+
+
+class _HasCase(Protocol):
+    @property
+    def case(self) -> Case: ...
+
+
+_Tested = TypeVar("_Tested", bound=_HasCase)
+
+
+def by_point(found: Sequence[_Tested]) -> list[tuple[str, list[_Tested]]]:
+    """What was tested, operating point after operating point."""
+    points = dict.fromkeys(one.case.point for one in found)
+    return [(point, [one for one in found if one.case.point == point]) for point in points]
 
 
 def finding(name: str, unit: str, meaning: str, numbers: Sequence[float]) -> Finding:

@@ -13,6 +13,7 @@ from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.virtual_tests.joint_tests import joint_motion
 from tvimdesign.virtual_tests.joint_tests.case import (
     Case,
+    by_point,
     cases,
     finding,
     notes_for,
@@ -25,6 +26,8 @@ from tvimdesign.virtual_tests.link_motion.link import Array, Motion
 from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 ANGLE = 0.1  # rad, the paper's perturbation
+ANGLE_PANEL = "Released"
+"""How the titles of the panels begin that show the angle over time."""
 SETTLED = 0.05  # share of the angle within which the link counts as back
 
 
@@ -76,17 +79,15 @@ def release(
     resolved = with_paper_points(resolved)
     found = [_released(resolved, case, angle, hold, kelvin_voigt) for case in cases(resolved)]
     shown = [one for one in found if one.case.history.shown]
-    x, y = "angle", "torque_share"
     return Trial(
         test="release",
         title=f"Released from {angle:g} rad",
         sheets=tuple(sheet for one in shown for sheet in _sheets(one)),
         panels=(
-            Panel("Angle", "time after release, s", "angle, rad", _lines(shown, "time", x), log_x=True),
-            Panel(
-                "Torque", "time after release, s", "torque over that at release", _lines(shown, "time", y), log_x=True
-            ),
-            Panel(_loop_title(shown), "angle, rad", "torque over that at release", _lines(shown, x, y)),
+            *(Panel(f"{ANGLE_PANEL}, {point}", "Time after release (s)", "Angle (rad)", _lines(here, "time", "angle"),
+                    log_x=True) for point, here in by_point(shown)),
+            *(Panel(f"First swing, {point}", "Angle (rad)", "Torque on the link (N·m)",
+                    _lines(here, "angle", "torque")) for point, here in by_point(shown)),
         ),
         findings=tuple(_findings(resolved, found)),
         notes=(
@@ -97,7 +98,7 @@ def release(
             *overload_notes(resolved, [(one.case, float(abs(one.motion.torque[0]))) for one in found]),
             *_unsettled(found),
         ),
-    )
+    )  # fmt: skip
 
 
 def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
@@ -174,41 +175,33 @@ def _sheets(one: Released) -> tuple[CurveTable, ...]:
         Column("time", "s", moved.times),
         Column("angle", "rad", moved.angle),
         Column("torque", "N*m", moved.torque),
-        Column("torque_share", "1", moved.torque / abs(moved.torque[0])),
         Column("stored_energy", "J", moved.energy),
         *joint_motion.contact_columns(one.case, one.found),
     ]
     if one.simple:
-        torque = one.simple.torque
         columns += [
             Column("angle_kelvin_voigt", "rad", one.simple.angle),
-            Column("torque_kelvin_voigt", "N*m", torque),
-            Column("torque_share_kelvin_voigt", "1", torque / abs(torque[0])),
+            Column("torque_kelvin_voigt", "N*m", one.simple.torque),
         ]
     events = joint_motion.event_sheets(name, one.found)
-    return (CurveTable(name, tuple(columns)), *(_first_swing(one, columns) if one.case.one_sided else ()), *events)
+    return (CurveTable(name, tuple(columns)), *_first_swing(one, columns), *events)
 
 
 def _first_swing(one: Released, columns: Sequence[Column]) -> tuple[CurveTable]:
-    """The first swing alone, whose loop shows the backlash; later ones lie over it."""
+    """The first swing alone, whose loop shows loss and backlash; later ones lie over it."""
     count = int(np.searchsorted(one.motion.times, one.found.first_swing(), side="right"))
     return (CurveTable(_loop_name(one), tuple(replace(column, values=column.values[:count]) for column in columns)),)
 
 
 def _loop_name(one: Released) -> str:
-    return f"release_{one.case.name}" + ("_first_swing" if one.case.one_sided else "")
-
-
-def _loop_title(found: Sequence[Released]) -> str:
-    return "Torque over angle" + (", first swing" if found[0].case.one_sided else "")
+    return f"release_{one.case.name}_first_swing"
 
 
 def _lines(found: Sequence[Released], x: str, y: str) -> tuple[PlottedLine, ...]:
     lines = []
     for one in found:
         sheet = _loop_name(one) if x == "angle" else f"release_{one.case.name}"
-        held = f"{abs(one.motion.torque[0]):.3g} N·m at release"
-        lines.append(PlottedLine(sheet, x, y, f"{one.case.label} ({held})" if y == "torque_share" else one.case.label))
+        lines.append(PlottedLine(sheet, x, y, one.case.label))
         if one.simple and not one.case.history.name:
             across = "angle_kelvin_voigt" if x == "angle" else x
             lines.append(

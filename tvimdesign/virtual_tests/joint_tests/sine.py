@@ -11,6 +11,7 @@ from tvimdesign.simulation.resolved_module import ResolvedModule
 from tvimdesign.virtual_tests.joint_tests import joint_motion
 from tvimdesign.virtual_tests.joint_tests.case import (
     Case,
+    by_point,
     cases,
     finding,
     notes_for,
@@ -58,11 +59,10 @@ def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
         test="sine",
         title=f"Turned as a sine of {float(resolved.quantity('stroke')):g} rad ({frequencies})",
         sheets=tuple(sheet for one in shown for sheet in _sheets(one)),
-        panels=(
-            Panel("Angle", "time, s", "angle, rad", _lines(shown, "", "time", "angle")),
-            Panel("Torque", "time, s", "torque over its highest", _lines(shown, "", "time", "torque_share")),
-            Panel("Torque over angle", "angle, rad", "torque over its highest",
-                  _lines(shown, "_loop", "angle", "torque_share")),
+        panels=tuple(
+            Panel(f"{place}, {point}", label, "Torque on the link (N·m)", _lines(here, x))
+            for x, label, place in (("time", "Time (s)", "Last period"), ("angle", "Angle (rad)", "Loop"))
+            for point, here in by_point(shown)
         ),
         findings=tuple(_findings(resolved, found)),
         notes=(
@@ -115,7 +115,6 @@ def _sheets(one: Swung) -> tuple[CurveTable, ...]:
         Column("time", "s", moved.times),
         Column("angle", "rad", moved.angle),
         Column("torque", "N*m", moved.torque),
-        Column("torque_share", "1", moved.torque / np.max(np.abs(moved.torque))),
         *joint_motion.contact_columns(one.case, one.found),
     )
     name, loop = f"sine_{one.case.name}", last_period(moved, one.frequency)
@@ -126,12 +125,9 @@ def _sheets(one: Swung) -> tuple[CurveTable, ...]:
     )
 
 
-def _lines(found: Sequence[Swung], part: str, x: str, y: str) -> tuple[PlottedLine, ...]:
-    def label(one: Swung) -> str:
-        highest = f" ({np.max(np.abs(one.motion.torque)):.3g} N·m)" if y == "torque_share" else ""
-        return one.case.label + highest
-
-    return tuple(PlottedLine(f"sine_{one.case.name}{part}", x, y, label(one)) for one in found)
+def _lines(found: Sequence[Swung], x: str) -> tuple[PlottedLine, ...]:
+    """The torque of the last period; all before it are like it once the layer has forgotten how it began."""
+    return tuple(PlottedLine(f"sine_{one.case.name}_loop", x, "torque", one.case.label) for one in found)
 
 
 def _findings(resolved: ResolvedModule, found: Sequence[Swung]) -> list[Finding]:

@@ -55,12 +55,12 @@ def step(
         title=f"Steps: of the angle, and of the impedance under {weight:.3g} N·m",
         sheets=(*(_sheet(case, moved) for case, moved in shown), _loaded_sheet(carried, history)),
         panels=(
-            Panel("Step of the angle", "time, s", "torque, N·m", log_x=True, log_y=True, lines=tuple(
+            Panel("Step of the angle", "Time (s)", "Torque (N·m)", log_x=True, log_y=True, lines=tuple(
                 PlottedLine(f"step_{case.name}", "time", "holding_torque", case.label) for case, _ in shown)),
-            Panel("Layer over the cycle", "time, s", "temperature, °C", lines=tuple(
+            Panel("Layer over the cycle", "Time (s)", "Temperature (°C)", lines=tuple(
                 PlottedLine(LOADED, "time", f"{place}_slice", f"{place} slice")
                 for place in ("near", "middle", "far"))),
-            Panel("Angle under load", "time, s", "angle, rad", lines=(PlottedLine(LOADED, "time", "angle", "link"),)),
+            Panel("Angle under load", "Time (s)", "Angle (rad)", lines=(PlottedLine(LOADED, "time", "angle", "link"),)),
         ),
         findings=(*_relaxed(resolved, found), *_yielded(carried, weight, one_sided=found[0][0].one_sided)),
         notes=(

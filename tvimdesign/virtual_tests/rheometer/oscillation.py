@@ -82,12 +82,19 @@ def _frequency_panels(tested: Sequence[Specimen]) -> tuple[Panel, ...]:
             for at in tested
         ]
 
-    x = "angular frequency (rad/s)"
+    x = "Angular frequency (rad/s)"
     moduli = (*lines("storage_modulus", ending=", G'"), *lines("loss_modulus", dashed=True, ending=", G''"))
     return (
-        Panel("Moduli", x, "G', G'' (Pa)", moduli, log_x=True, log_y=True),
-        Panel("Complex viscosity", x, "|η*| (Pa·s)", tuple(lines("complex_viscosity")), log_x=True, log_y=True),
-        Panel("Loss factor", x, "tan δ", tuple(lines("loss_factor")), log_x=True, log_y=True),
+        Panel("Moduli", x, "Moduli G', G'' (Pa)", moduli, log_x=True, log_y=True),
+        Panel(
+            "Complex viscosity",
+            x,
+            "Complex viscosity |η*| (Pa·s)",
+            tuple(lines("complex_viscosity")),
+            log_x=True,
+            log_y=True,
+        ),
+        Panel("Loss factor", x, "Loss factor tan δ (–)", tuple(lines("loss_factor")), log_x=True, log_y=True),
     )
 
 
@@ -96,7 +103,7 @@ def _fit_panel(at: Specimen) -> Panel:
     bodies = (PlottedLine(sheet, x, f"complex_modulus_{kind}", title, dashed=True) for kind, title in TITLES.items())
     lines = (at.line(sheet, x, "complex_modulus", "full spectrum"), *bodies)
     title = f"Simple bodies at {at.label}"
-    return Panel(title, "angular frequency (rad/s)", "|G*| (Pa)", lines, log_x=True, log_y=True)
+    return Panel(title, "Angular frequency (rad/s)", "Complex modulus |G*| (Pa)", lines, log_x=True, log_y=True)
 
 
 def _moduli_at_1_hertz(at: Specimen) -> tuple[Finding, ...]:
@@ -136,7 +143,7 @@ def amplitude(resolved: ResolvedModule, temperatures: Sequence[float] | None = N
         ]
         meaning = f"strain at which the storage modulus has fallen {100.0 * LINEAR_DROP:g} %"
         findings.append(at.finding("linear_limit", "%", meaning, lambda state: _linear_limit(moduli(state)[0])))
-    panel = Panel("Amplitude sweep", "strain (%)", "G', G'' (Pa)", tuple(lines), log_x=True, log_y=True)
+    panel = Panel("Amplitude sweep", "Strain (%)", "Moduli G', G'' (Pa)", tuple(lines), log_x=True, log_y=True)
     return Trial(
         test="amplitude",
         title=f"Amplitude sweep at {AMPLITUDE_FREQUENCY:g} rad/s",
@@ -247,10 +254,10 @@ def _temperature_panels(sheets: Sequence[CurveTable]) -> tuple[Panel, ...]:
         ]  # fmt: skip
 
     moduli = (*lines("storage_modulus", ", G'"), *lines("loss_modulus", ", G''", dashed=True))
-    x = "temperature (°C)"
+    x = "Temperature (°C)"
     return (
-        Panel("Moduli", x, "G', G'' (Pa)", moduli, log_y=True),
-        Panel("Loss factor", x, "tan δ", tuple(lines("loss_factor", "")), log_y=True),
+        Panel("Moduli", x, "Moduli G', G'' (Pa)", moduli, log_y=True),
+        Panel("Loss factor", x, "Loss factor tan δ (–)", tuple(lines("loss_factor", "")), log_y=True),
     )
 
 

@@ -31,7 +31,7 @@ def creep(resolved: ResolvedModule, temperatures: Sequence[float] | None = None)
     compared = [compare(at, _compliance, lambda body: body.creep(UNDER_LOAD), (UNDER_LOAD[0], LOADED)) for at in tested]
     pairs = list(zip(tested, compared, strict=True))
     lines = tuple(at.line(f"creep_{at.point}", "time", "compliance") for at in tested)
-    panels = [Panel("Creep compliance", "time (s)", "J (1/Pa)", lines, log_x=True, log_y=True)]
+    panels = [Panel("Creep compliance", "Time (s)", "Compliance J (1/Pa)", lines, log_x=True, log_y=True)]
     panels += [_creep_panel(at) for at in tested]
     return Trial(
         test="creep",
@@ -85,7 +85,7 @@ def _creep_panel(at: Specimen) -> Panel:
     sheet = f"creep_{at.point}"
     bodies = (PlottedLine(sheet, "time", f"strain_{kind}", title, dashed=True) for kind, title in TITLES.items())
     lines = (at.line(sheet, "time", "strain", "full spectrum"), *bodies)
-    return Panel(f"Creep and recovery at {at.label}", "time (s)", "strain (%)", lines, log_y=bool(at.others))
+    return Panel(f"Creep and recovery at {at.label}", "Time (s)", "Strain (%)", lines, log_y=bool(at.others))
 
 
 def _creep_findings(at: Specimen) -> tuple[Finding, ...]:
@@ -125,7 +125,7 @@ def relaxation(resolved: ResolvedModule, temperatures: Sequence[float] | None = 
     pairs = list(zip(tested, compared, strict=True))
     lines = tuple(at.line(f"relaxation_{at.point}", "time", "stress") for at in tested)
     title = f"Stress, strained within {RISE:g} s"
-    panels = [Panel(title, "time (s)", "stress (Pa)", lines, log_x=True, log_y=True)]
+    panels = [Panel(title, "Time (s)", "Stress (Pa)", lines, log_x=True, log_y=True)]
     panels += [_relaxation_panel(at) for at in tested]
     return Trial(
         test="relaxation",
@@ -170,7 +170,7 @@ def _relaxation_panel(at: Specimen) -> Panel:
         PlottedLine(sheet, "time", f"relaxation_modulus_{kind}", title, dashed=True) for kind, title in TITLES.items()
     )
     lines = (at.line(sheet, "time", "relaxation_modulus", "full spectrum"), *bodies)
-    return Panel(f"Relaxation modulus at {at.label}", "time (s)", "G (Pa)", lines, log_x=True, log_y=True)
+    return Panel(f"Relaxation modulus at {at.label}", "Time (s)", "Modulus G (Pa)", lines, log_x=True, log_y=True)
 
 
 def _relaxation_findings(at: Specimen) -> tuple[Finding, ...]:

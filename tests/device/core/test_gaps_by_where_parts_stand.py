@@ -1,0 +1,179 @@
+"""Gaps and fits as distances between discs and levels, placed from the inputs alone."""
+
+from itertools import combinations
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+from tvimdesign.device import table_for
+
+MM = 1e-3
+TABLE = table_for("shear")
+SIZES: dict[str, dict[str, Any]] = {
+    "as it is": {},
+    "other sizes": {
+        "spring_pairs": 3, "arc_count": 3, "arc_span": 1.5, "wire_diameter": 1.9 * MM, "coil_diameter": 17 * MM,
+        "coil_count": 4.6, "coil_gap": 0.15 * MM, "preload_angle": 0.37, "stroke": 0.13, "placement_radius": 61 * MM,
+        "pcl_inner_radius": 23 * MM, "pcl_outer_radius": 42 * MM, "pcl_thickness": 1.7 * MM, "rotor_rim": 2.3 * MM,
+        "rotor_thickness": 3.3 * MM, "radial_clearance": 0.7 * MM, "axial_clearance": 0.6 * MM, "core_radius": 9 * MM,
+        "hub_wall": 2.6 * MM, "window_ledge": 2.4 * MM, "pin_diameter": 3.4 * MM, "pin_radius_ratio": 0.47,
+    },
+}  # fmt: skip
+
+
+class Disc(NamedTuple):
+    """Plan view of a round part: where its centre is, and its radius [m]."""
+
+    centre: complex
+    radius: float
+
+
+def around(radius: float, circle: float, count: int, start: float = 0.0) -> list[Disc]:
+    """Equal discs on a circle about the axis."""
+    return [Disc(circle * np.exp(1j * (start + 2.0 * np.pi * i / count)), radius) for i in range(count)]
+
+
+def apart(*groups: list[Disc]) -> float:
+    """Least distance between two discs of one group, or of two groups."""
+    pairs = combinations(groups[0], 2) if len(groups) == 1 else ((a, b) for a in groups[0] for b in groups[1])
+    return float(min(abs(a.centre - b.centre) - a.radius - b.radius for a, b in pairs))
+
+
+def within(inner: list[Disc], radius: float) -> float:
+    """Least distance of discs from a circle about the axis that holds them."""
+    return float(min(radius - abs(one.centre) - one.radius for one in inner))
+
+
+@pytest.fixture(scope="module", params=SIZES)
+def p(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, Any]:
+    return {**inputs, **SIZES[request.param]}
+
+
+def of(p: dict[str, Any], *names: str) -> list[float]:
+    return [float(value) for value in TABLE.evaluate(p, names).values()]
+
+
+def springs(p: dict[str, Any]) -> list[Disc]:
+    # The tang runs on along the tangent for a bend of one wire, and is half a wire thick.
+    reach = abs(complex(0.5 * p["coil_diameter"], p["wire_diameter"])) + 0.5 * p["wire_diameter"]
+    return around(reach, p["placement_radius"], int(2 * p["spring_pairs"]))
+
+
+def feet(p: dict[str, Any]) -> list[Disc]:
+    count = int(2 * p["spring_pairs"])
+    return around(p["mount_boss_radius"], p["placement_radius"], count, np.pi / count)
+
+
+def test_springs_keep_away_from_rotor_and_from_each_other(p: dict[str, Any]) -> None:
+    clear, plate = p["radial_clearance"], [Disc(0j, p["pcl_outer_radius"] + p["rotor_rim"])]
+    rotor, neighbour = of(p, "rotor_spring_gap", "spring_spring_gap")
+    assert rotor == pytest.approx(apart(springs(p), plate) - clear, abs=1e-12)
+    assert neighbour == pytest.approx(apart(springs(p)) - clear, abs=1e-12)
+
+
+def test_pins_stand_on_the_rotor_and_legs_pass_above_it(p: dict[str, Any]) -> None:
+    pins = around(0.5 * p["pin_diameter"], p["pin_radius_ratio"] * p["placement_radius"], int(2 * p["spring_pairs"]))
+    rim, leg, reach = of(p, "pin_rim_gap", "leg_rotor_gap", "leg_reach_gap")
+    assert rim == pytest.approx(within(pins, p["pcl_outer_radius"] + p["rotor_rim"]) - p["radial_clearance"], abs=1e-12)
+    # The tang's bend of one wire ends on the floor; from its top the coils rise by a pitch a turn.
+    wire, pitch = p["wire_diameter"], p["wire_diameter"] + p["coil_gap"]
+    start = wire * np.cos(np.arctan2(pitch, np.pi * p["coil_diameter"]))
+    end = start + pitch * (p["coil_count"] + p["preload_angle"] / (2.0 * np.pi))
+    plate = p["pcl_thickness"] + p["rotor_thickness"]
+    assert leg == pytest.approx(end - 0.5 * wire - plate - p["axial_clearance"], abs=1e-12)
+    # Seen along the leg's line, the coil's axis is beside it by half a coil, half a wire and half a pin.
+    beside = 0.5 * (p["coil_diameter"] + wire + p["pin_diameter"])
+    assert reach == pytest.approx(abs(pins[0].centre - p["placement_radius"]) - beside, abs=1e-12)
+
+
+def test_feet_stand_between_pads_and_skirt(p: dict[str, Any]) -> None:
+    wall, pad = of(p, "mount_wall_gap", "mount_pad_gap")
+    skirt = max(abs(one.centre) + one.radius for one in springs(p)) + p["radial_clearance"]
+    assert wall == pytest.approx(within(feet(p), skirt), abs=1e-12)
+    assert pad == pytest.approx(apart(feet(p), [Disc(0j, p["pcl_outer_radius"])]) - p["radial_clearance"], abs=1e-12)
+
+
+def test_arcs_clear_the_hub_and_leave_webs_and_windows(p: dict[str, Any]) -> None:
+    hub, web, depth, width = of(p, "hub_arc_gap", "arc_gap", "window_depth", "window_width")
+    bore = p["core_radius"] + p["running_clearance"] + p["hub_wall"]
+    assert hub == pytest.approx(p["pcl_inner_radius"] - bore - p["radial_clearance"], abs=1e-12)
+    # All arcs and all webs go once around.
+    inner = p["pcl_inner_radius"]
+    assert p["arc_count"] * (web + p["arc_span"] * inner) == pytest.approx(2.0 * np.pi * inner, rel=1e-12)
+    assert depth + 2 * p["window_ledge"] == pytest.approx(p["pcl_outer_radius"] - inner, rel=1e-12)
+    assert width + 2 * p["window_ledge"] == pytest.approx(p["arc_span"] * inner, rel=1e-12)
+
+
+def test_posts_fill_nine_tenths_of_the_coil_at_its_tightest(p: dict[str, Any]) -> None:
+    # D n is kept: with the turns it gains, the coil gets narrower and longer (Shigley, section 10-12).
+    turns = (p["preload_angle"] + p["stroke"]) / (2.0 * np.pi)
+    wound = p["coil_diameter"] * p["coil_count"] / (p["coil_count"] + turns)
+    post, margin, diameter, length, tolerance, over = of(
+        {**p, "transmission": "unity"}, "post_thickness", "post_margin", "spring_wound_diameter", "spring_body_length",
+        "free_angle_tolerance", "free_angle_over_stroke",
+    )  # fmt: skip
+    assert diameter == pytest.approx(wound, rel=1e-12)
+    assert post == pytest.approx(0.5 * 0.9 * (wound - p["wire_diameter"]), rel=1e-12)
+    assert margin == pytest.approx(2.0 * post - p["minimum_feature"], abs=1e-12)
+    # One more wire than turns, and the gaps between them.
+    count = p["coil_count"] + turns
+    assert length == pytest.approx(p["wire_diameter"] * (count + 1.0) + p["coil_gap"] * count, rel=1e-9)
+    assert over == pytest.approx(tolerance / p["stroke"], rel=1e-12)
+
+
+def test_screws_in_the_core_keep_apart(p: dict[str, Any]) -> None:
+    heads = around(0.5 * p["link_screw_head"], p["link_bolt_ratio"] * p["core_radius"], 4)
+    gap, web, top, deep, below = of(
+        p, "link_screw_gap", "core_web", "link_bottom_level", "link_screw_depth", "retainer_screw_depth"
+    )
+    assert gap == pytest.approx(apart(heads), abs=1e-12)
+    end = -(p["floor_thickness"] + p["running_clearance"])  # of the core, below the floor's upper face
+    assert web == pytest.approx((top - deep) - (end + below), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("margin", "limit", "supplied", "expected"),
+    [
+        # What a module is rated for less what it sees, in SI.
+        ("current_margin", "peltier_max_current", "peak_current", 0.7),
+        ("cooling_current_margin", "peltier_max_current", "stiffening_peak_current", 0.7),
+        ("pcl_temperature_margin", "pcl_decomposition_temperature", "peak_pcl_temperature", 12.0),
+        ("peltier_temperature_margin", "peltier_max_temperature", "peak_peltier_temperature", 12.0),
+        ("cold_side_temperature_margin", "peltier_max_temperature", "peak_cold_side_temperature", 12.0),
+        ("structure_temperature_margin", "structure_service_temperature", "peak_peltier_temperature", 12.0),
+        ("stiffening_structure_margin", "structure_service_temperature", "peak_cold_side_temperature", 12.0),
+        ("softening_margin", "response_time", "softening_time", 4.0),
+    ],
+)
+def test_a_margin_is_what_is_left_below_the_limit_and_negative_above_it(
+    margin: str, limit: str, supplied: str, expected: float, inputs: dict[str, Any]
+) -> None:
+    known = {**inputs, limit: inputs.get(limit, 30.0)}
+    for left in (expected, -expected):
+        found = TABLE.evaluate({**known, supplied: known[limit] - left}, [margin])[margin]
+        assert found == pytest.approx(left, rel=1e-9)
+    (rule,) = TABLE.output(margin).advice
+    assert (rule.sense, rule.value) == (">=", 0.0)
+
+
+def test_energies_and_times_of_a_cycle_add_up_and_a_claim_of_stiffness_is_a_ratio(inputs: dict[str, Any]) -> None:
+    known = {**inputs, "response_time": 40.0, "return_time": 25.0, "switch_energy": 300.0, "stiffening_energy": 90.0,
+             "stiffening_time": 20.0, "frozen_time": 25.0}  # fmt: skip
+    names = ["cycle_time", "cycle_energy", "stiffening_over_freezing"]
+    assert list(TABLE.evaluate(known, names).values()) == pytest.approx([65.0, 390.0, 0.8])
+
+
+@pytest.mark.parametrize(("soft", "stiff"), [(10.0, 60.0), (30.0, 20.0)])
+def test_thresholds_stand_apart_by_the_logarithm_of_their_ratio(
+    soft: float, stiff: float, inputs: dict[str, Any]
+) -> None:
+    known = {
+        **inputs, "impedance_targets": "stated", "soft_impedance": soft, "stiff_impedance": stiff,
+        "softening_band": 1.2, "stiffening_band": 1.5, "joint_impedance@hot": 8.0, "joint_impedance@cold": 90.0,
+    }  # fmt: skip
+    names = ["soft_threshold", "stiff_threshold", "thresholds_apart", "soft_reach", "stiff_reach"]
+    low, high, apart_by, soft_reach, stiff_reach = TABLE.evaluate(known, names).values()
+    # Soft is up to a fifth above its target, stiff down to two thirds of its own.
+    assert (low, high) == pytest.approx((1.2 * soft, stiff / 1.5))
+    assert np.exp([apart_by, soft_reach, stiff_reach]) == pytest.approx([high / low, low / 8.0, 90.0 / high])

@@ -1,0 +1,113 @@
+"""The stack of the shear module as its sizes and records make it, and what a phase sees of it at an instant."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tvimdesign.device import table_for
+from tvimdesign.device.table.phases import EQUILIBRIUM_STIFFENING, SOFTENING, STIFFENING
+from tvimdesign.physics import heat
+
+TABLE = table_for("shear")
+SPAN, INNER, OUTER = 0.85, 26e-3, 40e-3
+AREA = 4 * 0.5 * SPAN * (OUTER**2 - INNER**2)
+PLATE = np.pi * 41.5e-3**2
+
+
+@pytest.fixture(scope="module")
+def known(inputs: dict[str, Any]) -> dict[str, Any]:
+    return {**inputs, "arc_span": SPAN}
+
+
+@pytest.fixture(scope="module")
+def stack(known: dict[str, Any]) -> heat.Stack:
+    found: heat.Stack = TABLE.evaluate(known, ["stack"])["stack"]
+    return found
+
+
+def test_pads_are_as_much_of_the_catalogue_s_module_as_they_have_of_its_area(stack: heat.Stack) -> None:
+    # 25 mV/K, 3 ohm, 0.12 W/K, 6 g and 500 J/kg K on 1600 mm^2; half of the heat is on either side.
+    share = AREA / 1600e-6
+    assert (stack.area, stack.thickness, stack.density) == pytest.approx((AREA, 1e-3, 1145.0), rel=1e-9)
+    assert stack.peltier == pytest.approx((0.025 * share, 3.0 * share, 0.12 * share), rel=1e-9)
+    # The corners of the pads, of 0.2 mm, take a ten-thousandth of their volume.
+    assert [stack.cold_capacity, stack.hot_capacity] == pytest.approx([1.5 * share] * 2, rel=2e-4)
+
+
+def test_windows_lose_heat_below_and_the_plate_s_face_above(stack: heat.Stack) -> None:
+    # A ledge of 2 mm all around each pad, and corners of 0.2 mm in the four windows.
+    open_span = 4 * (SPAN - 4e-3 / INNER)
+    window = 0.5 * open_span * (38e-3**2 - 28e-3**2) - 4 * (4.0 - np.pi) * 0.2e-3**2
+    assert stack.cold_surface == pytest.approx((window, 10.0, 0.9), rel=1e-5)
+    assert stack.plate_surface == pytest.approx((AREA, 5.0, 0.9), rel=1e-9)
+    assert (stack.plate_thickness, stack.plate_heat_capacity) == pytest.approx((4e-3, 1270.0 * 1200.0), rel=1e-9)
+    assert stack.sink is None
+
+
+def test_the_plate_beside_the_arcs_is_a_strip_heated_along_their_edges(stack: heat.Stack) -> None:
+    beside = stack.beside[0]
+    edge = 4 * (2 * (OUTER - INNER) + SPAN * (INNER + OUTER))
+    rest = PLATE - AREA
+    # Its mean is a third of its width away, and its width is what its area has to the edge.
+    assert beside.conductance == pytest.approx(0.24 * 4e-3 * edge / (rest / edge / 3.0), rel=1e-9)
+    assert beside.surface == pytest.approx((rest, 5.0, 0.9), rel=1e-9)
+    assert beside.capacity == pytest.approx(1270.0 * 1200.0 * 4e-3 * rest, rel=1e-9)
+
+
+def test_core_and_link_hang_on_a_ring_and_hold_the_rest_of_what_turns(known: dict[str, Any], stack: heat.Stack) -> None:
+    core = stack.beside[1]
+    radii = np.linspace(10e-3, INNER, 20001)
+    assert core.conductance == pytest.approx(1.0 / np.trapezoid(1.0 / (2.0 * np.pi * radii * 4e-3 * 0.24), radii))
+    masses = TABLE.evaluate(known, ["rotor_mass", "link_mass", "retainer_mass"]).values()
+    plate = stack.plate_heat_capacity * stack.area * stack.plate_thickness
+    assert plate + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * sum(masses), rel=1e-9)
+    assert core.surface == heat.NOWHERE
+
+
+def test_a_sink_stands_on_the_open_cold_sides(known: dict[str, Any], stack: heat.Stack) -> None:
+    sink = TABLE.evaluate({**known, "cold_side": "sink"}, ["stack"])["stack"].sink
+    assert sink.conductance == pytest.approx(5000.0 * stack.cold_surface.area)
+    assert sink.capacity == 50.0
+    assert sink.surface == (15000e-6, 10.0, 0.9)
+
+
+def test_only_a_layer_with_a_history_freezes_in_time(known: dict[str, Any]) -> None:
+    for phase, model, kinetic in (
+        (SOFTENING, "kinetic", SOFTENING.history), (STIFFENING, "kinetic", True), (STIFFENING, "equilibrium", False),
+        (EQUILIBRIUM_STIFFENING, "kinetic", False),
+    ):  # fmt: skip
+        now = TABLE.evaluate({**known, "phase": phase, "phase_model": model}, ["stack_now"])["stack_now"]
+        assert (now.freezing is not None) == kinetic, (phase.name, model)
+
+
+@pytest.mark.parametrize(("phase", "point"), [(SOFTENING, "hot"), (STIFFENING, "cold")])
+def test_slices_are_tested_at_the_frequency_of_where_the_phase_leads(
+    phase: Any, point: str, known: dict[str, Any]
+) -> None:
+    # A layer that is everywhere at one temperature is as soft as at an operating point of that temperature.
+    stack = TABLE.evaluate(known, ["stack"])["stack"]
+    state = heat.initial_state(stack, 5, 368.15)
+    given = {**known, "frequency@hot": 0.3, "frequency@cold": 7.0, f"temperature@{point}": 368.15, "phase": phase,
+             "phase_model": "equilibrium", "state": state}  # fmt: skip
+    names = ["layer_moduli", "impedance_now", f"storage_modulus@{point}", f"loss_modulus@{point}",
+             f"joint_impedance@{point}", "mean_temperature"]  # fmt: skip
+    layer, impedance, storage, loss, joint, mean = TABLE.evaluate(given, names).values()
+    # The rounded corners of the melting curve leave a few millikelvin between the two.
+    assert mean == pytest.approx(368.15, abs=0.01)
+    assert layer == pytest.approx((storage, loss), rel=1e-4)
+    assert impedance == pytest.approx(joint, rel=1e-4)
+
+
+def test_the_supply_gives_volts_in_size_and_takes_nothing_back(known: dict[str, Any], stack: heat.Stack) -> None:
+    profile = heat.profile(heat.initial_state(stack, 5, 300.0), stack)._replace(hot=340.0, cold=310.0)
+    pads = stack.peltier
+    for current in (1.5, -1.5):
+        given = {**known, "stack_profile": profile, "drive_current": current, "phase": STIFFENING}
+        volts, power = TABLE.evaluate(given, ["supply_voltage", "terminal_power"]).values()
+        signed = pads.seebeck * 30.0 + pads.resistance * current
+        assert volts == pytest.approx(abs(signed), rel=1e-9)
+        assert power == pytest.approx(signed * current, rel=1e-9)
+    for at_terminals, given_by_supply in ((8.0, 8.0), (-8.0, 0.0), (0.0, 0.005)):
+        found = TABLE.evaluate({**known, "terminal_power": at_terminals}, ["electrical_power"])["electrical_power"]
+        assert found == pytest.approx(given_by_supply, abs=1e-5)  # a corner of 0.01 W, half as high in the middle

@@ -1,0 +1,81 @@
+"""Where one of two studies has no optimum, both are drawn and told as drawn, and neither one's optimum stands in."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from comparable import COMPRESSION, SHEAR, entrants, written
+
+from tvimdesign.report.compare.comparison import Outcome
+from tvimdesign.report.compare.comparison_job import ComparisonJob
+from tvimdesign.report.compare.comparison_plot_data import drawings
+from tvimdesign.report.compare.comparison_summary import summary_text
+
+FIXED = COMPRESSION[: COMPRESSION.index("vary:")] + COMPRESSION[COMPRESSION.index("operating_points:") :]
+REQUIRED = 'require: {spring_stiffness: ">= 5 N.m/rad", holding_torque: ">= 5 N.m"}\n'
+
+
+@pytest.fixture(scope="module")
+def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
+    """A study with an optimum, and one that only says what a module is."""
+    folder = tmp_path_factory.mktemp("unlike")
+    first, second = SHEAR, FIXED + REQUIRED
+    paths = written(folder, shear=first, compression=second)
+    jobs = {name: ComparisonJob(path, 0, [], lambda _: None) for name, path in zip(("s", "c"), paths, strict=True)}
+    return Outcome(
+        dict(zip(("s", "c"), entrants(folder, first, second), strict=True)),
+        {name: job.run() for name, job in jobs.items()},
+    )
+
+
+def test_what_is_drawn_of_both_is_what_was_drawn(outcome: Outcome) -> None:
+    assert "optimised" in outcome.found["s"]
+    assert "optimised" not in outcome.found["c"]
+    assert outcome.which == "drawn"
+    pictures = {one.file: one.data for one in drawings(outcome)}
+    for name in ("release", "heat"):
+        assert pictures[name]["title"].endswith("as drawn"), name
+    drawn, optimum = (outcome.found["s"]["heat"][which] for which in ("drawn", "optimised"))
+    (shown,) = (study for study in pictures["heat"]["studies"] if study["label"] == "s")
+    assert shown["depth"] == drawn["depth"]
+    assert shown["depth"] != optimum["depth"]  # the optimum has another layer
+    lines = [
+        line for panel in pictures["release"]["panels"] for line in panel["lines"] if line["label"].startswith("s")
+    ]
+    ends = {line["y"][-1] for line in lines}
+    assert ends <= {line["y"][-1] for line in outcome.found["s"]["release"]["drawn"]["lines"]}
+
+
+def test_the_sentence_holds_what_was_drawn_against_what_was_drawn(outcome: Outcome) -> None:
+    sentence, rows = outcome.sentence, {row.name: row for row in outcome.rows["drawn"]}
+    assert ", as drawn: " in sentence
+    assert "each optimised" not in sentence
+    assert f"{1e3 * rows['module_mass'].values['s']:.1f} g" in sentence
+    assert outcome.rows.keys() == {"drawn"}
+
+
+def test_warnings_and_what_soft_means_are_of_the_same_designs(outcome: Outcome) -> None:
+    text = " ".join(summary_text(outcome).split())
+    for name in ("s", "c"):
+        told: dict[str, Any] = outcome.found[name]["drawn"]
+        assert f"{name}: {told['soft']}" in text
+        assert all(f"Warning {name}: {warning['output']} is" in text for warning in told["warnings"])
+    other = {warning["output"] for warning in outcome.found["s"]["optimised"]["warnings"]}
+    for output in other - {warning["output"] for warning in outcome.found["s"]["drawn"]["warnings"]}:
+        assert f"Warning s: {output}" not in text
+
+
+def test_where_all_have_an_optimum_the_optima_are_held_against_each_other(outcome: Outcome) -> None:
+    mine = {"s": outcome.found["s"]}
+    assert Outcome({"s": outcome.entrants["s"]}, mine).which == "optimised"
+
+
+def test_the_release_of_each_is_kept_by_what_it_is_of(outcome: Outcome) -> None:
+    reported = outcome.plain()
+    assert reported["release"]["drawn"].keys() == {"s", "c"}
+    assert reported["release"]["optimised"].keys() == {"s"}
+    assert (reported["format"], reported["units"]) == (1, "SI")
+    mass = next(row for row in reported["comparisons"]["drawn"] if row["name"] == "module_mass")
+    assert mass["si"]["s"] == pytest.approx(1e-3 * mass["values"]["s"])
+    assert mass["si_unit"] == "kg"

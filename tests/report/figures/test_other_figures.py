@@ -1,0 +1,91 @@
+"""The figures of virtual tests, fronts, comparisons, spreads and the paper's case, held to what an editor asks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.helpers.figures import faults, signed
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.report.figures import comparison_figures, front_figure, paper_figures, tolerance_figure
+from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
+from tvimdesign.report.simulate_study import figure_data
+from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.study import read_study
+from tvimdesign.virtual_tests.registry import TESTS, find_test
+
+STUDIES = Path(__file__).parents[3] / "studies"
+
+
+@pytest.fixture(scope="module", params=["paper_as_published", "calibrated_compression"])
+def resolved(request: pytest.FixtureRequest) -> ResolvedModule:
+    study = read_study(STUDIES / f"{request.param}.yaml")
+    return resolve_study(study, Catalog(), table_for(study.mode))
+
+
+@pytest.mark.parametrize("test", TESTS)
+def test_an_editor_finds_no_fault_with_a_virtual_test(test: str, resolved: ResolvedModule) -> None:
+    data = figure_data(find_test(test)(resolved))
+    assert faults(signed(trial_figure(data))) == []
+
+
+@pytest.mark.parametrize("test", ["release", "sine"])
+def test_torque_over_angle_is_in_newton_metres_and_angle_over_time_no_blob(test: str, resolved: ResolvedModule) -> None:
+    panels = figure_data(find_test(test)(resolved))["panels"]
+    loops = [panel for panel in panels if panel["x_label"] == "Angle (rad)"]
+    assert len(loops) == 3
+    assert all(panel["y_label"] == "Torque on the link (N·m)" for panel in loops)
+    figure = trial_figure({"title": test, "panels": panels})
+    for axes in figure.axes:
+        for line in axes.lines:
+            y = np.asarray(line.get_ydata(), dtype=float)
+            there_and_back = np.sum(np.abs(np.diff(y))) / np.ptp(y)
+            assert there_and_back <= 30.0  # a dozen swings can be told apart on an axis, hundreds are a blob
+
+
+LABELS = ["Response time (s)", "Module mass (g)", "Envelope volume (cm³)"]
+
+
+@pytest.mark.parametrize("outputs", [2, 3])
+def test_an_editor_finds_no_fault_with_a_front(outputs: int) -> None:
+    points = [[100.0 + i, 110.0 - i, 240.0 - 3.0 * i][:outputs] for i in range(8)]
+    data = {"labels": LABELS[:outputs], "points": points, "optimum": points[4], "knee": 6}
+    assert faults(signed(front_figure.front(data))) == []
+
+
+def test_an_editor_finds_no_fault_with_a_comparison() -> None:
+    def line(label: str, by: float) -> dict[str, Any]:
+        return {"label": label, "x": [60.0 * by, 70.0 * by], "y": [80.0, 60.0], "optimum": [[65.0 * by], [65.0]]}
+
+    panel = {"lines": [line("shear", 1.0), line("compression", 1.1)], "x_label": LABELS[1], "y_label": LABELS[0]}
+    assert faults(signed(comparison_figures.fronts({"title": "Fronts", "panels": [panel, panel]}))) == []
+    heat = {"label": "shear", "time": [0.0, 30.0, 60.0], "depth": [0.0, 0.5, 1.0],
+            "temperature": [[20.0, 60.0, 90.0], [20.0, 50.0, 80.0], [20.0, 40.0, 70.0]]}  # fmt: skip
+    data = {"title": "Heat", "studies": [heat, heat], "coldest": 20.0, "hottest": 90.0, "melting": [50.0, 65.0]}
+    assert faults(signed(comparison_figures.heat(data))) == []
+
+
+def test_an_editor_finds_no_fault_with_a_spread() -> None:
+    names = ["envelope volume", "spring stiffness", "joint damping, hot"]
+    parts = [{"name": f"a contributor {i}", "shares": [14.0] * 3} for i in range(7)]
+    panel = {"title": "50 % of modules within limits", "label": "Spring stiffness (N·m/rad)", "counts": [1, 5, 20, 5],
+             "edges": [4.8, 5.0, 5.2, 5.4, 5.6], "limits": [5.2], "as_drawn": 5.2}  # fmt: skip
+    for count in (1, 3, 4, 6):
+        data = {"outputs": names, "parts": parts, "panels": [panel] * count}
+        assert faults(signed(tolerance_figure.spread(data))) == []
+
+
+def test_an_editor_finds_no_fault_with_the_paper_s_case() -> None:
+    places = ("near_face_time", "mean_time", "far_face_time", "softening_time")
+    panel = {"label": "Contact conductance of layer and rotor plate (W/m²/K)", "logarithmic": True,
+             "x": [100.0, 1e3, 1e4], "lines": {place: [0.5, None, 1.0] for place in places},
+             "published": [1e4, 1.0]}  # fmt: skip
+    data = {"wanted": 70.0, "range": [0.2, 2.0], "panels": [panel] * 3}
+    assert faults(signed(paper_figures.level_sets(data))) == []
+    bars = [{"label": "Thickness of the PCL layer (mm)", "ends": [0.7, 2], "ratios": [2.4, 1.5]}] * 5
+    choices = [{"label": "a thermometer at the near face", "ratio": 1.04}]
+    assert faults(signed(paper_figures.tornado({"bars": bars, "choices": choices, "ratio": 2.0}))) == []

@@ -1,0 +1,156 @@
+"""results.json and results.csv: what each number is, in which units, how well it is known, and from where."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+import yaml
+from support import ROOT
+
+from tvimdesign.base.units import si_unit, to_si
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Choice, table_for
+from tvimdesign.report.output.number_entry import number_entry
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.results_format import FORMAT, results_schema
+from tvimdesign.report.output.tables import curves_csv, results, results_csv
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import read_study_text
+
+TABLE = table_for("shear")
+STUDY = """
+mode: shear
+module: {pcl_grade: pcl_50k, pcl_latent_heat: 80 kJ/kg, response_criterion: softening}
+vary:
+  wire_diameter: {choose: [2 mm, 2.5 mm]}
+  current: [0.5 A, 2 A]
+require: {spring_stiffness: ">= 4 N.m/rad"}
+minimize: {module_mass: 1, response_time: 1}
+profile: {softening: 2}
+solver: {starts: 1}
+"""
+
+
+@pytest.fixture(scope="module")
+def found() -> StudyResult:
+    return answer(read_study_text(STUDY, "a test"), Catalog(), TABLE)
+
+
+@pytest.fixture(scope="module")
+def reported(found: StudyResult) -> dict[str, Any]:
+    plain: dict[str, Any] = json.loads(json.dumps(results(found, TABLE), allow_nan=False))
+    return plain
+
+
+@pytest.fixture(scope="module")
+def rows(found: StudyResult) -> dict[str, dict[str, str]]:
+    text = results_csv(results(found, TABLE)["values"])
+    return {row["name"]: row for row in csv.DictReader(io.StringIO(text))}
+
+
+def _record(name: str) -> dict[str, Any]:
+    """The record as its file has it."""
+    folder = ROOT / "tvimdesign/catalog/data/polymers"
+    found: dict[str, Any] = yaml.safe_load((folder / f"{name}.yaml").read_text())["values"]
+    return found
+
+
+def test_the_results_say_their_format_and_are_of_the_schema(reported: dict[str, Any]) -> None:
+    jsonschema.Draft202012Validator.check_schema(results_schema())
+    jsonschema.validate(reported, results_schema())
+    assert reported["format"] == FORMAT == 1
+    assert reported["units"] == "SI"
+
+
+@pytest.mark.parametrize("wrong", ["format", "values", "unit", "more"])
+def test_the_schema_refuses_what_is_not_of_the_format(reported: dict[str, Any], wrong: str) -> None:
+    spoilt = json.loads(json.dumps(reported))
+    if wrong == "format":
+        spoilt["format"] = 2
+    elif wrong == "values":
+        del spoilt["values"]
+    elif wrong == "unit":
+        spoilt["values"]["module_mass"]["si"]["unit"] = 3
+    else:
+        spoilt["quarrel"] = {}
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(spoilt, results_schema())
+
+
+@pytest.mark.parametrize("mode", ["shear", "compression"])
+def test_the_si_unit_of_every_unit_is_si(mode: str) -> None:
+    for unit in {row.unit for row in table_for(mode).quantities if not isinstance(row, Choice)}:
+        assert to_si(1.0, si_unit(unit)) == pytest.approx(1.0, rel=1e-12), unit
+
+
+def test_every_number_stands_in_its_unit_and_in_si(reported: dict[str, Any], found: StudyResult) -> None:
+    mass, target = (reported["values"][name] for name in ("module_mass", "target_temperature"))
+    assert mass["value"] == pytest.approx(1e3 * found.design.values["module_mass"])
+    assert (mass["unit"], mass["si"]["unit"]) == ("g", "kg")
+    assert mass["si"]["value"] == found.design.values["module_mass"]
+    assert (target["value"], target["si"]["value"]) == (pytest.approx(100.0), 373.15)
+    assert (target["unit"], target["si"]["unit"]) == ("°C", "K")
+    assert number_entry(float("inf"), "s")["value"] is None
+
+
+def test_a_record_s_values_show_the_record_s_own_status_range_and_source(rows: dict[str, dict[str, str]]) -> None:
+    written = _record("pcl_50k")
+    for name, field in {"pcl_conductivity_melt": "conductivity_melt", "pcl_melting_start": "melting_start"}.items():
+        row, entry = rows[name], written[field]
+        assert row["status"] == entry["status"]
+        assert float(row["low"]) == pytest.approx(entry["low"])
+        assert float(row["high"]) == pytest.approx(entry["high"])
+        assert float(row["value"]) == pytest.approx(entry["value"])
+        assert row["source"] == f"polymers/pcl_50k: {entry['source']}"
+
+
+def test_what_is_no_record_s_says_whose_it_is(rows: dict[str, dict[str, str]]) -> None:
+    assert (rows["pcl_latent_heat"]["status"], rows["pcl_latent_heat"]["source"]) == ("study", "set by the study")
+    assert rows["current"]["status"] == "optimized"
+    assert rows["temperature@hot"]["status"] == "study"
+    assert rows["module_mass"]["status"] == "computed"
+    # As inputs.yaml has it: the default's status, and its source apart from that.
+    assert rows["softening_band"]["status"] == "assumed"
+    assert rows["softening_band"]["source"] == "half to twice is what a hand tells apart"
+
+
+def test_no_input_is_without_status_and_source(rows: dict[str, dict[str, str]]) -> None:
+    assert list(rows["module_mass"])[:7] == ["name", "value", "unit", "status", "low", "high", "source"]
+    for name, row in rows.items():
+        assert row["status"], name
+        assert row["source"], name
+        assert not row["source"].startswith("record: "), name
+
+
+def test_a_chosen_record_of_a_user_s_folder_is_the_one_that_is_shown(tmp_path: Path) -> None:
+    (tmp_path / "polymers").mkdir()
+    text = (ROOT / "tvimdesign/catalog/data/polymers/pcl_50k.yaml").read_text()
+    mine = text.replace("assumed: foot of a melting peak at 58-62 degC", "assumed: weighed by me", 1)
+    (tmp_path / "polymers/mine.yaml").write_text(mine)
+    study = read_study_text(f"mode: shear\ncatalog: {tmp_path}\nmodule: {{pcl_grade: mine}}\n", "a test")
+    values = results(answer(study, Catalog(tmp_path), TABLE), TABLE)["values"]
+    assert values["pcl_melting_start"]["source"] == "polymers/mine: assumed: weighed by me"
+
+
+def test_soft_is_told_with_what_it_means(reported: dict[str, Any], found: StudyResult) -> None:
+    hot = found.design.values["joint_impedance@hot"]
+    expected = f"soft: |Z| <= {2.0 * hot:.3g} N·m/rad at 1 Hz, twice hot"
+    for name in ("softening_time", "response_time"):  # the switch ends when the joint is soft
+        assert reported["values"][name]["note"] == expected
+    assert reported["values"]["mean_time"]["note"] == ""
+
+
+def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path: Path) -> None:
+    with ResultsFolder(tmp_path / "out") as folder:
+        curves = folder.write("curves.csv", curves_csv({"stiffness": [1.0]}, {"stiffness": "N*m/rad"}, "1"))
+        other = folder.write("summary.txt", "N·m")
+        folder.finish("done", {}, {})
+    assert curves.read_bytes().startswith(b"\xef\xbb\xbf")
+    assert curves.read_text("utf-8-sig").splitlines()[0] == "stiffness [N·m/rad]"
+    assert not other.read_bytes().startswith(b"\xef\xbb\xbf")

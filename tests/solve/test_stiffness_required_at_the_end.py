@@ -1,0 +1,115 @@
+"""What the joint is when the switch ends: the same for simulation, optimiser and many designs, and can be required."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.simulation.cycle import Cycle, Simulator
+from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import read_study_text
+
+ENDS = ("softened_stiffness", "softened_impedance", "softened_temperature")
+STUDY = """
+mode: shear
+module: {{response_criterion: {criterion}}}
+vary:
+  wire_diameter: [1.5 mm, 3 mm]
+  current: [0.5 A, 1.5 A]
+  pcl_thickness: [0.6 mm, 2 mm]
+require: {{spring_stiffness: ">= 4 N.m/rad"{more}}}
+minimize: {{response_time: 1, module_mass: 0.2}}
+solver: {{starts: 1}}
+"""
+
+
+@cache
+def _answer(more: str = "", criterion: str = "mean") -> StudyResult:
+    study = read_study_text(STUDY.format(criterion=criterion, more=more), "test")
+    return answer(study, Catalog(), table_for("shear"))
+
+
+def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None:
+    """The threshold is arithmetic of the hot point; the impedance at the end is read off the simulated layer."""
+    found = _answer(criterion="softening").design.values
+    assert found["softened_impedance"] == pytest.approx(found["soft_threshold"], rel=1e-4)
+    assert found["spring_stiffness"] < found["softened_stiffness"] < found["softened_impedance"]
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_it_is_the_last_of_the_simulated_history(name: str) -> None:
+    found = _answer()
+    column, zero = {"softened_temperature": ("far_face", 273.15)}.get(name, ("joint_impedance", 0.0))
+    last = found.histories["softening"][column][-1] + zero
+    if name == "softened_stiffness":
+        assert found.design.values[name] < last  # the real part of what the history has in size
+    else:
+        assert found.design.values[name] == pytest.approx(last, rel=1e-6)
+
+
+def test_the_optimiser_keeps_a_stiffness_at_the_end_that_the_simulation_confirms() -> None:
+    free = _answer().design.values["softened_stiffness"]
+    limit = free - 0.25 * (free - 4.0)
+    held = _answer(f', softened_stiffness: "<= {limit:.6f} N.m/rad"')
+    check = next(check for check in held.checks if check.output == "softened_stiffness")
+    assert held.design.status == "optimal"
+    assert check.origin == "require"
+    # The values of a design are simulated; that the limit binds there says that the equations agree with it.
+    assert held.design.values["softened_stiffness"] == pytest.approx(limit, rel=2e-3)
+    assert held.design.values["softened_stiffness"] < 0.99 * free
+    active = [one.output for one in held.solution.held if abs(one.residual) < 1e-4] if held.solution else []
+    assert "softened_stiffness" in active
+
+
+def test_many_designs_at_once_end_where_the_simulator_ends(
+    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> None:
+    model, cycle = build(), switch_of("as it is")
+    moving = ["current", "ambient_temperature"]
+    columns = np.array([[1.5, 1.2, 1.6], [293.15, 298.15, 290.15]])
+    ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
+    kernel = CycleKernel(model, moving, [*ENDS, "peak_power"])
+    found = dict(zip(kernel.names, kernel(columns, Pace(ends, cycle.balances)), strict=True))
+    for i, column in enumerate(columns.T):
+        inputs = model.start.copy()
+        inputs[[model.index[name] for name in moving]] = column
+        values = Simulator(model).run(inputs, phases=["softening"]).values
+        for name in ENDS:
+            assert found[name][i] == pytest.approx(values[name], rel=2e-3), name
+
+
+def test_a_switch_that_never_ends_has_no_end_to_be_soft_at(
+    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> None:
+    model, cycle = build(), switch_of("as it is")
+    inputs = model.start.copy()
+    inputs[model.index["current"]] = 0.05
+    values = Simulator(model).run(inputs, phases=["softening"]).values
+    ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
+    kernel = CycleKernel(model, ["current"], ENDS)
+    many = kernel(np.array([[0.05, 1.5]]), Pace(ends, cycle.balances))
+    assert all(np.isinf(values[name]) for name in ENDS)
+    assert np.all(np.isinf(many[:, 0]))
+    assert np.all(np.isfinite(many[:, 1]))
+
+
+@pytest.mark.parametrize(("criterion", "reached"), [("far_face", True), ("softening", False)])
+def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, reached: bool) -> None:
+    """The thermometer at the far face waits for 100 degC, which is the hot point; the impedance does not."""
+    found = _answer(criterion=criterion)
+    warned = [check for check in found.warnings if check.output == "hot_point_margin"]
+    assert bool(warned) is not reached
+    assert all("never" in check.origin and "softened_stiffness" in check.origin for check in warned)
+
+
+def test_the_compression_module_has_them_too() -> None:
+    study = read_study_text("mode: compression\nmodule: {response_criterion: softening}\n", "test")
+    values = answer(study, Catalog(), table_for("compression")).design.values
+    assert values["softened_impedance"] == pytest.approx(values["soft_threshold"], rel=1e-4)

@@ -1,0 +1,94 @@
+"""The figure of a design between its bounds, and of the margin to every limit, in the limit's own unit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from tvimdesign.report.figures.axes import TICKS, heading, row_texts
+from tvimdesign.report.figures.canvas import new_figure, place
+from tvimdesign.report.figures.style import BROKEN, COLOURS, FAINT, NAME_STRIP
+
+_ROW = 0.155  # inches
+_LEFT, _WIDE = 2.75, 3.0  # inches: names stand left of the axes, numbers right of them
+_ABOVE, _BELOW = 0.24, 0.5  # inches of a block: its title above, numbers and label of its axis below
+_KEYS = 0.3  # inches: the legend below all
+_CLIPPED = 100.0
+"""Margin [%] at which a bar ends, with an arrow."""
+_KINDS: dict[str, dict[str, Any]] = {
+    "kept": {"color": COLOURS[0]},
+    "broken": {"facecolor": BROKEN, "hatch": "//////", "edgecolor": "white"},
+    "advice": {"facecolor": COLOURS[1], "hatch": "......", "edgecolor": "white"},
+}
+_MEANING = {"kept": "holds", "broken": "does not hold", "advice": "advice that the design does not follow"}
+
+
+def bounds(data: dict[str, Any]) -> Figure:
+    """A block of what varies, then one of limits for each unit their margins are read in."""
+    blocks = [len(data["free"])] * bool(data["free"]) + [len(group["rows"]) for group in data["margins"]]
+    inches = NAME_STRIP + _KEYS + sum(_ROW * (rows + 1) + _ABOVE + _BELOW for rows in blocks)
+    figure = new_figure(max(inches, 1.0))
+    top = figure.get_figheight() - NAME_STRIP
+    draw = [(_free, data["free"])] * bool(data["free"]) + [(_margins, group) for group in data["margins"]]
+    for rows, (function, content) in zip(blocks, draw, strict=True):
+        high = _ROW * (rows + 1)
+        axes = place(figure, _LEFT, top - _ABOVE - high, _WIDE, high)
+        function(axes, content)
+        axes.set_ylim(-1.0, rows)
+        top -= high + _ABOVE + _BELOW
+    _legend(figure, data)
+    return figure
+
+
+def _free(axes: Any, free: list[dict[str, Any]]) -> None:
+    rows = free[::-1]
+    lines = range(len(rows))
+    axes.hlines(lines, 0.0, 100.0, color=FAINT, linewidth=3.0)
+    axes.plot([100.0 * row["start"] for row in rows], lines, "o", color="white", markeredgecolor="black")
+    axes.plot([100.0 * row["share"] for row in rows], lines, "D", color=COLOURS[0])
+    axes.set(xlim=(-3.0, 103.0), xticks=[0, 25, 50, 75, 100])
+    heading(axes, "What varies")
+    axes.set_xlabel("Place between the lower and the upper bound (%)")
+    axes.grid(axis="y", visible=False)
+    row_texts(axes, [row["name"] for row in rows], [row["text"] for row in rows])
+
+
+def _margins(axes: Any, group: dict[str, Any]) -> None:
+    rows = group["rows"][::-1]
+    reach = _CLIPPED if group["unit"] == "%" else max([abs(row["margin"]) for row in rows if row["finite"]] + [1e-9])
+    for i, row in enumerate(rows):
+        shown = max(-reach, min(reach, row["margin"]))
+        if row["kind"] == "binds":
+            axes.plot(0.0, i, "D", color="black", markersize=3.5, zorder=3)
+        else:
+            axes.barh(i, shown, height=0.72, linewidth=0.0, **_KINDS[row["kind"]])
+        if not row["finite"] or abs(row["margin"]) > 1.000001 * reach:
+            axes.plot(shown * 1.03, i, ">" if shown > 0.0 else "<", color="black", markersize=3.0, clip_on=False)
+    axes.axvline(0.0, color="black", linewidth=0.8)
+    heading(axes, group["title"])
+    axes.set(xlim=(-1.08 * reach, 1.08 * reach), xlabel=group["label"])
+    axes.grid(axis="y", visible=False)
+    axes.locator_params(axis="x", nbins=TICKS, symmetric=True)
+    row_texts(axes, [row["name"] for row in rows], [row["text"] for row in rows])
+
+
+def _legend(figure: Figure, data: dict[str, Any]) -> None:
+    """What the marks say that stand on the figure."""
+    kinds = {row["kind"] for group in data["margins"] for row in group["rows"]}
+    far = any(
+        abs(row["margin"]) > _CLIPPED for group in data["margins"] if group["unit"] == "%" for row in group["rows"]
+    )
+    marks: list[Any] = []
+    if data["free"]:
+        marks += [Line2D([], [], marker="o", color="white", markeredgecolor="black", linestyle="", label="start"),
+                  Line2D([], [], marker="D", color=COLOURS[0], linestyle="", label="design")]  # fmt: skip
+    marks += [Patch(label=text, **_KINDS[kind]) for kind, text in _MEANING.items() if kind in kinds]
+    if "binds" in kinds:
+        marks.append(Line2D([], [], marker="D", color="black", linestyle="", markersize=3.5, label="binds"))
+    if far:
+        marks.append(Line2D([], [], marker=">", color="black", linestyle="", markersize=3.0, label="beyond the scale"))
+    if marks:
+        figure.legend(handles=marks, loc="lower center", ncols=len(marks))

@@ -1,0 +1,51 @@
+"""Where a number of a design comes from, and how well it is known: from the study, a record, a default or the model."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from tvimdesign.base.errors import CatalogError
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Choice, Input, Table
+from tvimdesign.study.design import Design
+
+Ends = tuple[float, float]
+
+
+class Provenance(NamedTuple):
+    """The status of a number, its source in words, and the range (SI) within which it is known; None where unsaid."""
+
+    status: str
+    """`study`, `optimized`, `computed`, or as its record or default has it: measured, datasheet, assumed, paper ..."""
+    source: str
+    low: float | None = None
+    high: float | None = None
+
+
+def provenance(name: str, design: Design, table: Table, catalog: Catalog) -> Provenance:
+    """Where the number of a full name comes from, in a design."""
+    row, base = table.quantity(name), name.partition("@")[0]
+    if not isinstance(row, Input):
+        return Provenance("computed", "computed", *design.intervals.get(name, (None, None)))
+    if base in design.study["vary"]:
+        return Provenance("optimized", "found by the optimiser")
+    if base in design.study["module"]:
+        return Provenance("study", "set by the study")
+    if row.per_point:
+        return Provenance("study", "an operating point of the study")
+    if row.record:
+        return _of_record(*row.record, row, design, table, catalog)
+    status, _, source = row.source.partition(": ")
+    return Provenance(status, source)
+
+
+def _of_record(choice: str, field: str, row: Input, design: Design, table: Table, catalog: Catalog) -> Provenance:
+    """As the chosen record has it; as the row says where the record has no such value."""
+    chosen = table.quantity(choice)
+    assert isinstance(chosen, Choice)
+    try:
+        record = catalog.record(chosen.category or "", design.choices[choice])
+        entry = record.entry(field)
+    except CatalogError:
+        return Provenance("record", row.source)
+    return Provenance(entry.status, f"{record.category}/{record.name}: {entry.source}", entry.low, entry.high)

@@ -1,0 +1,330 @@
+"""The format of results.json: its version, and the types of what stands in it, from which its JSON schema is made.
+
+One unit system: every bare number is in SI. A number that people read in another unit stands under `value`, `low` and
+`high` with its `unit`, and under `si` once more in SI. What never happens is null.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NotRequired
+
+from pydantic import ConfigDict, TypeAdapter, with_config
+from typing_extensions import TypedDict
+
+FORMAT: Literal[1] = 1
+"""Version of results.json, compare.json, findings.json and tolerances.json; a change that breaks a reader raises it."""
+UNITS: Literal["SI"] = "SI"
+Stands = Literal["binds", "touches", "slack"]
+"""How a limit stands at the optimum."""
+Shares = dict[str, float | None]
+_closed = with_config(ConfigDict(extra="forbid"))
+
+
+class Head(TypedDict):
+    """What every JSON file of results begins with."""
+
+    format: Literal[1]
+    units: Literal["SI"]
+
+
+def head() -> Head:
+    """The first entries of a JSON file of results."""
+    return {"format": FORMAT, "units": UNITS}
+
+
+@_closed
+class InSi(TypedDict):
+    """A number and what it may lie between, in SI."""
+
+    value: float | None
+    low: float | None
+    high: float | None
+    unit: str
+
+
+@_closed
+class NumberEntry(TypedDict):
+    """A number in the unit people read, and in SI. `low` and `high` are None where nothing is said of a range."""
+
+    value: float | None
+    low: float | None
+    high: float | None
+    unit: str
+    si: InSi
+
+
+@_closed
+class ValueEntry(NumberEntry):
+    """An input or an output: where it comes from, how well it is known, and what it means."""
+
+    kind: Literal["input", "output"]
+    status: str
+    source: str
+    group: str
+    description: str
+    note: str
+
+
+@_closed
+class CheckEntry(NumberEntry):
+    """A limit held against the design; the margin is a share, or in `margin_unit` where the limit has no size."""
+
+    limit: str
+    output: str
+    margin: float | None
+    margin_unit: str
+    kept: bool
+    origin: str
+
+
+@_closed
+class BestConstant(TypedDict):
+    """The best design with constant currents, where the study lets them follow a profile."""
+
+    objective: float
+    values: dict[str, ValueEntry]
+
+
+@_closed
+class CurrentProfileEntry(TypedDict):
+    """A current that is not constant: straight between these moments."""
+
+    moments: list[float]
+    currents: list[float]
+
+
+@_closed
+class Yield(TypedDict):
+    """What modules drawn at random keep of a design of which a yield was asked for."""
+
+    modules: int
+    shares: dict[str, float]
+    together: float
+
+
+@_closed
+class Listed(TypedDict):
+    """One combination of what is listed: its choices, words or numbers, and what it comes to."""
+
+    choices: dict[str, str | NumberEntry]
+    objective: float
+    outputs: dict[str, str | NumberEntry]
+
+
+@_closed
+class ChoosingEntry(TypedDict):
+    """How listed choices were searched."""
+
+    combinations: int
+    solved: int
+    pruned_by_bound: int
+    without_design: int
+    proven: bool
+    better_by_proof: float
+    better_than_bound: float
+    ruled_out_by_arithmetic: int
+    runs: int
+    iterations: int
+    best: list[Listed]
+    between_sizes: Listed | None
+    cost_of_standard_sizes: dict[str, float]
+
+
+@_closed
+class StartEntry(TypedDict):
+    """One run of the solver."""
+
+    number: int
+    status: str
+    converged: bool
+    iterations: int
+    objective: float | None
+    begin: Shares
+    end: Shares
+    choices: dict[str, str | float]
+    relaxed: bool
+    second_try: bool
+
+
+@_closed
+class ActiveConstraintEntry(TypedDict):
+    """A limit or an end of a range at the optimum, and what a step of it costs, in percent."""
+
+    name: str
+    output: str
+    text: str
+    residual: float | None
+    scale: float
+    absolute: bool
+    shadow_price: float | None
+    step: str
+    origin: str
+    sensitivity: Shares
+
+
+@_closed
+class Search(TypedDict):
+    """How the optimum was found."""
+
+    objective: float | None
+    reference: Shares
+    distinct_optima: list[int]
+    starts: list[StartEntry]
+    active_constraints: list[ActiveConstraintEntry]
+
+
+@_closed
+class LimitEntry(TypedDict):
+    """A limit at the optimum in the words of why.csv: how it stands, its margin, and what a step of it costs."""
+
+    limit: str
+    stands: Stands
+    origin: str
+    margin: float | None
+    margin_unit: str
+    step: str
+    shadow_price: float
+    sensitivity: dict[str, float]
+
+
+@_closed
+class Why(TypedDict):
+    """Why this design."""
+
+    limits: list[LimitEntry]
+    sentences: list[str]
+
+
+@_closed
+class Optimum(TypedDict):
+    """One optimum: its objective, the first start that found it, how many did, and its free numbers (SI)."""
+
+    objective: float
+    start: int
+    reached_by: int
+    at: dict[str, float]
+
+
+@_closed
+class Starts(TypedDict):
+    """What became of the starts."""
+
+    count: int
+    converged: int
+    optima: list[Optimum]
+    passed_over: dict[str, int]
+    not_converged: list[dict[str, Any]]
+
+
+@_closed
+class SideEntry(TypedDict):
+    """One limit of a conflict."""
+
+    limit: str
+    origin: str
+    broken_by: float | None
+    move_to: str | None
+    not_enough_for: list[str]
+
+
+@_closed
+class Conflict(TypedDict):
+    """Limits that cannot hold together, and what the design that comes closest breaks."""
+
+    cannot_hold_together: list[SideEntry]
+    least_violation: list[SideEntry]
+    ends_of_ranges: list[str]
+    proved_by_bounds: bool
+
+
+class _FrontPoint(TypedDict):
+    number: int
+    status: str
+    design: str
+    values: Shares
+    si: Shares
+
+
+@_closed
+class FrontPoint(_FrontPoint):
+    """A point of a front: its outputs and variables in their units and in SI, and the file of its design."""
+
+    yield_share: NotRequired[float]
+
+
+@_closed
+class FrontEntry(TypedDict):
+    """A front; `units_of_values` are those of the points' `values`, `knee` is the number of a point."""
+
+    of: list[str]
+    units_of_values: dict[str, str]
+    points: list[FrontPoint]
+    knee: int | None
+    in_words: list[str]
+    spread: float
+    sought: int
+    dominated: int
+    failures: list[dict[str, str]]
+    notes: list[str]
+
+
+@_closed
+class Parts(TypedDict):
+    """The parts: checks on the solids, files, and what is to be said of them."""
+
+    checks: list[dict[str, Any]]
+    files: list[str]
+    notes: list[str]
+
+
+class Answered(Head):
+    """A study answered: every number, every limit, how it was found."""
+
+    name: str
+    mode: str
+    status: str
+    feasible: bool
+    choices: dict[str, str]
+    values: dict[str, ValueEntry]
+    checks: list[CheckEntry]
+    warnings: list[CheckEntry]
+    current_profiles: dict[str, CurrentProfileEntry]
+    at_default_currents: dict[str, ValueEntry]
+    best_constant_currents: BestConstant | None
+    yield_reached: Yield | None
+    choosing: ChoosingEntry | None
+    solution: Search | None
+
+
+@_closed
+class RunResults(Answered):
+    """What a run came to: results.json, and with `folder` and `not_done` the output of `run --json`."""
+
+    why: NotRequired[Why]
+    starts: NotRequired[Starts]
+    conflict_set: NotRequired[Conflict | None]
+    doubts: NotRequired[list[str]]
+    front: NotRequired[FrontEntry]
+    sensitivities_left_out: NotRequired[list[str]]
+    cad: NotRequired[Parts]
+    folder: NotRequired[str]
+    not_done: NotRequired[list[str]]
+
+
+@_closed
+class RefusedRun(Head):
+    """What is left of a run whose study was refused before there was any design: the reason."""
+
+    name: str
+    mode: str
+    status: Literal["infeasible"]
+    feasible: Literal[False]
+    reason: str
+    folder: NotRequired[str]
+
+
+def results_schema() -> dict[str, Any]:
+    """The JSON schema of results.json and of `run --json`, made from the types above."""
+    made: TypeAdapter[Any] = TypeAdapter(RunResults | RefusedRun)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "tvimdesign results",
+            **made.json_schema()}  # fmt: skip

@@ -1,0 +1,47 @@
+"""A study that has no design: proved before the search where bounds prove it, with the reason left in the folder."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.results_format import FORMAT, UNITS, RefusedRun
+from tvimdesign.study import Study
+from tvimdesign.study.tree import StudyTree, study_file
+
+
+def refuse_unfit(
+    study: Study, catalog: Catalog, table: Table, progress: Callable[[str], None] = lambda _: None
+) -> None:
+    """Raise InputError or InfeasibleError where the study can have no design: what `check` proves, and `run` first."""
+    from tvimdesign.solve.infeasibility.infeasibility_proof import refuse_infeasible
+    from tvimdesign.solve.nlp.constraints import refuse_impossible
+
+    refuse_impossible(study, catalog, table)
+    progress("looking for limits that bounds prove impossible")
+    refuse_infeasible(study, catalog, table)
+
+
+@contextmanager
+def leaving_the_reason(folder: ResultsFolder, tree: StudyTree, study: Study, *, as_json: bool) -> Iterator[None]:
+    """Where a study is found to have no design, write why, and the study, before the error goes on."""
+    try:
+        yield
+    except InfeasibleError as error:
+        refused: RefusedRun = {
+            "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
+            "status": "infeasible", "feasible": False, "reason": str(error),
+        }  # fmt: skip
+        folder.write("study.yaml", study_file(tree))
+        folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
+        folder.write_json("results.json", refused)
+        folder.write("summary.txt", f"{study.name}: no design.\n{error}\n")
+        folder.finish("infeasible", {"study": tree.path} if tree.path else {}, study.model_dump(mode="json"))
+        if as_json:
+            print(json.dumps({**refused, "folder": str(folder.path)}, indent=2))
+        raise
