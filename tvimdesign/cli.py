@@ -12,13 +12,13 @@ from typing import Annotated, Any
 import typer
 
 from tvimdesign.base.errors import InputError, RenamedWarning, TvimError
+from tvimdesign.report import completions
 from tvimdesign.virtual_tests.registry import TESTS
 
 INTERRUPTED = 130
 _STOPPED = "interrupted; what was finished is kept\n"
 
 app = typer.Typer(
-    add_completion=False,
     no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -26,7 +26,27 @@ app = typer.Typer(
     epilog="Exit codes: 0 done, 2 bad input, 3 infeasible or not converged, 4 partly done, 130 interrupted.",
 )
 
-StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (YAML).")]
+StudyFile = Annotated[
+    Path, typer.Argument(metavar="STUDY", help="Study file (YAML).", autocompletion=completions.study_files)
+]
+StudyOrDesign = Annotated[
+    Path,
+    typer.Argument(
+        metavar="STUDY|DESIGN",
+        help="Study file, or design.json or folder of a run.",
+        autocompletion=completions.designs_and_studies,
+    ),
+]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="Change the study for this once, as often as needed: pcl_thickness='1.2 mm' fixes an input or a choice, "
+        "require.holding_torque='>= 15 N.m' sets what stands at a path.",
+        autocompletion=completions.settings,
+    ),
+]
 Out = Annotated[
     Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study's file> unless given.")
 ]
@@ -68,6 +88,7 @@ def run(
         bool, typer.Option("--prove", help="Solve or bound every combination of listed choices as well.")
     ] = False,
     full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
+    settings: Settings = None,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
@@ -75,7 +96,7 @@ def run(
 
     run_study(
         study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        prove=prove, resume=resume, full=full, as_json=json,
+        prove=prove, resume=resume, full=full, as_json=json, settings=settings or (),
     )  # fmt: skip
 
 
@@ -86,30 +107,46 @@ def check(
         bool,
         typer.Option("--deep", help="Build the problem too: scaling, conditioning, derivatives, what depends on what."),
     ] = False,
+    settings: Settings = None,
     json: AsJson = False,
 ) -> None:
     """Read a study and say everything that is wrong with it, limits that bounds prove impossible included."""
+    from tvimdesign.report.run.check_study import describe, refuse_what_cannot_be
+    from tvimdesign.study import read_tree
+    from tvimdesign.study.tree import tree_of_file
+
+    found = read_tree(tree_of_file(study, settings or ()))
     if deep:
         from tvimdesign.report.run.diagnostics import check_deep
 
-        check_deep(study, as_json=json)
+        check_deep(found, as_json=json)
         return
-    from tvimdesign.report.run.run_study import check_study, describe
-
-    found = check_study(study)
+    refuse_what_cannot_be(found)
     typer.echo(found.model_dump_json(indent=2) if json else describe(found))
 
 
 @app.command()
 def new(
-    file: Annotated[Path, typer.Argument(help="Study file to write.")] = Path("study.yaml"),
+    file: Annotated[
+        Path | None, typer.Argument(help="Study file to write; study.yaml, or the example's name, unless given.")
+    ] = None,
+    example: Annotated[
+        str, typer.Option("--example", help="A shipped study to start from.", autocompletion=completions.examples)
+    ] = "",
+    list_all: Annotated[bool, typer.Option("--list", help="List the shipped studies.")] = False,
 ) -> None:
-    """Write a commented study to start from."""
-    from tvimdesign.study import template_text
+    """Write a commented study to start from, or a copy of a shipped one."""
+    from tvimdesign.study.template import example_text, examples, template_text
 
+    if list_all:
+        for name, about in examples().items():
+            typer.echo(f"{name}\n    {about}")
+        return
+    text = example_text(example) if example else template_text()
+    file = file or Path(f"{example or 'study'}.yaml")
     try:
         with file.open("x", encoding="utf-8") as stream:
-            stream.write(template_text())
+            stream.write(text)
     except FileExistsError as error:
         raise InputError(f"{file}: exists already; name another file") from error
     except OSError as error:
@@ -119,7 +156,14 @@ def new(
 
 @app.command()
 def cad(
-    design: Annotated[Path, typer.Argument(metavar="DESIGN|STUDY", help="design.json of a run, or a study file.")],
+    design: Annotated[
+        Path,
+        typer.Argument(
+            metavar="DESIGN|STUDY",
+            help="design.json of a run, or a study file.",
+            autocompletion=completions.designs_and_studies,
+        ),
+    ],
     out: Out = None,
     overwrite: Overwrite = False,
     json: AsJson = False,
@@ -132,25 +176,25 @@ def cad(
 
 @app.command()
 def simulate(
-    study: Annotated[
-        Path, typer.Argument(metavar="STUDY|DESIGN", help="Study file, or design.json or folder of a run.")
-    ],
-    test: Annotated[str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.")] = "",
+    study: StudyOrDesign,
+    test: Annotated[
+        str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.", autocompletion=completions.tests)
+    ] = "",
     out: Out = None,
     overwrite: Overwrite = False,
+    settings: Settings = None,
     json: AsJson = False,
 ) -> None:
     """Put a module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
     from tvimdesign.report.simulate_study import simulate_study
 
-    simulate_study(study, test, out or Path("results") / f"{_name_of(study)}-{test}", overwrite=overwrite, as_json=json)
+    folder = out or Path("results") / f"{_name_of(study)}-{test}"
+    simulate_study(study, test, folder, overwrite=overwrite, as_json=json, settings=settings or ())
 
 
 @app.command()
 def tolerate(
-    study: Annotated[
-        Path, typer.Argument(metavar="STUDY|DESIGN", help="Study file, or design.json or folder of a run.")
-    ],
+    study: StudyOrDesign,
     samples: Annotated[int, typer.Option("--samples", help="Modules drawn; the next power of two.")] = 65536,
     workers: Annotated[int, typer.Option("--workers", min=0, help="Threads; as many as processors unless given.")] = 0,
     out: Out = None,
@@ -166,7 +210,12 @@ def tolerate(
 
 @app.command()
 def compare(
-    studies: Annotated[list[Path], typer.Argument(metavar="STUDY STUDY...", help="Study files, of any modes.")],
+    studies: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="STUDY STUDY...", help="Study files, of any modes.", autocompletion=completions.study_files
+        ),
+    ],
     out: Annotated[
         Path | None,
         typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
@@ -174,43 +223,62 @@ def compare(
     points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 6,
     overwrite: Overwrite = False,
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
+    settings: Settings = None,
     json: AsJson = False,
 ) -> None:
     """Hold studies with the same requirements against each other: as drawn, and each optimised for itself."""
     from tvimdesign.report.compare.compare_studies import compare_studies
 
     folder = out or Path("results") / "-vs-".join(study.stem for study in studies)
-    compare_studies(studies, folder, points=points, overwrite=overwrite, plots=plots, as_json=json)
+    compare_studies(
+        studies, folder, points=points, overwrite=overwrite, plots=plots, as_json=json, settings=settings or ()
+    )
+
+
+PaperOut = Annotated[
+    Path | None,
+    typer.Option(
+        "--out", help="Folder for tables and figures: what takes the paper's 70 s, and what its 2 : 1 hangs on."
+    ),
+]
 
 
 @app.command()
-def ledger(
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out", help="Folder for tables and figures: what takes the paper's 70 s, and what its 2 : 1 hangs on."
-        ),
-    ] = None,
-    overwrite: Overwrite = False,
-    json: AsJson = False,
-) -> None:
+def paper_check(out: PaperOut = None, overwrite: Overwrite = False, json: AsJson = False) -> None:
     """Print the paper against its own numbers, as computed by this code."""
-    from tvimdesign.report.paper.paper_check import print_ledger
+    from tvimdesign.report.paper.paper_check import print_paper_check
 
-    print_ledger(as_json=json)
+    print_paper_check(as_json=json)
     if out:
         from tvimdesign.report.paper.level_sets import print_level_sets
 
         print_level_sets(out, overwrite=overwrite, as_json=json)
 
 
+@app.command(hidden=True)
+def ledger(out: PaperOut = None, overwrite: Overwrite = False, json: AsJson = False) -> None:
+    """What `paper-check` was called before."""
+    said = "`ledger` is called `paper-check` now; the old word is understood until the next release"
+    warnings.warn(said, RenamedWarning, stacklevel=1)
+    paper_check(out, overwrite, json)
+
+
 @app.command()
 def rows(
-    mode: Annotated[str, typer.Option("--mode", help="Mode whose rows are listed.")] = "shear",
-    match: Annotated[str, typer.Argument(help="Only rows with this in their name or description.")] = "",
+    mode: Annotated[
+        str, typer.Option("--mode", help="Mode whose rows are listed.", autocompletion=completions.modes)
+    ] = "shear",
+    match: Annotated[
+        str,
+        typer.Argument(
+            metavar="[GROUP|WORD]",
+            help="A group, or a word for what is looked for: 'stiffness', 'weight', 'power supply'.",
+            autocompletion=completions.rows,
+        ),
+    ] = "",
     json: AsJson = False,
 ) -> None:
-    """List the names a study may use: variables, choices and outputs, with units and limits."""
+    """List the names a study may use, groups first: variables, choices and outputs, with units and limits."""
     from tvimdesign.report.rows import print_rows
 
     print_rows(mode, match, as_json=json)

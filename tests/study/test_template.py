@@ -5,7 +5,7 @@ import re
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.study import given, read_study_text, template_text
-from tvimdesign.study.reader import SECTIONS
+from tvimdesign.study.tree import SECTIONS
 
 
 def test_the_template_is_a_study() -> None:

@@ -233,6 +233,16 @@ def parse_quantity(text: str, unit: str) -> float:
     return value
 
 
+def read_quantity(text: str) -> tuple[float, str]:
+    """Read a quantity of any kind, such as "2.413 mm", and return its number and the text of its unit.
+
+    The unit of a bare number is `1`. Raises UnitError.
+    """
+    number, unit = _split(text.strip()[:LONGEST_TEXT], "1")
+    _read_unit(unit or "1")
+    return number, unit or "1"
+
+
 def to_si(value: float, unit: str) -> float:
     """Convert a number in `unit` to SI; `degC` is a temperature and gives kelvin."""
     known = _read_unit(unit)

@@ -1,1 +1,1 @@
-"""Tables, plots, the results folder and the ledger: how an answer is told."""
+"""Tables, plots, the results folder and the paper check: how an answer is told."""

@@ -1,12 +1,19 @@
-"""Lists the rows of a mode's table: what a study may set, vary, require and minimise."""
+"""Lists the rows of a mode's table, groups first: what a study may set, vary, require and minimise."""
 
 from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
+from functools import cache
+from importlib.resources import files
 from typing import Any
 
+import yaml
+from rich.console import Console
+from rich.padding import Padding
 from rich.table import Table as Grid
+from rich.text import Text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
@@ -15,36 +22,104 @@ from tvimdesign.device import Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.progress import wide_console
 from tvimdesign.report.output.tables import number
+from tvimdesign.study.text.mistakes import did_you_mean
+
+_SHOWN = 8
+"""Names of a group in the list of groups."""
 
 
-def print_rows(mode: str, match: str, as_json: bool) -> None:
-    """Print the rows whose name or description has `match` in it. Raises InputError where none has."""
-    rows = [row for row in table_for(mode).quantities if not _internal(row)]
-    found = [row for row in rows if match.lower() in f"{row.name} {row.description}".lower()]
+def print_rows(mode: str, word: str, as_json: bool) -> None:
+    """Print the groups, or the rows of a group, or those a word is about. Raises InputError where there is none."""
+    rows = named_rows(mode)
+    found = matching(rows, word)
     if not found:
-        raise InputError(f"no row of {mode} mode has {match!r} in its name or description")
+        names = [row.name for row in rows]
+        hint = did_you_mean(word, [*names, *_words()]) or "`tvimdesign rows` lists the groups"
+        raise InputError(f"no row of {mode} mode has {word!r} in its name or description; {hint}")
     if as_json:
         print(json.dumps([_plain(row) for row in found], indent=2))
-        return
-    console = wide_console()
+    elif word:
+        _print_found(found, word, wide_console())
+    else:
+        _print_groups(rows, mode, wide_console())
+
+
+def named_rows(mode: str) -> list[Quantity]:
+    """The rows that a study may name, in the table's order. Raises InputError for no such mode."""
+    return [row for row in table_for(mode).quantities if not (isinstance(row, Output) and (row.hidden or row.instant))]
+
+
+def matching(rows: Sequence[Quantity], word: str) -> list[Quantity]:
+    """The rows of the group of that name; else those with the word, or what engineers mean by it, in their text."""
+    word = " ".join(word.lower().split())
+    group = [row for row in rows if row.group.lower() == word]
+    terms = (word, *_words().get(word, ()))
+    return group or [row for row in rows if any(term in _text(row) for term in terms)]
+
+
+def _text(row: Quantity) -> str:
+    return f"{row.name} {row.name.replace('_', ' ')} {row.description}".lower()
+
+
+@cache
+def _words() -> dict[str, tuple[str, ...]]:
+    """What people look for, with what the table says instead."""
+    text = files("tvimdesign.report").joinpath("row_words.yaml").read_text(encoding="utf-8")
+    return {word: tuple(terms) for word, terms in yaml.safe_load(text).items()}
+
+
+def _print_groups(rows: Sequence[Quantity], mode: str, console: Console) -> None:
+    """A line for each group: how many names it has, and those a summary shows or a search may change."""
+    groups = list(dict.fromkeys(row.group for row in rows))
+    console.print(f"{len(rows)} names of {mode} mode in {len(groups)} groups, with those that are asked for most:\n")
     grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
-    for column in ("name", "kind", "unit", "default", "allowed", "meaning"):
-        grid.add_column(column, overflow="fold")
-    group = ""
-    for row in found:
-        if row.group != group:
-            grid.add_section()
-            grid.add_row(f"[bold]{row.group}[/bold]", "", "", "", "", "")
-            group = row.group
-        plain = _plain(row)
-        grid.add_row(
-            plain["name"], plain["kind"], plain["unit"], plain["default"], plain["allowed"], plain["description"]
-        )
+    grid.add_column("group", no_wrap=True)
+    grid.add_column("", justify="right", no_wrap=True)
+    grid.add_column("names")
+    for group in groups:
+        own = [row for row in rows if row.group == group]
+        grid.add_row(f"[bold]{group}[/bold]", str(len(own)), ", ".join(_important(own)))
     console.print(grid)
+    console.print(
+        '\nNext: `tvimdesign rows Springs` for a group, `tvimdesign rows weight` for a word, "power supply" for two.',
+        markup=False,
+    )
 
 
-def _internal(row: Quantity) -> bool:
-    return isinstance(row, Output) and (row.hidden or row.instant)
+def _important(rows: Sequence[Quantity]) -> list[str]:
+    """Variables and the outputs that summaries have, then what is better one way; of a group without any, choices."""
+    names = [row.name for row in rows if _asked_for(row)]
+    names += [row.name for row in rows if getattr(row, "better", None) and row.name not in names]
+    return (names or [row.name for row in rows if isinstance(row, Choice)] or [row.name for row in rows])[:_SHOWN]
+
+
+def _asked_for(row: Quantity) -> bool:
+    return row.headline if isinstance(row, Output) else isinstance(row, Input) and row.variable
+
+
+def _print_found(rows: Sequence[Quantity], word: str, console: Console) -> None:
+    """Those asked for most, then the others by group: a name on a line with what it is, below it what it means."""
+    also = _words().get(word.lower())
+    if also:
+        console.print(f"{word}: rows with {', '.join(also)}\n", style="dim", markup=False)
+    heading = ""
+    for row in sorted(rows, key=lambda row: not _asked_for(row)):
+        group = f"{row.group}: asked for most" if _asked_for(row) else row.group
+        if group != heading:
+            heading = group
+            console.print(Text(heading, style="bold underline"))
+        plain = _plain(row)
+        console.print(Text.assemble((plain["name"], "bold"), "  ", (_facts(plain), "dim")), no_wrap=True, crop=False)
+        allowed = f" [{plain['allowed']}]" if plain["allowed"] else ""
+        console.print(Padding(Text(plain["description"] + allowed), (0, 0, 0, 4)))
+
+
+def _facts(plain: dict[str, Any]) -> str:
+    """What a row is, in a few words: `variable, 2.413 mm` or `input in GPa, from spring_material`."""
+    kind, default, unit = plain["kind"], plain["default"], plain["unit"]
+    if not default or default.startswith("from "):
+        return ", ".join(filter(None, (f"{kind} in {unit}" if unit else kind, default)))
+    return f"{kind}, {default} {unit}".rstrip()
 
 
 def _plain(row: Quantity) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.device import table_for
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
@@ -22,19 +23,21 @@ from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import head
 from tvimdesign.report.output.tables import curves_csv, number
-from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.study import Study, read_study
+from tvimdesign.study import Study, catalog_of, read_tree
 from tvimdesign.study.design import read_design
+from tvimdesign.study.tree import study_file, tree_of_file
 from tvimdesign.virtual_tests.registry import find_test
 from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 
-def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json: bool) -> None:
+def simulate_study(
+    path: Path, test: str, out: Path, *, overwrite: bool, as_json: bool, settings: Sequence[str] = ()
+) -> None:
     """Put a study's module to a test and write its folder. Raises InputError, and TvimError where drawing fails."""
     do = find_test(test)
     source = path / "design.json" if path.is_dir() else path
-    resolved, module = _rig(source)
+    resolved, module = _rig(source, settings)
     study = resolved.study
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite))
@@ -47,7 +50,8 @@ def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json
             figure = Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))
             drawing.begin(folder.path, [figure], study.name)
         reported = findings(trial)
-        folder.write(f"tested{source.suffix}", source.read_bytes())
+        tested = source.read_bytes() if source.suffix == ".json" else study_file(tree_of_file(source, settings))
+        folder.write(f"tested{source.suffix}", tested)
         folder.write_json("findings.json", reported)
         for sheet in trial.sheets:
             folder.write(f"{sheet.name}.csv", sheet_csv(sheet))
@@ -65,13 +69,15 @@ def simulate_study(path: Path, test: str, out: Path, *, overwrite: bool, as_json
             )
 
 
-def _rig(source: Path) -> tuple[ResolvedModule, str]:
+def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, str]:
     """The module of a study or of a design, and which one that is, in a sentence."""
     if source.suffix == ".json":
+        if settings:
+            raise InputError(f"--set {settings[0]}: {source} is a design, which is finished; give the study's file")
         design = read_design(source)
         study = Study.model_validate(design.study)
         return resolve_design(design, catalog_of(study), table_for(study.mode)), f"Module: the design {source}."
-    study = read_study(source)
+    study = read_tree(tree_of_file(source, settings))
     resolved = resolve_study(study, catalog_of(study), table_for(study.mode))
     if not study.vary:
         return resolved, f"Module: {source}."

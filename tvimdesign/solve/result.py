@@ -30,7 +30,7 @@ from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
-from tvimdesign.solve.search import Keep, optimize
+from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
 from tvimdesign.virtual_tests.joint_tests.release import contact_seen
@@ -103,15 +103,17 @@ def answer(
     reference: dict[str, float] | None = None,
     keep: Keep = lambda *_: None,
     objectives: Sequence[str] = (),
+    search: Search = optimize,
 ) -> StudyResult:
     """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError.
 
-    What found the optimum is handed to `keep`, able to trade some outputs afterwards.
+    What found the optimum is handed to `keep`, able to trade some outputs afterwards. A `search` may stand in place of
+    the usual one.
     """
     solution = None
     refuse_impossible(study, catalog, table)
     if study.task == "optimize":
-        solution = optimize(study, catalog, table, progress, reference, keep, objectives)
+        solution = search(study, catalog, table, progress, reference, keep, objectives)
         model, inputs, cycle, values = solution.model, solution.inputs, solution.cycle, solution.values
         status, current_profiles = solution.status, solution.current_profiles
     else:

@@ -23,6 +23,8 @@ from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
 
 Keep = Callable[[Optimizer, list[Run]], None]
+Search = Callable[[Study, Catalog, Table, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]
+"""What finds the best design of a study, as `optimize` does."""
 MAX_COMBINATIONS = 20_000
 MAX_RECORDS = 60
 """Combinations of records: each is searched on its own, from every start."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from pathlib import Path
 from typing import Any
 
@@ -66,8 +67,9 @@ def write_design(design: Design, path: Path) -> Path:
     return path
 
 
-def read_design(path: Path) -> Design:
+def read_design(path: str | os.PathLike[str]) -> Design:
     """Read a design; raises InputError that names the file and what is wrong with it."""
+    path = Path(path)
     shown = printable(path)
     try:
         design = Design.model_validate_json(ordinary_bytes(path, MAX_BYTES, _WANTED, lambda _: _too_big(shown)))

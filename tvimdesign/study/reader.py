@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -19,54 +20,35 @@ from tvimdesign.study.sections.tolerances import read_robust, read_tolerances
 from tvimdesign.study.sections.vary import check_against_module, read_vary, with_start
 from tvimdesign.study.study import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions
 from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted, step
-from tvimdesign.study.text.named_file import printable
-from tvimdesign.study.text.renamed import renamed
-from tvimdesign.study.text.source import check_characters, read_text
 from tvimdesign.study.text.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
-from tvimdesign.study.text.yaml_text import Mapping, Node, Text, compose
+from tvimdesign.study.text.yaml_text import Mapping, Node, Text
+from tvimdesign.study.tree import SECTIONS, StudyTree, tree_of_file, tree_of_text
 
-SECTIONS = (
-    "tvimdesign",
-    "name",
-    "description",
-    "mode",
-    "catalog",
-    "module",
-    "vary",
-    "require",
-    "minimize",
-    "front",
-    "operating_points",
-    "profile",
-    "tolerances",
-    "robust",
-    "solver",
-    "write",
-)
-"""The keys of a study, in the order in which it is usually written."""
 LONGEST_TEXT = 10_000
 TableOf = Callable[[str], Table]
 CatalogOf = Callable[[Path | None], Catalog]
 _Options = TypeVar("_Options", bound=BaseModel)
 
 
-def read_study(path: Path, table: TableOf = table_for, catalog: CatalogOf = Catalog) -> Study:
+def read_study(path: str | os.PathLike[str], table: TableOf = table_for, catalog: CatalogOf = Catalog) -> Study:
     """Read a study file.
 
     `table` gives the table of a mode and `catalog` the catalogue with a folder of the user's records. Raises StudyError
     with every problem found, and InputError where there is no such file or it cannot be opened.
     """
-    problems = Mistakes(printable(path))
-    source = read_text(path, problems)
-    return _Reader(problems, path.stem, path.parent, table, catalog).read(source)
+    return read_tree(tree_of_file(path), table, catalog)
+
+
+def read_tree(tree: StudyTree, table: TableOf = table_for, catalog: CatalogOf = Catalog) -> Study:
+    """Read a study from its tree; raises StudyError with every problem found."""
+    return _Reader(Mistakes(tree.file, list(tree.problems)), tree.name, tree.folder, table, catalog, tree.root).read()
 
 
 def read_study_text(
     source: str, name: str = "study", folder: Path = Path(), table: TableOf = table_for, catalog: CatalogOf = Catalog
 ) -> Study:
     """Read a study from its text; `name` stands for the file in messages, `folder` is where its catalogue is."""
-    problems = Mistakes(name)
-    return _Reader(problems, name, folder, table, catalog).read(check_characters(source, problems))
+    return read_tree(tree_of_text(source, name, name, folder), table, catalog)
 
 
 @dataclass
@@ -78,17 +60,11 @@ class _Reader:
     folder: Path
     table: TableOf
     catalog: CatalogOf
+    root: Mapping
     sections: dict[str, Node] = field(default_factory=dict)
-    root: Node = field(default_factory=lambda: Text(1, 1, ""))
 
-    def read(self, source: str) -> Study:
+    def read(self) -> Study:
         """Read all sections and return the study; raises StudyError with every problem."""
-        self.root = compose(source, self.problems)
-        if not isinstance(self.root, Mapping):
-            misfit(self.problems, self.root, "", "a study: lines such as 'mode: shear'")
-            self.problems.stop()
-        assert isinstance(self.root, Mapping)  # else the problems have stopped it
-        self.root = renamed(self.root, self.problems.file)
         found = entries(self.problems, self.root, "", "")
         self.sections = unknown_keys(self.problems, found, "", "section", list(SECTIONS))
         plain = self._plain()

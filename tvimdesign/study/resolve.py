@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
+
+
+def catalog_of(study: Study) -> Catalog:
+    """The catalogue a study uses: the shipped records and those of the folder it names."""
+    return Catalog(Path(study.catalog_folder) if study.catalog_folder else None)
 
 
 def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:

@@ -45,5 +45,5 @@ def test_the_numbers_follow_the_stated_inputs(monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_scripts_get_json(capsys: pytest.CaptureFixture[str]) -> None:
-    paper_check.print_ledger(as_json=True)
+    paper_check.print_paper_check(as_json=True)
     assert len(json.loads(capsys.readouterr().out)) == 9

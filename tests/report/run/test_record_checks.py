@@ -8,8 +8,8 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
+from tvimdesign.report.run.check_study import describe
 from tvimdesign.report.run.record_checks import record_checks
-from tvimdesign.report.run.run_study import describe
 from tvimdesign.study import Study, read_study
 
 STUDY = "tvimdesign: 1\nname: Doubt\nmode: shear\ncatalog: records\nmodule: {peltier_module: bench}\n"

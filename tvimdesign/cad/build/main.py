@@ -1,5 +1,4 @@
-"""The child process that makes the parts: `python -m tvimdesign.cad.build.main DESIGN OUT`, a line of JSON for each
-step.
+"""The child process that makes the parts: `python -m tvimdesign.cad.build.main DESIGN OUT`, a line of JSON a step.
 
 It runs on its own because the CAD kernel can take a process with it, and starts a child of its own for every piece of
 work (`work.py`), because an operation of the kernel can hang.

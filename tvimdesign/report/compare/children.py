@@ -39,11 +39,16 @@ class _Child(NamedTuple):
 
 
 def answers(
-    asked: Sequence[Asked], points: int, progress: Progress, when_idle: Callable[[], object] = lambda: None
+    asked: Sequence[Asked],
+    points: int,
+    progress: Progress,
+    when_idle: Callable[[], object] = lambda: None,
+    settings: Sequence[str] = (),
 ) -> dict[str, dict[str, Any]]:
     """What each study's job found, by label; a job that died has its reason under `troubles`.
 
-    `when_idle` is called as soon as there is nothing more to start: from then on a core is free.
+    `when_idle` is called as soon as there is nothing more to start: from then on a core is free. Every study is read
+    with the `settings`, each `name=value`.
     """
     waiting, running = list(asked), list[_Child]()
     found: dict[str, dict[str, Any]] = {}
@@ -55,7 +60,7 @@ def answers(
                     number = len(asked) - len(waiting)
                     one = waiting.pop(0)
                     others = [other.path for other in asked if other is not one]
-                    running.append(_start(one, others, points, Path(folder) / str(number), said))
+                    running.append(_start(one, others, (points, settings), Path(folder) / str(number), said))
                 label, line = said.get()
                 if line is not None:
                     progress(f"{label}: {json.loads(line)['progress']}")
@@ -73,15 +78,20 @@ def answers(
 
 
 def _start(
-    one: Asked, others: Sequence[Path], points: int, stem: Path, said: queue.Queue[tuple[str, str | None]]
+    one: Asked,
+    others: Sequence[Path],
+    how: tuple[int, Sequence[str]],
+    stem: Path,
+    said: queue.Queue[tuple[str, str | None]],
 ) -> _Child:
+    """Start a child process; `how` is the count of points of a front, and the settings."""
     here = str(Path(tvimdesign.__file__).parents[1])
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
     out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
     with errors.open("w") as stream:
         process = subprocess.Popen(
             [sys.executable, "-m", "tvimdesign.report.compare.comparison_job", str(one.path.resolve()), str(out),
-             str(points),
+             str(how[0]), json.dumps(list(how[1])),
              *(str(other.resolve()) for other in others)],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
             env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},

@@ -18,19 +18,22 @@ from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.figures.plot_process import PlotProcess
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.run.run_study import catalog_of, check_study
+from tvimdesign.report.run.check_study import refuse_what_cannot_be
+from tvimdesign.study import catalog_of, read_tree
 from tvimdesign.study.conditions import Entrant, refuse_unequal
 from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.named_file import printable
+from tvimdesign.study.tree import study_file, tree_of_file
 
 
 def compare_studies(
-    paths: Sequence[Path], out: Path, *, points: int, overwrite: bool, plots: bool, as_json: bool
-) -> None:
+    paths: Sequence[Path], out: Path, *, points: int, overwrite: bool, plots: bool, as_json: bool,
+    settings: Sequence[str] = (),
+) -> None:  # fmt: skip
     """Compare studies and write the folder. Raises InputError for what cannot be compared, TvimError for failures."""
     began = time.perf_counter()
-    entrants = labelled(_read(paths))
+    entrants = labelled(_read(paths, settings))
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite))
         progress = stack.enter_context(progress_output())
@@ -41,12 +44,12 @@ def compare_studies(
             nonlocal drawing
             drawing = stack.enter_context(PlotProcess()) if plots else None
 
-        outcome = Outcome(entrants, answers(asked, points, progress, begin_drawing))
+        outcome = Outcome(entrants, answers(asked, points, progress, begin_drawing, settings))
         outcome.seconds["all answers"] = time.perf_counter() - began
         asked_for = drawings(outcome)
         if drawing:
             drawing.begin(folder.path, asked_for, " against ".join(one.study.name for one in entrants.values()))
-        _write(folder, outcome)
+        _write(folder, outcome, settings)
         progress("")
         if not as_json:
             print_comparison(outcome, wide_console())
@@ -84,7 +87,7 @@ def labelled(entrants: Sequence[Entrant]) -> dict[str, Entrant]:
     return dict(zip(names, entrants, strict=True))
 
 
-def _read(paths: Sequence[Path]) -> list[Entrant]:
+def _read(paths: Sequence[Path], settings: Sequence[str]) -> list[Entrant]:
     """All studies, read and found comparable. Raises StudyError with everything that is wrong with any of them."""
     if len(paths) < 2:
         raise InputError("compare takes two studies or more; `tvimdesign run` answers one")
@@ -92,7 +95,8 @@ def _read(paths: Sequence[Path]) -> list[Entrant]:
     found = []
     for path in paths:
         try:
-            study = check_study(path, proof=False)  # each search looks for itself
+            study = read_tree(tree_of_file(path, settings))
+            refuse_what_cannot_be(study, proof=False)  # each search looks for itself
         except StudyError as error:
             problems += error.problems
         except InputError as error:
@@ -106,7 +110,7 @@ def _read(paths: Sequence[Path]) -> list[Entrant]:
     return found
 
 
-def _write(folder: ResultsFolder, outcome: Outcome) -> None:
+def _write(folder: ResultsFolder, outcome: Outcome, settings: Sequence[str]) -> None:
     folder.write("compare.csv", compare_csv(outcome.rows, outcome.alone))
     folder.write("summary.txt", summary_text(outcome))
     if outcome.fronts:
@@ -118,7 +122,7 @@ def _write(folder: ResultsFolder, outcome: Outcome) -> None:
             if which in found:
                 design = Design.model_validate(found[which]["design"])
                 folder.write(f"{name}/{which}.json", design_json(design))
-        folder.write(f"{name}/study.yaml", outcome.entrants[label].path.read_bytes())
+        folder.write(f"{name}/study.yaml", study_file(tree_of_file(outcome.entrants[label].path, settings)))
 
 
 def _trouble(outcome: Outcome, troubles: Sequence[str]) -> TvimError:

@@ -1,8 +1,8 @@
 """The child process that answers one study of a comparison.
 
-`python -m tvimdesign.report.compare.comparison_job STUDY OUT POINTS OTHERS`, the others being the studies it is
-compared with. It says each step as a line of JSON on standard output and writes what it found to OUT, one JSON object.
-What fails stands there under `troubles`; all else is kept.
+`python -m tvimdesign.report.compare.comparison_job STUDY OUT POINTS SETTINGS OTHERS`, the settings being a JSON list of
+`name=value`, the others the studies it is compared with. It says each step as a line of JSON on standard output and
+writes what it found to OUT, one JSON object. What fails stands there under `troubles`; all else is kept.
 """
 
 from __future__ import annotations
@@ -26,7 +26,6 @@ from tvimdesign.report.compare import normalization
 from tvimdesign.report.output.tables import check_row
 from tvimdesign.report.output.thresholds import soft_in_words
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.report.run.why import binding
 from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.simulation.resolved_module import resolve_design
@@ -35,7 +34,8 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.study import Study, drawn, read_study
+from tvimdesign.study import Study, catalog_of, drawn, read_tree
+from tvimdesign.study.tree import tree_of_file
 from tvimdesign.virtual_tests.joint_tests.release import ANGLE_PANEL
 from tvimdesign.virtual_tests.registry import find_test
 
@@ -54,10 +54,10 @@ def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
 class ComparisonJob:
     """One study on its way: what was found, what failed, how long each step took."""
 
-    def __init__(self, path: Path, points: int, others: Sequence[Path], say: Say) -> None:
+    def __init__(self, path: Path, points: int, settings: Sequence[str], others: Sequence[Path], say: Say) -> None:
         """Read the study, and those it is compared with; the parent has seen that they can be read."""
-        self.study = read_study(path)
-        self.others = others
+        self.study = read_tree(tree_of_file(path, settings))
+        self.others = [read_tree(tree_of_file(other, settings)) for other in others]
         self.catalog: Catalog = catalog_of(self.study)
         self.table = table_for(self.study.mode)
         self.points, self.say = points, say
@@ -98,7 +98,7 @@ class ComparisonJob:
             self.found["seconds"][name] = spent + time.perf_counter() - began
 
     def _optimised(self) -> StudyResult:
-        starts = [normalization.at_its_start(study) for study in (self.study, *map(read_study, self.others))]
+        starts = [normalization.at_its_start(study) for study in (self.study, *self.others)]
         common = normalization.common(starts)
         objectives = front_outputs(self.study, self.table) if self.points else ()
         answered = answer(self.study, self.catalog, self.table, self.say, common, self._keep, objectives)
@@ -180,8 +180,8 @@ def main(arguments: list[str]) -> int:
         sys.stdout.flush()
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
-    path, out, points, *others = arguments
-    found = ComparisonJob(Path(path), int(points), [Path(other) for other in others], say).run()
+    path, out, points, settings, *others = arguments
+    found = ComparisonJob(Path(path), int(points), json.loads(settings), [Path(other) for other in others], say).run()
     write_whole(Path(out), json.dumps(found).encode())
     return 0
 

@@ -11,10 +11,9 @@ from collections.abc import Mapping, Sequence
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.device import table_for
-from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.simulation.cycle import Simulator
 from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.study import Study, given
+from tvimdesign.study import Study, catalog_of, given
 
 Values = Mapping[str, float]
 

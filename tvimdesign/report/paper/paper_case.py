@@ -112,7 +112,7 @@ def _place(event: str) -> str:
 
 
 def sentence() -> str:
-    """The row of the ledger: what the pair takes, what else it could be read as, what carries the ratio."""
+    """The row of the paper check: what the pair takes, what else it could be read as, what carries the ratio."""
     event = case()["event"]
     times = pair().times(event)
     others = "; ".join(f"with {one.label}: {_both(one.times)}" for one in alternatives())

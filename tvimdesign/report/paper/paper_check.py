@@ -1,7 +1,7 @@
 """The paper against its own numbers: each row says what the paper states, what its formulas give here, the verdict.
 
 The paper is T. Exley et al., "TVIM: Thermo-Active Variable Impedance Module: Evaluating Shear-Mode Capabilities of
-Polycaprolactone". What it states stands in `paper_claims.yaml`; every other number is computed when the ledger is.
+Polycaprolactone". What it states stands in `paper_claims.yaml`; every other number is computed when the paper check is.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PaperFinding:
-    """One row of the ledger."""
+    """One row of the paper check."""
 
     claim: str
     where: str
@@ -195,15 +195,15 @@ _COMPUTED: dict[str, Callable[[], str]] = {
 
 
 def findings() -> list[PaperFinding]:
-    """Compute every row of the ledger."""
+    """Compute every row of the paper check."""
     return [
         PaperFinding(claim=row["claim"], where=row["where"], computed=_COMPUTED[row["row"]](), verdict=row["verdict"])
         for row in claims()["rows"]
     ]
 
 
-def print_ledger(as_json: bool) -> None:
-    """Print the ledger for people or for scripts."""
+def print_paper_check(as_json: bool) -> None:
+    """Print the paper check for people or for scripts."""
     rows = findings()
     if as_json:
         print(json.dumps([asdict(row) for row in rows], indent=2, ensure_ascii=False))

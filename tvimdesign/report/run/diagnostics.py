@@ -5,21 +5,20 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import Choice, table_for
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.tables import number
+from tvimdesign.report.run.check_study import describe, refuse_what_cannot_be
 from tvimdesign.report.run.infeasible_report import endings
-from tvimdesign.report.run.run_study import catalog_of, check_study, describe
+from tvimdesign.study import Range, Study, catalog_of
 
 if TYPE_CHECKING:
     from tvimdesign.solve.infeasibility.inspection import Conditioning, DerivativeCheck, Structure, ValueRange
     from tvimdesign.solve.infeasibility.lower_bound import LowerBound
     from tvimdesign.solve.nlp.solution import Start
-    from tvimdesign.study import Study
 
 SECONDS = 2.0
 """Processor time for the lower bound."""
@@ -52,9 +51,9 @@ class Diagnostics:
         )
 
 
-def check_deep(path: Path, *, as_json: bool) -> None:
+def check_deep(study: Study, *, as_json: bool) -> None:
     """Check a study, build its problem and look at that. Raises InputError, InfeasibleError."""
-    study = check_study(path)
+    refuse_what_cannot_be(study)
     with progress_output() as progress:
         found = inspect_study(study, progress)
         progress("")
@@ -73,7 +72,6 @@ def inspect_study(study: Study, progress: Progress) -> Diagnostics:
     from tvimdesign.solve.infeasibility.inspection import Inspection
     from tvimdesign.solve.infeasibility.lower_bound import lower_bound
     from tvimdesign.solve.optimizer.optimizer import Optimizer
-    from tvimdesign.study import Range
 
     table, catalog = table_for(study.mode), catalog_of(study)
     if not any(isinstance(vary, Range) for vary in study.vary.values()):

@@ -39,49 +39,58 @@ ROWS_SHOWN = 12
 class FrontOfRun:
     """The front a study asks for, where it does, on its way through a run."""
 
-    def __init__(self, study: Study, table: Table, folder: ResultsFolder) -> None:
-        """Nothing is done yet. Raises InputError where the folder holds the beginning of another study's front."""
+    def __init__(self, study: Study, table: Table, folder: ResultsFolder | None = None) -> None:
+        """Nothing is done yet; in a `folder` what is found is kept on the way, so that another run can go on there.
+
+        Raises InputError where the folder holds the beginning of another study's front.
+        """
         self.study, self.table = study, table
         self.outputs: tuple[str, ...] = study.front.of if study.front else ()
         self.front: Front | None = None
         self.kept: list[float] = []
         """Of a robust study, the share of modules drawn at random that keep all limits, for each point."""
-        self._folder = folder
-        self._memory = FolderMemory(folder, study) if study.front else None
+        self.optimum: Point | None = None
+        self._memory = FolderMemory(folder, study) if study.front and folder else None
         self._built: list[tuple[Optimizer, list[Run]]] = []
 
     def keep(self, built: Optimizer, runs: list[Run]) -> None:
         """Take what found the study's optimum: the front is sought with it."""
         self._built.append((built, runs))
 
-    def seek(
-        self, found: StudyResult, progress: Progress, reported: RunResults, troubles: list[TvimError]
-    ) -> list[Drawing]:
-        """Seek the front and write all of it but its figure, which is returned; nothing where none is asked for.
+    def seek(self, found: StudyResult, progress: Progress, reported: RunResults, troubles: list[TvimError]) -> None:
+        """Seek the front; nothing where none is asked for.
 
-        What is to be told goes into `told`, points without a design into `troubles`.
+        What is to be told goes into `reported`, points without a design into `troubles`.
         """
         if self.study.front is None or found.solution is None or not found.found:
-            return []
+            return
         trade = Tradeoff(self.study, found.solution, *self._built[0], progress, self._memory)
         sought = trace_front(trade, self.outputs, self.study.front.points)
         progress("simulating the whole cycle of the front's points")
         front = self.front = completed(sought, trade)
+        self.optimum = trade.optimum
         self.kept = kept_at(trade.optimizer, front) if self.study.robust else []
-        folder, names = self._folder, shown_names(self.study, front)
-        reported["front"] = plain(front, names, self.table, self.kept)
-        folder.write("front.csv", front_csv(front, names, self.table, self.kept))
-        folder.write_json("front.json", {**head(), **reported["front"]})
-        for number, point in enumerate(front.points, start=1):
-            design = design_of(point, number, found)
-            folder.write(f"front/{number:02d}.design.json", design_json(design))
-        shutil.rmtree(folder.path / PROGRESS, ignore_errors=True)
+        reported["front"] = plain(front, shown_names(self.study, front), self.table, self.kept)
         if front.failures:
             where = "; ".join(f"{one.where}: {one.reason}" for one in front.failures)
             troubles.append(TvimError(f"the front has {len(front.points)} points, but no design was found at {where}"))
-        if not front.points:
+
+    def write(self, folder: ResultsFolder, found: StudyResult) -> None:
+        """Write all of it but its figure."""
+        if self.front is None:
+            return
+        names = shown_names(self.study, self.front)
+        folder.write("front.csv", front_csv(self.front, names, self.table, self.kept))
+        folder.write_json("front.json", {**head(), **plain(self.front, names, self.table, self.kept)})
+        for number, point in enumerate(self.front.points, start=1):
+            folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, found)))
+        shutil.rmtree(folder.path / PROGRESS, ignore_errors=True)
+
+    def drawings(self) -> list[Drawing]:
+        """Its figure, where it has points."""
+        if self.front is None or self.optimum is None or not self.front.points:
             return []
-        return [Drawing("front", "front_figure.front", figure_data(front, trade.optimum, self.table))]
+        return [Drawing("front", "front_figure.front", figure_data(self.front, self.optimum, self.table))]
 
     def show(self, console: Console) -> None:
         """Print it."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.catalog import Catalog
@@ -13,6 +12,7 @@ from tvimdesign.device import Table
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import FORMAT, UNITS, RefusedRun
 from tvimdesign.study import Study
+from tvimdesign.study.tree import StudyTree, study_file
 
 
 def refuse_unfit(
@@ -28,7 +28,7 @@ def refuse_unfit(
 
 
 @contextmanager
-def leaving_the_reason(folder: ResultsFolder, path: Path, study: Study, *, as_json: bool) -> Iterator[None]:
+def leaving_the_reason(folder: ResultsFolder, tree: StudyTree, study: Study, *, as_json: bool) -> Iterator[None]:
     """Where a study is found to have no design, write why, and the study, before the error goes on."""
     try:
         yield
@@ -37,11 +37,11 @@ def leaving_the_reason(folder: ResultsFolder, path: Path, study: Study, *, as_js
             "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
             "status": "infeasible", "feasible": False, "reason": str(error),
         }  # fmt: skip
-        folder.write("study.yaml", path.read_bytes())
+        folder.write("study.yaml", study_file(tree))
         folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
         folder.write_json("results.json", refused)
         folder.write("summary.txt", f"{study.name}: no design.\n{error}\n")
-        folder.finish("infeasible", {"study": path}, study.model_dump(mode="json"))
+        folder.finish("infeasible", {"study": tree.path} if tree.path else {}, study.model_dump(mode="json"))
         if as_json:
             print(json.dumps({**refused, "folder": str(folder.path)}, indent=2))
         raise

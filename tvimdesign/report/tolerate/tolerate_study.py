@@ -23,7 +23,6 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.thresholds import soft_of_module
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.run.run_study import catalog_of
 from tvimdesign.report.tolerate.tolerance_plot_data import figure_data
 from tvimdesign.report.tolerate.tolerance_tables import (
     as_csv,
@@ -39,7 +38,7 @@ from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread, Tolerancing
-from tvimdesign.study import Study, read_study, standard_tolerances
+from tvimdesign.study import Study, catalog_of, read_study, standard_tolerances
 from tvimdesign.study.design import Design, read_design, write_design
 
 FEWEST, MOST = 1 << 8, 1 << 22

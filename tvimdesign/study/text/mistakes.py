@@ -27,6 +27,10 @@ class Place(Protocol):
     def column(self) -> int:
         """Column in the line, from 1."""
 
+    @property
+    def file(self) -> str:
+        """Where it was written: an option or a call; empty for the study's own file."""
+
 
 @dataclass(frozen=True, slots=True)
 class At:
@@ -34,6 +38,7 @@ class At:
 
     line: int
     column: int
+    file: str = ""
 
 
 @dataclass(frozen=True)
@@ -82,7 +87,7 @@ class Mistakes:
     def add(self, place: Place, path: str, message: str, expected: str = "", hint: str = "") -> None:
         """Note one problem."""
         one_line = "; ".join(message.splitlines())
-        self.found.append(Mistake(self.file, place.line, place.column, path, one_line, expected, hint))
+        self.found.append(Mistake(place.file or self.file, place.line, place.column, path, one_line, expected, hint))
 
     def unknown(self, place: Place, path: str, what: str, word: str, known: Iterable[str]) -> None:
         """Note a word that is none of the known ones, with the nearest of them."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from typing import Any
 
 from tvimdesign.base.errors import RenamedWarning
@@ -36,7 +37,7 @@ def renamed(root: yaml_text.Mapping, file: str) -> yaml_text.Mapping:
     if found:
         names = ", ".join(f"{old} is now {new}" for old, new in found.items())
         warnings.warn(f"{file}: {names}; the old names are read until the next release", RenamedWarning, stacklevel=2)
-    return yaml_text.Mapping(root.line, root.column, sections)
+    return replace(root, entries=sections)
 
 
 def _renamed(node: Node, found: dict[str, str]) -> Node:
@@ -46,13 +47,13 @@ def _renamed(node: Node, found: dict[str, str]) -> Node:
         for name, (key, value) in node.entries.items():
             new = new_name(name) if new_name(name) not in node.entries else name
             found |= {name: new} if new != name else {}
-            entries[new] = (Text(key.line, key.column, new, key.plain), _renamed(value, found))
-        return yaml_text.Mapping(node.line, node.column, entries)
+            entries[new] = (replace(key, value=new), _renamed(value, found))
+        return replace(node, entries=entries)
     if isinstance(node, yaml_text.Sequence):
-        return yaml_text.Sequence(node.line, node.column, [_renamed(item, found) for item in node.items])
+        return replace(node, items=[_renamed(item, found) for item in node.items])
     if isinstance(node, Text) and (new := new_name(node.value)) != node.value:
         found[node.value] = new
-        return Text(node.line, node.column, new, node.plain)
+        return replace(node, value=new)
     return node
 
 

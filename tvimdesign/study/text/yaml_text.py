@@ -29,12 +29,16 @@ _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A scalar, as written; `plain` says it stood without quotes."""
+    """A scalar, as written; `plain` says it stood without quotes.
+
+    Every node may name the option or the call that it comes from as its `file`: none is the study's own file.
+    """
 
     line: int
     column: int
     value: str
     plain: bool = True
+    file: str = ""
 
     @property
     def empty(self) -> bool:
@@ -49,6 +53,7 @@ class Sequence:
     line: int
     column: int
     items: list[Node] = field(default_factory=list)
+    file: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +63,7 @@ class Mapping:
     line: int
     column: int
     entries: dict[str, tuple[Text, Node]] = field(default_factory=dict)
+    file: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +72,7 @@ class Broken:
 
     line: int
     column: int
+    file: str = ""
 
 
 Node: TypeAlias = Text | Sequence | Mapping | Broken

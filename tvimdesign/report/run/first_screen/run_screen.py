@@ -11,13 +11,12 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
-from tvimdesign.device import Table
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.first_screen.layout import LABEL, joined
 from tvimdesign.report.run.first_screen.screen import Told, first_screen
 from tvimdesign.report.run.first_screen.uncertainty_process import UncertaintyProcess
 from tvimdesign.report.run.first_screen.warnings import warnings_of
-from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.full_summary import print_full_summary
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
@@ -58,35 +57,47 @@ class RunScreen:
             self._process.begin(answer.design)
             self._asked = True
 
-    def tell(
-        self, answer: StudyResult, table: Table, reported: Mapping[str, Any], front: FrontOfRun, folder: ResultsFolder,
-        console: Console | None, *, full: bool,
-    ) -> None:  # fmt: skip
+    def tell(self, answered: AnsweredStudy, folder: ResultsFolder, console: Console | None, *, full: bool) -> None:
         """Write summary.txt, and print the first screen, or everything."""
         uncertainty = self._process.finish() if self._asked else {}
-        doubts = reported["doubts"]
+        told = Told(time.perf_counter() - self._began, uncertainty, answered.reported["doubts"], answered.front.front)
+        write_summary(answered, folder, uncertainty)
+        if console is not None and full:
+            _print_all(answered, told, console)
+        elif console is not None:
+            show(first_screen(answered.result, answered.table, told, console.width), console)
 
-        def lines(width: int, seconds: float | None) -> list[str]:
-            return first_screen(answer, table, Told(seconds, uncertainty, doubts, front.front), width)
 
-        def rest(on: Console) -> None:
-            print_full_summary(answer, table, on, uncertainty, warnings_of(answer, table, doubts))
-            names = reported.get("sensitivities_left_out")
-            if names:
-                on.print(f"Not in sensitivities.csv, as they never happen or follow a profile: {', '.join(names)}.")
-            front.show(on)
+def write_summary(answered: AnsweredStudy, folder: ResultsFolder, uncertainty: Mapping[str, Any]) -> None:
+    """Write summary.txt: the first screen and every table; without seconds, so that it is the same every time."""
+    stream = io.StringIO()
+    file = Console(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False)
+    doubts, front = answered.reported["doubts"], answered.front.front
+    _print_all(answered, Told(None, uncertainty, doubts, front), file)
+    folder.write(FILE, "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n")
 
-        stream = io.StringIO()
-        file = Console(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False)
-        show(lines(_FILE_WIDTH, None), file)
-        file.print()
-        rest(file)
-        folder.write(FILE, "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n")
-        if console is not None:
-            show(lines(console.width, time.perf_counter() - self._began), console)
-            if full:
-                console.print()
-                rest(console)
+
+def print_screen(answered: AnsweredStudy, console: Console) -> None:
+    """Print the first screen of an answer of which nobody asked how sure it is."""
+    told = Told(doubts=answered.reported["doubts"], front=answered.front.front)
+    show(first_screen(answered.result, answered.table, told, console.width), console)
+
+
+def _print_all(answered: AnsweredStudy, told: Told, console: Console) -> None:
+    """The first screen, and every table."""
+    show(first_screen(answered.result, answered.table, told, console.width), console)
+    console.print()
+    print_tables(answered, told.uncertainty, console)
+
+
+def print_tables(answered: AnsweredStudy, uncertainty: Mapping[str, Any], console: Console) -> None:
+    """Every table of an answer, for people."""
+    found, table, reported = answered.result, answered.table, answered.reported
+    print_full_summary(found, table, console, uncertainty, warnings_of(found, table, reported["doubts"]))
+    names = reported.get("sensitivities_left_out")
+    if names:
+        console.print(f"Not in sensitivities.csv, as they never happen or follow a profile: {', '.join(names)}.")
+    answered.front.show(console)
 
 
 def show(lines: list[str], console: Console) -> None:

@@ -1,0 +1,25 @@
+"""Builds the package; all but the copy of the studies is said in pyproject.toml."""
+
+import shutil
+from pathlib import Path
+
+from setuptools import setup
+from setuptools.command.build_py import build_py
+
+
+class BuildWithStudies(build_py):
+    """Puts a copy of studies/ into what is installed, so that `tvimdesign new --example` has them there too."""
+
+    def run(self) -> None:
+        """Build, then copy; an editable installation reads studies/ itself."""
+        super().run()
+        if self.editable_mode:
+            return
+        examples = Path(self.build_lib) / "tvimdesign" / "study" / "examples"
+        shutil.rmtree(examples, ignore_errors=True)
+        examples.mkdir(parents=True)
+        for study in sorted(Path("studies").glob("*.yaml")):
+            shutil.copy(study, examples)
+
+
+setup(cmdclass={"build_py": BuildWithStudies})

@@ -1,0 +1,17 @@
+"""One study that is optimised within seconds, and its result, which the tests of the door share."""
+
+from __future__ import annotations
+
+import pytest
+
+import tvimdesign as tvim
+
+
+@pytest.fixture(scope="session")
+def study() -> tvim.Study:
+    return tvim.example("paper_shear")
+
+
+@pytest.fixture(scope="session")
+def result(study: tvim.Study) -> tvim.Result:
+    return study.run(progress=False)

@@ -1,0 +1,162 @@
+"""A result in Python: the same numbers as the command line's, as quantities, tables, figures and files."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import matplotlib as mpl
+import pandas as pd
+import pytest
+from support import ROOT, Command
+
+import tvimdesign as tvim
+
+
+def test_values_are_quantities_and_choices_words(result: tvim.Result) -> None:
+    mass = result["module_mass"]
+    assert isinstance(mass, tvim.Quantity)
+    assert mass.unit == "g"
+    assert mass.si == pytest.approx(result.design.value("module_mass"), rel=1e-12)
+    assert result["joint_stiffness@hot"].si == pytest.approx(result.design.value("joint_stiffness@hot"))
+    assert result["spring_material"] == "music_wire"
+    with pytest.raises(tvim.InputError, match="did you mean 'module_mass'"):
+        result["modul_mass"]
+
+
+def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result) -> None:
+    table = result.table()
+    assert list(table.columns)[:4] == ["value", "unit", "meaning", "status"]
+    assert set(table.index) == set(result.design.values)
+    assert table.loc["module_mass", ["value", "unit"]].tolist() == [result["module_mass"].value, "g"]
+    assert table.loc["spring_stiffness", "status"] == "binds"
+    assert table.loc["wire_diameter", "status"] == "found"
+    assert table.loc["stroke", "status"] == "set"
+    assert table.loc["spring_density", "status"] == "default"
+    assert table.loc["module_mass", "status"] == "computed"
+    assert set(table[table.status == "found"].index) == set(result.design.study["vary"])
+    torques = result.table("torque")
+    assert 1 < len(torques) < len(table)
+    assert "holding_torque" in torques.index
+
+
+def test_requirements_say_what_holds(result: tvim.Result) -> None:
+    table = result.requirements()
+    asked = table[table.origin == "require"]
+    said = " ".join(asked.limit)
+    assert all(limit["output"] in said for limit in result.design.study["require"])
+    assert (len(asked), table.kept.all()) == (11, True)  # nine limits, one of which is on the least of three
+    assert result.table().loc["holding_torque", "status"] == "binds"
+    assert result.feasible
+
+
+def test_why_names_what_binds(result: tvim.Result) -> None:
+    why = result.why()
+    assert any("spring_stiffness" in sentence and "costs" in sentence for sentence in why.sentences)
+    table = why.table()
+    binds = table[table.stands == "binds"]
+    assert len(binds) == len(why.sentences)
+    assert {"module_mass", "response_time"} <= set(table.columns)
+    assert "<p>" in why._repr_html_()
+
+
+def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result) -> None:
+    before = dict(mpl.rcParams)
+    figures = {name: result.plot(name) for name in result.plots}
+    assert {"cycle", "impedance", "mass", "bounds"} <= set(figures)
+    assert dict(mpl.rcParams) == before
+    for figure in figures.values():
+        assert len(figure.axes) > 0
+        assert figure._repr_png_()[:4] == b"\x89PNG"  # type: ignore[attr-defined]  # what a notebook asks for
+    with pytest.raises(tvim.InputError, match="there are: cycle"):
+        result.plot("cicle")
+
+
+def test_the_command_line_gives_the_same_and_writes_the_same(
+    result: tvim.Result, tvimdesign: Command, tmp_path: Path
+) -> None:
+    done = tvimdesign("run", "studies/paper_shear.yaml", "--no-cad", "--no-plots", "--out", tmp_path / "run")
+    assert done.returncode == 0, done.stderr
+    saved = result.save(tmp_path / "saved", plots=False)
+    names = {path.relative_to(tmp_path / "run") for path in (tmp_path / "run").rglob("*") if path.is_file()}
+    assert {path.relative_to(saved) for path in saved.rglob("*") if path.is_file()} == names
+    told, written = (json.loads((tmp_path / f / "results.json").read_text()) for f in ("run", "saved"))
+    assert written["values"].keys() == told["values"].keys()
+    for name, entry in told["values"].items():
+        assert written["values"][name]["value"] == pytest.approx(entry["value"], rel=1e-9), name
+    assert tvim.read_design(str(saved / "design.json")) == result.design
+
+
+def test_results_in_use_are_not_replaced(result: tvim.Result, tmp_path: Path) -> None:
+    result.save(tmp_path / "x")
+    assert {file.name for file in (tmp_path / "x/plots").iterdir()} >= {"cycle.png", "bounds.png"}
+    with pytest.raises(tvim.InputError, match="holds results already"):
+        result.save(tmp_path / "x")
+    assert result.save(tmp_path / "x", overwrite=True, plots=False) == tmp_path / "x"
+
+
+def test_a_changed_study_is_saved_as_it_is_now(tmp_path: Path) -> None:
+    result = tvim.example("paper_as_published").set(pcl_thickness="1.3 mm").evaluate(progress=False)
+    folder = result.save(tmp_path / "x", plots=False)
+    assert tvim.load(folder / "study.yaml").resolved.module["pcl_thickness"] == pytest.approx(1.3e-3)
+    assert not list(tmp_path.glob("*.json"))
+
+
+def test_evaluating_takes_the_module_as_it_is_drawn(study: tvim.Study) -> None:
+    drawn = study.evaluate(progress=False)
+    assert drawn.status == "evaluated"
+    assert drawn["coil_count"].value == pytest.approx(3.25)
+    assert "evaluated" in str(drawn.why())
+
+
+def test_no_design_is_an_error_that_has_the_closest_one() -> None:
+    study = tvim.Study(
+        mode="shear",
+        vary={"wire_diameter": (1.2, 3.2, "mm"), "coil_diameter": (8, 32, "mm"), "coil_count": [3, 8]},
+        require={"spring_stiffness": ">= 20 N.m/rad", "spring_fatigue_safety": ">= 3"},
+        minimize="module_mass",
+        solver={"starts": 1, "max_iterations": 60},
+    )
+    with pytest.raises(tvim.NoDesignError, match="no design found") as caught:
+        study.run(progress=False)
+    assert isinstance(caught.value, tvim.InfeasibleError)
+    closest = caught.value.result
+    assert not closest.feasible
+    assert (closest.table().status == "broken").any()
+    assert closest.plots == []
+
+
+def test_a_notebook_shows_what_was_asked_and_what_came_out(result: tvim.Result) -> None:
+    shown = result._repr_html_()
+    assert "spring_stiffness &gt;= 5.2 N·m/rad" in shown
+    assert "optimal" in shown
+    assert str(result["module_mass"]) in shown
+
+
+def test_show_prints_what_a_run_prints(result: tvim.Result, capsys: pytest.CaptureFixture[str]) -> None:
+    result.show()
+    assert "The paper's module, re-optimised" in capsys.readouterr().out
+
+
+def test_a_front_is_sought_without_a_folder(tmp_path: Path) -> None:
+    study = tvim.example("front_shear").set(
+        {"front.points": 3, "front.of": ["response_time", "module_mass"], "solver.starts": 1}
+    )
+    result = study.run(progress=False)
+    assert len(result.data["front"]["points"]) >= 3
+    assert "front" in result.plots
+    folder = result.save(tmp_path / "front", plots=False)
+    assert (folder / "front/01.design.json").exists()
+    assert len(pd.read_csv(folder / "front.csv")) == len(result.data["front"]["points"])
+
+
+@pytest.mark.slow
+def test_parts_are_made(result: tvim.Result, tmp_path: Path) -> None:
+    parts = result.parts(tmp_path / "parts", progress=False)
+    assert any(file.suffix == ".step" for file in parts.files)
+    assert (parts.table()["level"] != "failure").all()
+
+
+def test_the_paper_s_module_is_within_reach_of_two_lines() -> None:
+    result = tvim.load(ROOT / "studies/paper_as_published.yaml").run(progress=False)
+    assert result["spring_stiffness"].to("N*m/rad").value == pytest.approx(5.6, rel=0.02)  # the paper's Table I

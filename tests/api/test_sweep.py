@@ -1,0 +1,108 @@
+"""A sweep's cells are the designs that its studies have on their own, in the order of its axes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import tvimdesign as tvim
+
+EVALUATED = {"coil_count": [3.0, 3.5], "wire_diameter": ["2 mm", "2.4 mm", "2.6 mm"]}
+
+
+@pytest.fixture(scope="module")
+def optimised(study: tvim.Study) -> tvim.Sweep:
+    return study.sweep(pcl_thickness=tvim.linspace("0.6 mm", "0.8 mm", 3), progress=False)
+
+
+@pytest.fixture(scope="module")
+def grid() -> tvim.Sweep:
+    return tvim.example("paper_as_published").sweep(EVALUATED, progress=False)
+
+
+def test_a_cell_at_the_optimum_s_own_value_is_the_optimum(optimised: tvim.Sweep, result: tvim.Result) -> None:
+    assert result["pcl_thickness"].value == pytest.approx(0.6, rel=1e-6)  # the end of its range, where it binds
+    first = optimised.table("module_mass", "response_time").iloc[0]
+    assert first.module_mass == pytest.approx(result["module_mass"].value, rel=1e-4)
+    assert first.response_time == pytest.approx(result["response_time"].value, rel=1e-4)
+
+
+def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Sweep) -> None:
+    assert optimised.warm_solves == 2
+    cell = optimised[2]
+    assert cell.result is not None
+    kept = dict(cell.study.resolved.minimize)
+    cold = cell.study.run(progress=False)
+    # The cold run divides by its own start, so its goal is another one: of either goal each design is the best.
+    for one, other in ((cold, cell.result), (cell.result, cold)):
+        reference = one.design.solution["reference"]
+        own, others = (sum(w * r.design.values[n] / reference[n] for n, w in kept.items()) for r in (one, other))
+        assert own <= others * (1 + 1e-5)
+
+
+def test_evaluated_cells_are_those_of_single_evaluations(grid: tvim.Sweep) -> None:
+    table = grid.table("spring_stiffness", "module_mass")
+    assert table[["coil_count", "wire_diameter"]].to_numpy().tolist() == [
+        [pytest.approx(n), pytest.approx(d)] for n in (3.0, 3.5) for d in (2.0, 2.4, 2.6)
+    ]
+    alone = tvim.example("paper_as_published").set(coil_count=3.5, wire_diameter="2.4 mm").evaluate(progress=False)
+    assert table.spring_stiffness[4] == pytest.approx(alone["spring_stiffness"].value, rel=1e-12)
+    assert grid.warm_solves == 0
+
+
+def test_stiffness_goes_with_the_fourth_power_of_the_wire_over_the_coils(grid: tvim.Sweep) -> None:
+    table = grid.table("spring_stiffness")
+    shape = table.wire_diameter**4 / table.coil_count
+    assert np.ptp(table.spring_stiffness / shape) < 1e-9 * float((table.spring_stiffness / shape).iloc[0])
+
+
+def test_units_stand_beside_the_table(grid: tvim.Sweep) -> None:
+    units = grid.table("module_mass").attrs["units"]
+    assert units == {"coil_count": "1", "wire_diameter": "mm", "module_mass": "g"}
+    assert "wire_diameter [mm]" in grid._repr_html_()
+
+
+def test_a_cell_without_a_design_says_why_and_the_others_are_kept() -> None:
+    study = tvim.example("paper_as_published")
+    sweep = study.sweep(pcl_inner_radius=["20 mm", "70 mm"], progress=False)
+    table = sweep.table("module_mass")
+    assert table.status[0] == "evaluated"
+    assert "arc_width" in table.status[1]
+    assert math.isnan(table.module_mass[1])
+    assert sweep[1].result is None
+
+
+def test_requirements_may_be_swept(study: tvim.Study) -> None:
+    lean = study.set({"solver.starts": 1})
+    sweep = lean.sweep({"require.holding_torque": [">= 10 N.m", ">= 14 N.m"]}, progress=False)
+    table = sweep.table("holding_torque", "module_mass")
+    assert list(table["require.holding_torque"]) == [">= 10 N.m", ">= 14 N.m"]
+    assert table.holding_torque.tolist() == [pytest.approx(10.0, rel=1e-4), pytest.approx(14.0, rel=1e-4)]
+    assert sweep.warm_solves == 0
+
+
+@pytest.mark.parametrize(
+    ("axes", "said"),
+    [
+        ({}, "it has no axis"),
+        ({"pcl_thickness": []}, "'pcl_thickness' is no list"),
+        ({"pcl_thickness": "1 mm"}, "is no list"),
+        ({"pcl_thickness": ["1 mm", "1 furlong"]}, "no unit"),
+        ({"pcl_thicknes": ["1 mm"]}, "did you mean 'pcl_thickness'"),
+        ({"pcl_thickness": ["1 mm"] * 101, "current": ["1 A"] * 100}, "the limit is 10000"),
+    ],
+)
+def test_what_cannot_be_swept_is_refused_before_anything_is_solved(
+    study: tvim.Study, axes: dict[str, list[str]], said: str
+) -> None:
+    with pytest.raises(tvim.InputError, match=said):
+        study.sweep(axes, progress=False)
+
+
+def test_a_figure_has_a_line_for_each_value_of_the_second_axis(grid: tvim.Sweep) -> None:
+    (axes,) = grid.plot("spring_stiffness").axes
+    assert len(axes.lines) == 3
+    assert axes.get_xlabel() == "coil count"
+    assert axes.get_ylabel() == "spring stiffness (N·m/rad)"

@@ -1,0 +1,103 @@
+"""`rows` is found by group, by name and by the words engineers use; names are whole at any width."""
+
+from __future__ import annotations
+
+import io
+import json
+from importlib.resources import files
+from typing import Any
+
+import pytest
+import yaml
+from rich.console import Console
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.device import MODES
+from tvimdesign.report import rows
+
+WORDS: dict[str, list[str]] = yaml.safe_load(files("tvimdesign.report").joinpath("row_words.yaml").read_text("utf-8"))
+WIDTHS = (80, 100, 140)
+
+
+@pytest.fixture
+def printed(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """What `rows` prints on a terminal of a width."""
+
+    def call(word: str, width: int, mode: str = "shear") -> str:
+        stream = io.StringIO()
+        monkeypatch.setattr(rows, "wide_console", lambda: Console(file=stream, width=width, highlight=False))
+        rows.print_rows(mode, word, as_json=False)
+        return stream.getvalue()
+
+    return call
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_every_word_finds_rows_that_its_name_alone_does_not_and_every_term_finds_some(mode: str) -> None:
+    every = rows.named_rows(mode)
+    for word, terms in WORDS.items():
+        assert rows.matching(every, word), word
+        for term in terms:
+            assert any(term in f"{row.name} {row.description}".lower() for row in every), f"{word}: {term}"
+
+
+@pytest.mark.parametrize(
+    ("word", "name"),
+    [
+        ("weight", "module_mass"), ("power supply", "peak_voltage"), ("stiffness", "joint_stiffness"),
+        ("damping", "joint_damping"), ("speed", "response_time"), ("size", "envelope_diameter"),
+        ("Power  Supply", "peak_power"), ("bolt", "link_screw"), ("plastic", "pcl_thickness"),
+        ("play", "backlash"), ("lifetime", "spring_fatigue_safety"), ("travel", "stroke"),
+        ("heat sink", "sink_capacity"), ("wire diameter", "wire_diameter"),
+    ],
+)  # fmt: skip
+def test_what_an_engineer_looks_for_is_found(word: str, name: str) -> None:
+    assert name in {row.name for row in rows.matching(rows.named_rows("shear"), word)}
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_the_groups_come_first_with_their_counts(printed: Any, width: int) -> None:
+    text = printed("", width)
+    every = rows.named_rows("shear")
+    groups = {row.group for row in every}
+    for group in groups:
+        (line,) = (line for line in text.splitlines() if line.startswith(f"{group}  "))
+        assert str(sum(row.group == group for row in every)) in line.split()
+    assert len(text.splitlines()) < 40
+    assert max(map(len, text.splitlines())) <= width
+
+
+def test_a_group_is_listed_whole(printed: Any) -> None:
+    text = printed("springs", 100)
+    own = [row for row in rows.named_rows("shear") if row.group == "Springs"]
+    assert all(row.name in text for row in own)
+    assert "module_mass" not in text
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("mode", MODES)
+def test_names_are_never_broken(printed: Any, mode: str, width: int) -> None:
+    groups = {row.group for row in rows.named_rows(mode)}
+    words = set(printed("", width, mode).replace(",", " ").split())
+    for group in groups:
+        words |= set(printed(group, width, mode).split())
+        own = [row for row in rows.named_rows(mode) if row.group == group]
+        assert {rows._plain(row)["name"] for row in own} <= words
+        assert set(rows._important(own)) <= words
+
+
+def test_what_is_asked_for_most_stands_first(printed: Any) -> None:
+    lines = printed("weight", 80).splitlines()
+    assert next(line for line in lines if "mass" in line and not line.startswith("weight")).startswith("module_mass")
+
+
+def test_a_word_that_finds_nothing_is_told_with_the_nearest() -> None:
+    with pytest.raises(InputError, match="did you mean 'weight'"):
+        rows.print_rows("shear", "wieght", as_json=False)
+    with pytest.raises(InputError, match="lists the groups"):
+        rows.print_rows("shear", "qqqq", as_json=False)
+
+
+def test_scripts_have_every_row(capsys: pytest.CaptureFixture[str]) -> None:
+    rows.print_rows("shear", "", as_json=True)
+    assert len(json.loads(capsys.readouterr().out)) == len(rows.named_rows("shear"))

@@ -1,0 +1,201 @@
+"""What helps on the command line: settings for once, shipped studies, completion, and the old word for paper-check."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+from support import ROOT, STUDIES, Command
+
+from tvimdesign.report import completions
+from tvimdesign.study import read_study
+from tvimdesign.study.template import examples
+
+WRONG = ("--set", "pcl_thickness=1,2 mm", "--set", "require.holding_torque=15 N.m")
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["run"],
+        ["check"],
+        ["check", "--deep"],
+        ["simulate", "--test", "creep"],
+        ["compare", "studies/compare_compression.yaml"],
+    ],
+    ids=lambda words: " ".join(words[:2]),
+)
+def test_every_command_that_reads_a_study_takes_settings_and_names_them_as_the_place(
+    tvimdesign: Command, command: list[str], tmp_path: Path
+) -> None:
+    out = [] if command[0] == "check" else ["--out", tmp_path / "out"]
+    done = tvimdesign(*command, "studies/compare_shear.yaml", *WRONG, *out)
+    assert done.returncode == 2
+    assert "--set pcl_thickness=1,2 mm: module.pcl_thickness: '1,2 mm': a decimal comma" in done.stderr
+    assert "--set require.holding_torque=15 N.m: require.holding_torque: " in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Command, tmp_path: Path) -> None:
+    done = tvimdesign("run", "studies/paper_as_published.yaml", "--set", "wire_diameter=2 mm", "--no-cad", "--no-plots",
+                      "--json", "--out", tmp_path / "out")  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert (
+        json.loads(done.stdout)["values"]["wire_diameter"] | {"value": 2.0, "unit": "mm"}
+        == (json.loads(done.stdout)["values"]["wire_diameter"])
+    )
+    kept = tmp_path / "out/study.yaml"
+    assert "# --set wire_diameter=2 mm" in kept.read_text()
+    assert read_study(kept).module["wire_diameter"] == pytest.approx(2e-3)
+
+
+def test_a_study_that_is_not_changed_is_kept_as_it_was_written(tvimdesign: Command, tmp_path: Path) -> None:
+    source = ROOT / "studies/paper_as_published.yaml"
+    assert tvimdesign("run", source, "--no-cad", "--no-plots", "--out", tmp_path / "out").returncode == 0
+    assert (tmp_path / "out/study.yaml").read_bytes() == source.read_bytes()
+
+
+def test_a_setting_changes_what_is_tested(tvimdesign: Command, tmp_path: Path) -> None:
+    def tested(name: str, *settings: str) -> list[float]:
+        done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "step", *settings, "--json",
+                          "--out", tmp_path / name)  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        return [found["value"] for found in json.loads(done.stdout)["findings"] if "value" in found]
+
+    assert tested("as it is") != tested("thicker", "--set", "pcl_thickness=2 mm")
+    assert "# --set pcl_thickness=2 mm" in (tmp_path / "thicker/tested.yaml").read_text()
+
+
+def test_a_design_takes_no_settings(tvimdesign: Command, tmp_path: Path) -> None:
+    done = tvimdesign("simulate", "cad/paper_shear/design.json", "--test", "creep", "--set", "current=1 A",
+                      "--out", tmp_path / "out")  # fmt: skip
+    assert done.returncode == 2
+    assert "--set current=1 A: cad/paper_shear/design.json is a design, which is finished" in done.stderr
+
+
+@pytest.mark.slow
+def test_settings_reach_every_study_of_a_comparison(tvimdesign: Command, tmp_path: Path) -> None:
+    pair = ("studies/compare_shear.yaml", "studies/compare_compression.yaml")
+    settings = ("--set", "current=1.4 A", "--set", "solver.starts=1")
+    done = tvimdesign("compare", *pair, "--points", "0", "--no-plots", *settings, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    for mode in ("shear", "compression"):
+        design = json.loads((tmp_path / f"out/{mode}/drawn.json").read_text())
+        assert design["values"]["current"] == pytest.approx(1.4)
+        assert read_study(tmp_path / f"out/{mode}/study.yaml").module["current"] == pytest.approx(1.4)
+
+
+# --- shipped studies ---
+
+
+def test_the_shipped_studies_are_listed_with_a_line_each(tvimdesign: Command) -> None:
+    lines = tvimdesign("new", "--list").stdout.splitlines()
+    assert lines[::2] == [study.stem for study in STUDIES]
+    assert all(line.startswith("    ") and len(line.split()) > 5 for line in lines[1::2])
+
+
+def test_a_shipped_study_is_copied_and_never_replaces_a_file(tvimdesign: Command, tmp_path: Path) -> None:
+    assert tvimdesign("new", "--example", "wrist_joint", cwd=tmp_path).returncode == 0
+    assert (tmp_path / "wrist_joint.yaml").read_bytes() == (ROOT / "studies/wrist_joint.yaml").read_bytes()
+    assert tvimdesign("new", "mine.yaml", "--example", "paper_shear", cwd=tmp_path).returncode == 0
+    assert read_study(tmp_path / "mine.yaml").mode == "shear"
+    assert "exists already" in tvimdesign("new", "--example", "wrist_joint", cwd=tmp_path).stderr
+    assert "did you mean 'wrist_joint'" in tvimdesign("new", "--example", "wrist_joit", cwd=tmp_path).stderr
+
+
+def test_the_shipped_studies_are_in_the_wheel(tmp_path: Path) -> None:
+    """As installed: the wheel is built from a copy of what it is made of, unpacked, and asked."""
+    source = tmp_path / "source"
+    for folder in ("tvimdesign", "studies"):
+        shutil.copytree(ROOT / folder, source / folder, ignore=shutil.ignore_patterns("__pycache__"))
+    for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, source)
+    code = "from setuptools import build_meta; print(build_meta.build_wheel('..'))"
+    subprocess.run([sys.executable, "-c", code], cwd=source, check=True, capture_output=True)
+    (wheel,) = tmp_path.glob("*.whl")
+    zipfile.ZipFile(wheel).extractall(tmp_path / "installed")
+    asked = subprocess.run(
+        [sys.executable, "-m", "tvimdesign", "new", "--list"], cwd=tmp_path, check=True, capture_output=True, text=True,
+        env={**os.environ, "PYTHONPATH": str(tmp_path / "installed")},
+    )  # fmt: skip
+    assert asked.stdout.splitlines()[::2] == [study.stem for study in STUDIES]
+    assert (tmp_path / "installed/tvimdesign/__init__.pyi").exists()
+
+
+# --- completion ---
+
+
+def offered(words: str, shell: str = "bash") -> list[str]:
+    """What a shell offers for the last of some words."""
+    code = "import sys; sys.argv[0] = 'tvimdesign'; from tvimdesign.cli import main; main()"
+    shells = {
+        "bash": {"COMP_WORDS": words, "COMP_CWORD": str(len(words.split(" ")) - 1)},
+        "zsh": {"_TYPER_COMPLETE_ARGS": words},
+    }
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, check=False, capture_output=True, text=True,
+        env={**os.environ, "_TVIMDESIGN_COMPLETE": f"complete_{shell}", **shells[shell]},
+    )  # fmt: skip
+    assert "Traceback" not in done.stderr
+    return done.stdout.split("\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        ("tvimdesign ru", "run"),
+        ("tvimdesign run studies/paper_sh", "studies/paper_shear.yaml"),
+        ("tvimdesign run stu", "studies/"),
+        ("tvimdesign compare studies/compare_shear.yaml studies/compare_c", "studies/compare_compression.yaml"),
+        ("tvimdesign simulate studies/paper_shear.yaml --test rela", "relaxation"),
+        ("tvimdesign rows wire_dia", "wire_diameter"),
+        ("tvimdesign run studies/paper_shear.yaml --set pcl_thick", "pcl_thickness="),
+        ("tvimdesign new --example wrist_j", "wrist_joint"),
+        ("tvimdesign cad cad/paper_shear/des", "cad/paper_shear/design.json"),
+    ],
+)
+def test_tab_completes(words: str, wanted: str) -> None:
+    assert wanted in offered(words)
+
+
+def test_other_shells_are_answered_too() -> None:
+    assert "relaxation" in "".join(offered("tvimdesign simulate studies/paper_shear.yaml --test rela", "zsh"))
+
+
+def test_the_shell_is_told_how(tvimdesign: Command) -> None:
+    shown = tvimdesign("--help").stdout
+    assert "--install-completion" in shown
+    assert "--show-completion" in shown
+
+
+def test_files_are_those_a_command_reads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("a.yaml", "b.yml", "c.txt", "d.json", ".hidden.yaml"):
+        (tmp_path / name).touch()
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "folder/e.yaml").touch()
+    assert completions.study_files("") == ["a.yaml", "b.yml", "folder/"]
+    assert completions.designs_and_studies("") == ["a.yaml", "b.yml", "d.json", "folder/"]
+    assert completions.study_files("folder/") == ["folder/e.yaml"]
+    assert completions.study_files("./a") == ["./a.yaml"]
+    assert completions.study_files("nowhere/x") == []
+    assert completions.settings("require.holding_t") == ["require.holding_torque="]
+    assert completions.examples("") == list(examples())
+
+
+# --- the old word ---
+
+
+def test_ledger_is_paper_check_with_a_warning(tvimdesign: Command) -> None:
+    new, old = tvimdesign("paper-check", "--json"), tvimdesign("ledger", "--json")
+    assert (new.returncode, old.returncode) == (0, 0)
+    assert json.loads(old.stdout) == json.loads(new.stdout)
+    assert new.stderr == ""
+    assert old.stderr.startswith("Warning: `ledger` is called `paper-check` now")
+    assert "ledger" not in tvimdesign("--help").stdout

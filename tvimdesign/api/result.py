@@ -1,0 +1,233 @@
+"""A study's answer as Python users hold it: quantities, tables, figures, reasons, parts and files."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tvimdesign.api import html
+from tvimdesign.api.quantity import Quantity
+from tvimdesign.api.shown_progress import shown_progress
+from tvimdesign.api.tables import constraint_table, value_table
+from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.units import from_si
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.tables import margin_text, value_text
+from tvimdesign.report.run.answered_study import AnsweredStudy, drawings
+from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.why import sentences, why_rows
+from tvimdesign.study.design import Design, write_design
+from tvimdesign.study.text.mistakes import did_you_mean
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+    from tvimdesign.report.output.results_format import LimitEntry, RunResults
+
+
+class NoDesignError(InfeasibleError):
+    """No design keeps every limit; `result` is where the search ended, the closest design."""
+
+    def __init__(self, message: str, result: Result) -> None:
+        """Keep the result beside the message."""
+        super().__init__(message)
+        self.result = result
+
+
+@dataclass(frozen=True)
+class Reasons:
+    """Why a design is as it is: what the binding limits cost, in sentences and as a table of every limit."""
+
+    sentences: tuple[str, ...]
+    rows: tuple[LimitEntry, ...]
+
+    def table(self) -> pd.DataFrame:
+        """Every limit: how it stands, what is left of it, and what a step of it costs of each output, in percent."""
+        import pandas as pd
+
+        return pd.DataFrame([{**row, **row["sensitivity"]} for row in self.rows]).drop(
+            columns="sensitivity", errors="ignore"
+        )
+
+    def __str__(self) -> str:
+        """The sentences, one a line."""
+        return "\n".join(self.sentences) or "Nothing binds: the study was evaluated, or every limit has some margin."
+
+    def _repr_html_(self) -> str:
+        return "".join(f"<p>{line}</p>" for line in str(self).splitlines())
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What was made of a design: the folder, its files, and the checks on the solids."""
+
+    folder: Path
+    files: tuple[Path, ...]
+    checks: tuple[dict[str, Any], ...]
+
+    def table(self) -> pd.DataFrame:
+        """Every check on the solids: level, what was measured, limit."""
+        import pandas as pd
+
+        return pd.DataFrame(list(self.checks))
+
+    def _repr_png_(self) -> bytes | None:
+        preview = self.folder / "preview.png"
+        return preview.read_bytes() if preview.exists() else None
+
+
+class Result:
+    """What a study came to. `result["module_mass"]` is a quantity, `result["motor"]` the word of a choice."""
+
+    def __init__(self, answered: AnsweredStudy) -> None:
+        """Hold an answer; `study.run()` makes results."""
+        self._answered = answered
+
+    @classmethod
+    def of(cls, answered: AnsweredStudy) -> Result:
+        """The result of an answer. Raises NoDesignError where there is no design."""
+        result = cls(answered)
+        if not answered.result.found:
+            raise NoDesignError(complaint(answered.result, answered.table), result)
+        return result
+
+    @property
+    def name(self) -> str:
+        """The study's name."""
+        return self.design.name
+
+    @property
+    def status(self) -> str:
+        """`evaluated`, `optimal`, or why not."""
+        return self.design.status
+
+    @property
+    def feasible(self) -> bool:
+        """Whether every requirement and every rule of the machine is kept."""
+        return self._answered.result.feasible
+
+    @property
+    def design(self) -> Design:
+        """The design as plain data in SI: what `tvimdesign cad` and `read_design` take and give."""
+        return self._answered.result.design
+
+    @property
+    def data(self) -> RunResults:
+        """Everything there is to know, as `results.json` has it."""
+        return self._answered.reported
+
+    @property
+    def warnings(self) -> list[str]:
+        """Advice that the design does not follow, what was not done, and records in doubt."""
+        advice = [f"{check.text}, by {self._margin(check)}: {check.origin}" for check in self._answered.result.warnings]
+        return [*advice, *map(str, self._answered.failures), *self.data.get("doubts", [])]
+
+    def __getitem__(self, name: str) -> Quantity | Any:
+        """A value by its full name, `row` or `row@point`, in the row's unit; a choice's word. Raises InputError."""
+        design, table = self.design, self._answered.table
+        if name in design.choices:
+            return design.choices[name]
+        if name not in design.values:
+            known = [*design.values, *design.choices]
+            raise InputError(f"the result has no value {name!r}; {did_you_mean(name, known) or '`table()` lists all'}")
+        unit = table.unit(name)
+        return Quantity(from_si(design.values[name], unit), unit)
+
+    def table(self, match: str = "") -> pd.DataFrame:
+        """Every value by name: value, unit, meaning, status, low and high where history leaves it open, group.
+
+        Only those with `match` in their name or meaning, where it is given.
+        """
+        return value_table(self._answered, match)
+
+    def requirements(self) -> pd.DataFrame:
+        """Every requirement and rule of the machine: what is asked, what came out, what is left, whether it holds."""
+        return constraint_table(self._answered)
+
+    def why(self) -> Reasons:
+        """What holds the design back, and what easing it would buy."""
+        found, table = self._answered.result, self._answered.table
+        return Reasons(tuple(sentences(found)), tuple(why_rows(found, table)))
+
+    # --- figures ---
+
+    @property
+    def plots(self) -> list[str]:
+        """Names of the figures there are."""
+        return [drawing.file for drawing in drawings(self._answered)]
+
+    def plot(self, name: str = "cycle") -> Figure:
+        """Draw a figure by name; in a notebook it shows. Raises InputError for a name there is not."""
+        from tvimdesign.api.figures import drawn
+
+        found = {drawing.file: drawing for drawing in drawings(self._answered)}
+        if name not in found:
+            raise InputError(f"the result has no figure {name!r}; there are: {', '.join(found) or 'none'}")
+        return drawn(found[name], self.name)
+
+    def show(self) -> None:
+        """Print the first screen of `tvimdesign run`, without what it says of spread."""
+        from tvimdesign.report.output.progress import wide_console
+        from tvimdesign.report.run.first_screen.run_screen import print_screen
+
+        print_screen(self._answered, wide_console())
+
+    # --- files ---
+
+    def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False, plots: bool = True) -> Path:
+        """Write what `tvimdesign run --no-cad` writes; returns the folder. Raises InputError where it is in use."""
+        from tvimdesign.report.figures.plot_process import PlotProcess
+        from tvimdesign.report.run.first_screen.run_screen import write_summary
+        from tvimdesign.report.run.write_answer import finish, write_answer
+
+        with ResultsFolder(Path(folder), overwrite) as written:
+            write_answer(written, self._answered)
+            write_summary(self._answered, written, {})
+            asked = drawings(self._answered) if plots else []
+            if asked:
+                with PlotProcess() as drawing:
+                    drawing.begin(written.path / "plots", asked, self.name)
+                    drawing.finish()
+            finish(written, self._answered)
+        return Path(folder)
+
+    def parts(
+        self, folder: str | os.PathLike[str], *, overwrite: bool = False, progress: bool = True
+    ) -> Parts:  # fmt: skip
+        """Make the parts into a folder: STEP, print files, drawings, checks. Raises GeometryError where a check fails.
+
+        This takes a minute or so, in processes of its own.
+        """
+        from tvimdesign.report.run.parts_of_design import make_parts_of, plain_report, refuse_failed
+
+        with ResultsFolder(Path(folder), overwrite) as written, shown_progress(progress) as say:
+            report = make_parts_of(write_design(self.design, written.path / "design.json"), written.path, say)
+            refuse_failed(report, written.path)
+            written.finish(self.status, {}, self.design.study)
+        files = tuple(sorted(written.path / name for name in report.files))
+        return Parts(written.path, files, tuple(plain_report(report)["checks"]))
+
+    # --- what it looks like ---
+
+    def _margin(self, check: Any) -> str:
+        return margin_text(check, self._answered.table).lstrip("-+")
+
+    def __repr__(self) -> str:
+        """Name, mode and status in a line."""
+        return f"<Result {self.name!r}: {self.design.mode} mode, {self.status}>"
+
+    def _repr_html_(self) -> str:
+        found, table = self._answered.result, self._answered.table
+        rows = [
+            (check.text, value_text(found, check.output, table), "kept" if check.kept else "broken", margin)
+            for check in found.checks if check.origin == "require" for margin in (margin_text(check, table),)
+        ]  # fmt: skip
+        names = [*self.design.study["vary"], *self.design.study["minimize"]]
+        values = [
+            (name, str(self[name])) for name in names if name in self.design.values or name in self.design.choices
+        ]
+        asked = html.grid(("asked", "got", "", "margin"), rows) + html.grid(("", "value"), values)
+        return html.heading(self.name, f"{self.design.mode} mode, {self.status}") + asked

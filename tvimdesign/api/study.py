@@ -1,0 +1,228 @@
+"""A study as Python users hold it: read from a file or written in Python, changed by copies, answered by a call."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tvimdesign.api import html
+from tvimdesign.api.shown_progress import shown_progress
+from tvimdesign.base.units import format_quantity
+from tvimdesign.base.whole_files import write_whole
+from tvimdesign.study import Range, catalog_of, read_tree
+from tvimdesign.study import Study as ResolvedStudy
+from tvimdesign.study.template import example_text
+from tvimdesign.study.text.mistakes import Mistakes
+from tvimdesign.study.text.python_values import node_of
+from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_text, tree_of_values, tree_yaml, with_value
+
+if TYPE_CHECKING:
+    from tvimdesign.api.result import Result
+    from tvimdesign.api.sweep import Sweep
+
+Values = Mapping[str, Any]
+
+
+def load(path: str | os.PathLike[str]) -> Study:
+    """Read a study file. Raises StudyError with every mistake in it, and InputError where there is no such file."""
+    study = Study._of(tree_of_file(path))
+    _ = study.resolved
+    return study
+
+
+def example(name: str) -> Study:
+    """Read a shipped study by name, such as "paper_shear"; `tvimdesign new --list` lists them. Raises InputError."""
+    return Study._of(tree_of_text(example_text(name), f"{name}.yaml", name, Path()))
+
+
+class Study:
+    """What a module is, what may change, what must hold and what is to be small.
+
+    Every argument is a section of the study file and takes what the file takes: text with its unit ("1.2 mm"), pairs of
+    them for ranges, `{"choose": [...]}`, limits (">= 15 N.m"). A number with its unit may also be `(1.2, "mm")`, a
+    `Quantity` of this package or of pint. A study does not change: `set`, `vary`, `require` and `minimize` return a
+    changed copy, which is read, and refused where it is wrong, when it is first used.
+    """
+
+    _tree: StudyTree
+
+    def __init__(
+        self,
+        *,
+        mode: str,
+        name: str | None = None,
+        description: str | None = None,
+        module: Values | None = None,
+        vary: Values | None = None,
+        require: Values | None = None,
+        minimize: str | Values | None = None,
+        front: Values | None = None,
+        operating_points: Values | None = None,
+        profile: Values | None = None,
+        tolerances: Any = None,
+        robust: Any = None,
+        solver: Values | None = None,
+        write: Values | None = None,
+        catalog: str | os.PathLike[str] | None = None,
+        folder: str | os.PathLike[str] = ".",
+    ) -> None:
+        """Read the study; `catalog` is a folder of the user's records in `folder`. Raises StudyError."""
+        sections = {
+            "name": name, "description": description, "mode": mode, "catalog": catalog, "module": module, "vary": vary,
+            "require": require, "minimize": minimize, "front": front, "operating_points": operating_points,
+            "profile": profile, "tolerances": tolerances, "robust": robust, "solver": solver, "write": write,
+        }  # fmt: skip
+        given = {key: value for key, value in sections.items() if value is not None}
+        self._tree = tree_of_values(given, "Study(...)", Path(folder))
+        _ = self.resolved
+
+    @classmethod
+    def _of(cls, tree: StudyTree) -> Study:
+        study = cls.__new__(cls)
+        study._tree = tree
+        return study
+
+    @cached_property
+    def resolved(self) -> ResolvedStudy:
+        """The study as it was read, every number in SI. Raises StudyError with every mistake."""
+        return read_tree(self._tree)
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self.resolved.name
+
+    @property
+    def mode(self) -> str:
+        """`shear` or `compression`."""
+        return self.resolved.mode
+
+    @property
+    def text(self) -> str:
+        """The study as YAML, as a study file has it; comments of the file it came from are not in it."""
+        return tree_yaml(self._tree)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the study as a file; returns its path."""
+        write_whole(Path(path), self.text.encode())
+        return Path(path)
+
+    # --- changed copies ---
+
+    def set(self, values: Values | None = None, /, **more: Any) -> Study:
+        """A copy with inputs and choices of the module fixed, which are varied no longer; None takes one away.
+
+        A path such as "operating_points.hot.temperature" or "solver.starts" sets what stands there.
+        """
+        return self._changed("set", "", {**(values or {}), **more})
+
+    def vary(self, values: Values | None = None, /, **more: Any) -> Study:
+        """A copy in which these may change too, or in other ranges; None fixes one at its value."""
+        return self._changed("vary", "vary.", {**(values or {}), **more})
+
+    def require(self, values: Values | None = None, /, **more: Any) -> Study:
+        """A copy with these limits in place of earlier ones on the same outputs; None takes them away."""
+        return self._changed("require", "require.", {**(values or {}), **more})
+
+    def minimize(self, output: str | Values | None = None, /, **weights: float) -> Study:
+        """A copy that minimises this output, or these with their weights, and no others."""
+        goal = output if isinstance(output, str) else {**(output or {}), **weights}
+        return self._changed("minimize", "", {"minimize": goal})
+
+    def _changed(self, call: str, section: str, values: Values) -> Study:
+        tree = self._tree
+        for name, value in values.items():
+            source = f"study.{call}({name}={value!r})"
+            problems = Mistakes(source)
+            node = node_of(value, source, problems, name)
+            tree = with_value(tree, f"{section}{name}", node, source, tuple(problems.found))
+        return Study._of(tree)
+
+    # --- answers ---
+
+    def check(self) -> list[str]:
+        """Refuse a study that cannot be answered; return what is doubtful about its records.
+
+        Raises StudyError for every mistake, InputError for a module that cannot be, InfeasibleError for limits that
+        bounds prove impossible.
+        """
+        from tvimdesign.device import table_for
+        from tvimdesign.report.run.check_study import refuse_what_cannot_be
+        from tvimdesign.report.run.record_checks import record_checks
+
+        study = refuse_what_cannot_be(self.resolved)
+        return record_checks(study, catalog_of(study), table_for(study.mode))
+
+    def run(self, *, sensitivities: bool = False, prove: bool = False, progress: bool = True) -> Result:
+        """Evaluate or optimise the study, as `tvimdesign run` does, without writing a file.
+
+        Raises NoDesignError, which has the closest design, where no design keeps every limit.
+        """
+        from tvimdesign.api.result import Result
+        from tvimdesign.report.run.answered_study import answer_study
+
+        with shown_progress(progress) as say:
+            return Result.of(answer_study(self._tree, say, sensitivities=sensitivities, prove=prove))
+
+    def evaluate(self, *, progress: bool = True) -> Result:
+        """Evaluate the module as it is drawn: what may change stands at its start, and nothing is optimised."""
+        from tvimdesign.api.result import Result
+        from tvimdesign.report.run.answered_study import answer_study
+
+        with shown_progress(progress) as say:
+            return Result.of(answer_study(self._tree, say, drawn_only=True))
+
+    def sweep(
+        self, axes: Mapping[str, Sequence[Any]] | None = None, /, *, progress: bool = True, **more: Sequence[Any]
+    ) -> Sweep:
+        """Answer the study at every value of an axis, or of a grid of several; each value is set as `set` does.
+
+        What else may change is optimised at each, from its neighbour's optimum where that can be done. A cell without
+        a design is one of the table, with its reason. Raises StudyError for a value that cannot be set.
+        """
+        from tvimdesign.api.sweep import swept
+
+        return swept(self, {**(axes or {}), **more}, progress)
+
+    # --- what it looks like ---
+
+    def __repr__(self) -> str:
+        """Name, mode and task in a line."""
+        study = self.resolved
+        return f"<Study {study.name!r}: {_task(study)}>"
+
+    def _repr_html_(self) -> str:
+        study = self.resolved
+        rows = [(f"module.{name}", str(value)) for name, value in _written(self._tree, "module")]
+        rows += [(f"vary.{name}", _range(name, study)) for name in study.vary]
+        rows += [(f"require.{limit.output}", limit.text) for limit in study.require]
+        rows += [("minimize", ", ".join(f"{name}: {weight:g}" for name, weight in study.minimize.items()) or "nothing")]
+        return html.heading(study.name, _task(study)) + html.grid(("", "what the study says"), rows)
+
+
+def _task(study: ResolvedStudy) -> str:
+    what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
+    return f"{study.mode} mode, {what}, {len(study.require)} requirements"
+
+
+def _written(tree: StudyTree, section: str) -> list[tuple[str, Any]]:
+    entries = getattr(tree.section(section), "entries", {})
+    return [(name, getattr(value, "value", "...")) for name, (_, value) in entries.items()]
+
+
+def _range(name: str, study: ResolvedStudy) -> str:
+    from tvimdesign.device import Choice, table_for
+
+    row, vary = table_for(study.mode).quantity(name), study.vary[name]
+    if isinstance(vary, Range):
+        values: Sequence[float | str] = (vary.lower, vary.upper)
+    else:
+        values = vary.values
+    shown = [
+        value if isinstance(value, str) or isinstance(row, Choice) else format_quantity(value, row.unit)
+        for value in values
+    ]
+    return " to ".join(map(str, shown)) if isinstance(vary, Range) else "one of " + ", ".join(map(str, shown))

@@ -1,0 +1,74 @@
+"""An answer's tables as pandas data frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tvimdesign.device import Input, Table
+from tvimdesign.report.output.tables import NOTHING, check_row
+from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.study.design import Design
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
+    """Every value by full name, with unit, meaning and status; infinite where something never happens."""
+    import pandas as pd
+
+    design, table = answered.result.design, answered.table
+    stands = _stands(answered)
+    rows = []
+    for name, entry in answered.reported["values"].items():
+        if match.lower() not in f"{name} {entry['description']}".lower():
+            continue
+        rows.append({
+            "name": name,
+            "value": float("inf") if entry["value"] is None else entry["value"],
+            "unit": entry["unit"],
+            "meaning": entry["description"],
+            "status": stands.get(name) or _status(name, design, table),
+            "low": entry.get("low"),
+            "high": entry.get("high"),
+            "group": entry["group"],
+        })  # fmt: skip
+    columns = ["name", "value", "unit", "meaning", "status", "low", "high", "group"]
+    return pd.DataFrame(rows, columns=columns).astype({"low": float, "high": float}).set_index("name")
+
+
+def constraint_table(answered: AnsweredStudy) -> pd.DataFrame:
+    """Every requirement and rule: limit, value, unit, margin and its unit, whether it is kept, where it is from."""
+    import pandas as pd
+
+    return pd.DataFrame([check_row(check, answered.table) for check in answered.result.checks])
+
+
+def _stands(answered: AnsweredStudy) -> dict[str, str]:
+    """How each output stands that the study limits: `broken`, `binds` or `kept`, the worst of its limits."""
+    order = ("kept", "binds", "broken")
+    found: dict[str, str] = {}
+    for check in answered.result.checks:
+        if check.origin != "require":
+            continue
+        stand = "broken" if not check.kept else "binds" if check.margin <= NOTHING else "kept"
+        found[check.output] = max(stand, found.get(check.output, "kept"), key=order.index)
+    for limit in answered.study.require:  # a limit on what is the least of several is put on each of them
+        several = [found[name] for name in _all_of(limit.output, answered.table) if name in found]
+        found |= {limit.output: max(several, key=order.index)} if several else {}
+    return found
+
+
+def _all_of(name: str, table: Table) -> list[str]:
+    base, at, point = name.partition("@")
+    return [f"{part}{at}{point}" for part in table.output(base).least_of]
+
+
+def _status(name: str, design: Design, table: Table) -> str:
+    """What a value is: found by the optimiser, set by the study, a default, or computed."""
+    base, _, point = name.partition("@")
+    if not isinstance(table.quantity(name), Input):
+        return "computed"
+    if base in design.study["vary"]:
+        return "found"
+    return "set" if base in design.study["module"] or point else "default"

@@ -1,0 +1,74 @@
+"""What a shell offers when the user presses Tab: study files, tests, examples, names of rows and of what is set."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+_STUDIES = (".yaml", ".yml")
+
+
+def study_files(incomplete: str) -> list[str]:
+    """Study files and folders that begin so; hidden ones are left out."""
+    return _files(incomplete, _STUDIES)
+
+
+def designs_and_studies(incomplete: str) -> list[str]:
+    """The same, and designs."""
+    return _files(incomplete, (*_STUDIES, ".json"))
+
+
+def tests(incomplete: str) -> list[str]:
+    """Virtual tests."""
+    from tvimdesign.virtual_tests.registry import TESTS
+
+    return _beginning(TESTS, incomplete)
+
+
+def examples(incomplete: str) -> list[str]:
+    """Shipped studies."""
+    from tvimdesign.study.template import examples
+
+    return _beginning(examples(), incomplete)
+
+
+def modes(incomplete: str) -> list[str]:
+    """Modes of a module."""
+    from tvimdesign.device import MODES
+
+    return _beginning(MODES, incomplete)
+
+
+def rows(incomplete: str) -> list[str]:
+    """Names of rows of either mode."""
+    from tvimdesign.device import MODES
+    from tvimdesign.report.rows import named_rows
+
+    return _beginning(dict.fromkeys(row.name for mode in MODES for row in named_rows(mode)), incomplete)
+
+
+def settings(incomplete: str) -> list[str]:
+    """Inputs and choices, and outputs after `require.`, each with the `=` of a setting."""
+    from tvimdesign.device import MODES, Output
+    from tvimdesign.report.rows import named_rows
+
+    every = [row for mode in MODES for row in named_rows(mode)]
+    names = [f"require.{row.name}=" if isinstance(row, Output) else f"{row.name}=" for row in every]
+    return _beginning(dict.fromkeys(names), incomplete)
+
+
+def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
+    return [name for name in names if name.startswith(incomplete)]
+
+
+def _files(incomplete: str, endings: tuple[str, ...]) -> list[str]:
+    start = Path(incomplete or ".")
+    folder, begin = (start, "") if not incomplete or incomplete.endswith("/") else (start.parent, start.name)
+    prefix = incomplete[: len(incomplete) - len(begin)] if begin else incomplete
+    try:
+        found = sorted(folder.iterdir())
+    except OSError:
+        return []
+    shown = [path for path in found if path.name.startswith(begin) and not path.name.startswith(".")]
+    folders = [f"{prefix}{path.name}/" for path in shown if path.is_dir()]
+    return [f"{prefix}{path.name}" for path in shown if path.suffix in endings] + folders

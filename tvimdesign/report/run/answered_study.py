@@ -1,0 +1,135 @@
+"""A study answered, with all that is told of it: what every way to show, write or print an answer starts from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table, table_for
+from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.progress import Progress
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.results_format import RunResults
+from tvimdesign.report.output.tables import results
+from tvimdesign.report.run.front_report import FrontOfRun
+from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
+from tvimdesign.report.run.record_checks import record_checks
+from tvimdesign.report.run.refusal import refuse_unfit
+from tvimdesign.report.run.why import why
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.solve.search import Search, optimize
+from tvimdesign.study import Study, catalog_of, drawn, read_tree
+from tvimdesign.study.tree import StudyTree
+
+
+@dataclass
+class AnsweredStudy:
+    """A study, what it came to, and what could not be done."""
+
+    tree: StudyTree
+    study: Study
+    table: Table
+    catalog: Catalog
+    result: StudyResult
+    front: FrontOfRun
+    reported: RunResults
+    """Everything a script wants to know: the content of results.json."""
+    failures: list[TvimError] = field(default_factory=list)
+    sensitivities: str = ""
+    """The table of sensitivities as CSV, where it was asked for."""
+    heat_map: dict[str, Any] = field(default_factory=dict)
+    """What its figure is drawn from."""
+
+
+def answer_study(
+    tree: StudyTree,
+    progress: Progress,
+    *,
+    prove: bool = False,
+    drawn_only: bool = False,
+    sensitivities: bool = False,
+    folder: ResultsFolder | None = None,
+    search: Search = optimize,
+    early: Callable[[StudyResult], None] = lambda _: None,
+) -> AnsweredStudy:
+    """Read and answer a study: evaluate or optimise it, and seek its front, which a `folder` lets go on later.
+
+    With `drawn_only` nothing is optimised: what may change stands at its start. `early` is told the answer before the
+    front is sought. Raises InputError, and InfeasibleError
+    for what no search can mend, which bounds prove first; a search that finds no design is a result.
+    """
+    study = read_tree(tree)
+    study = proving(study) if prove else study
+    table, catalog = table_for(study.mode), catalog_of(study)
+    study = drawn(study, catalog, table) if drawn_only else study
+    front = FrontOfRun(study, table, folder)
+    refuse_unfit(study, catalog, table, progress)
+    found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs, search=search)
+    early(found)
+    answered = AnsweredStudy(tree, study, table, catalog, found, front, _reported(found, table))
+    answered.reported["doubts"] = record_checks(study, catalog, table)
+    if found.found and (sensitivities or study.write.sensitivities):
+        progress("differentiating the outputs")
+        with noting(answered.failures):
+            _differentiate(answered)
+    front.seek(found, progress, answered.reported, answered.failures)
+    progress("")
+    return answered
+
+
+def proving(study: Study) -> Study:
+    """The study with every combination of listed choices solved."""
+    return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
+
+
+def _reported(found: StudyResult, table: Table) -> RunResults:
+    reported = cast("RunResults", results(found, table))
+    reported["why"] = why(found, table)
+    if found.solution:
+        reported["starts"] = starts_reported(found)
+        reported["conflict_set"] = conflicts_reported(found.solution.conflict_set)
+    return reported
+
+
+def _differentiate(answered: AnsweredStudy) -> None:
+    """Add what every variable does to every output. Raises SimulationError."""
+    from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
+
+    derivatives, resolved = sensitivities(answered.result, answered.catalog, answered.table)
+    answered.sensitivities = sensitivities_csv(derivatives, resolved)
+    answered.reported["sensitivities_left_out"] = list(derivatives.left_out)
+    answered.heat_map = heat_map(derivatives, resolved)
+
+
+def drawings(answered: AnsweredStudy) -> list[Drawing]:
+    """Every figure of an answer, with what it is drawn from; none where there is no design."""
+    from tvimdesign.report.run import run_plot_data
+
+    if not answered.result.found:
+        return []
+    found = run_plot_data.drawings(answered.result, answered.table)
+    if answered.heat_map.get("values"):
+        found.append(Drawing("sensitivities", "sensitivity_figure.sensitivities", answered.heat_map))
+    return found + answered.front.drawings()
+
+
+@contextmanager
+def noting(failures: list[TvimError]) -> Iterator[None]:
+    """Keep a failure for the end, so that what else can be done is done; wrong input stays an error of its own."""
+    try:
+        yield
+    except InputError:
+        raise
+    except TvimError as error:
+        failures.append(error)
+
+
+def done_in_part(failures: list[TvimError]) -> TvimError:
+    """What is told last where something was not done."""
+    error = TvimError("done in part: " + "; ".join(str(failure) for failure in failures))
+    error.exit_code = 4
+    return error

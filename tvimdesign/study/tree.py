@@ -1,0 +1,207 @@
+"""A study as it is written, a tree of sections and values: from a file or from Python, with the changes made since."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping as Mapped
+from collections.abc import Sequence as Sequenced
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, quoted, step
+from tvimdesign.study.text.named_file import printable
+from tvimdesign.study.text.python_values import node_of
+from tvimdesign.study.text.renamed import new_name, renamed
+from tvimdesign.study.text.source import check_characters, read_text
+from tvimdesign.study.text.values import misfit
+from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text, compose
+from tvimdesign.study.text.yaml_writer import yaml_of
+
+SECTIONS = (
+    "tvimdesign",
+    "name",
+    "description",
+    "mode",
+    "catalog",
+    "module",
+    "vary",
+    "require",
+    "minimize",
+    "front",
+    "operating_points",
+    "profile",
+    "tolerances",
+    "robust",
+    "solver",
+    "write",
+)
+"""The keys of a study, in the order in which it is usually written."""
+_OF_A_SEARCH = ("vary", "minimize", "front")
+"""The sections that go with the last variable."""
+_LONGEST_SETTING = 100
+
+
+@dataclass(frozen=True)
+class StudyTree:
+    """What was written, before it is read as a study."""
+
+    root: Mapping
+    file: str
+    """What messages call it."""
+    name: str
+    """The study's name, unless it says one."""
+    folder: Path
+    """Where its folder of records is looked for."""
+    changes: tuple[str, ...] = ()
+    """The calls and options that changed it."""
+    problems: tuple[Mistake, ...] = ()
+    """What is wrong with its form already; the reader adds the rest."""
+    path: Path | None = None
+    """Its file, where it has one."""
+
+    def section(self, name: str) -> Node | None:
+        """What stands under one of the study's keys."""
+        found = self.root.entries.get(name)
+        return found[1] if found else None
+
+
+def tree_of_text(source: str, file: str, name: str, folder: Path) -> StudyTree:
+    """The tree of a study's text. Raises StudyError where it is no YAML, or no study."""
+    problems = Mistakes(file)
+    root = compose(check_characters(source, problems), problems)
+    if not isinstance(root, Mapping):
+        misfit(problems, root, "", "a study: lines such as 'mode: shear'")
+        problems.stop()
+    assert isinstance(root, Mapping)  # else the problems have stopped it
+    return StudyTree(renamed(root, file), file, name, folder, problems=tuple(problems.found))
+
+
+def tree_of_file(path: str | os.PathLike[str], settings: Sequenced[str] = ()) -> StudyTree:
+    """The tree of a study file, with `name=value` settings made. Raises StudyError, and InputError for no file."""
+    path = Path(path)
+    file = printable(path)
+    tree = tree_of_text(read_text(path, Mistakes(file)), file, path.stem, path.parent)
+    return with_settings(replace(tree, path=path), settings)
+
+
+def tree_of_values(values: Mapped[str, Any], file: str, folder: Path) -> StudyTree:
+    """The tree of a study given as Python values, by section."""
+    problems = Mistakes(file)
+    root = node_of(values, file, problems)
+    assert isinstance(root, Mapping)  # as `values` is one
+    return StudyTree(renamed(root, file), file, "study", folder, problems=tuple(problems.found))
+
+
+def tree_yaml(tree: StudyTree) -> str:
+    """The study as text, with where it is from and what changed it in the first lines."""
+    changes = "".join(f"# {change}\n" for change in (tree.file, *tree.changes))
+    return changes + yaml_of(tree.root)
+
+
+def study_file(tree: StudyTree) -> str | bytes:
+    """The study as its author wrote it, comments and all; as it is now where options or Python changed it."""
+    return tree_yaml(tree) if tree.changes or tree.path is None else tree.path.read_bytes()
+
+
+def with_settings(tree: StudyTree, settings: Sequenced[str]) -> StudyTree:
+    """The tree with every setting made, each of the form `name=value`; what none can be is a problem of the tree."""
+    for setting in settings:
+        try:
+            tree = _with_setting(tree, setting)
+        except StudyError as error:
+            tree = replace(tree, problems=(*tree.problems, *error.problems))
+    return tree
+
+
+def _with_setting(tree: StudyTree, setting: str) -> StudyTree:
+    name, equals, value = setting.partition("=")
+    problems = Mistakes(_short(f"--set {setting}"))
+    if not equals or not name.strip():
+        expected = 'name=value, such as --set pcl_thickness="1.2 mm"'
+        problems.add(At(0, 0), "", "there is no '=' after a name", expected)
+        problems.stop()
+    node = _setting_node(value, problems)
+    return with_value(tree, name.strip(), node, problems.file, tuple(problems.found))
+
+
+def _setting_node(value: str, problems: Mistakes) -> Node:
+    """What stands behind `=`: a list or a mapping in YAML's brackets, else text as it is."""
+    if not value.lstrip().startswith(("[", "{")):
+        return node_of(value, problems.file, problems)
+    try:
+        return _placed(compose(check_characters(value, problems), problems), problems.file)
+    except StudyError as error:
+        raise StudyError(replace(problem, line=0, column=0) for problem in error.problems) from None
+
+
+def _placed(node: Node, file: str) -> Node:
+    """The node as one that comes from an option."""
+    if isinstance(node, Mapping):
+        entries = {
+            name: (replace(key, line=0, column=0, file=file), _placed(value, file))
+            for name, (key, value) in node.entries.items()
+        }
+        return Mapping(0, 0, entries, file)
+    if isinstance(node, Sequence):
+        return replace(node, line=0, column=0, items=[_placed(item, file) for item in node.items], file=file)
+    return replace(node, line=0, column=0, file=file)
+
+
+def with_value(tree: StudyTree, name: str, value: Node, source: str, problems: tuple[Mistake, ...] = ()) -> StudyTree:
+    """The tree with one value set, or taken away where the value is empty.
+
+    A `name` without dots is an input or a choice of the module: it is fixed, so it is varied no longer. A section, or
+    a path such as `require.holding_torque` or `operating_points.hot.temperature`, is set as it stands.
+    `problems` are those of the value. Raises StudyError where a path leads nowhere.
+    """
+    source = _short(source)
+    steps = name.split(".")
+    if len(steps) > 1 and steps[0] not in SECTIONS:
+        mistakes = Mistakes(source)
+        mistakes.unknown(At(0, 0), "", f"section: {quoted(steps[0])}", steps[0], SECTIONS)
+        mistakes.stop()
+    root = tree.root
+    if len(steps) == 1 and name not in SECTIONS:
+        root = _without_variable(root, new_name(name))
+        steps = ["module", name]
+    root = _put(root, [new_name(word) for word in steps], value, source, "")
+    changes = tree.changes if tree.changes[-1:] == (source,) else (*tree.changes, source)
+    return replace(tree, root=renamed(root, source), changes=changes, problems=(*tree.problems, *problems))
+
+
+def _without_variable(root: Mapping, name: str) -> Mapping:
+    """The study with a variable less; with the last one goes all that a search needs."""
+    vary = root.entries.get("vary")
+    if vary is None or not isinstance(vary[1], Mapping) or name not in vary[1].entries:
+        return root
+    left = {key: value for key, value in vary[1].entries.items() if key != name}
+    if not left:
+        return replace(root, entries={key: value for key, value in root.entries.items() if key not in _OF_A_SEARCH})
+    return replace(root, entries={**root.entries, "vary": (vary[0], replace(vary[1], entries=left))})
+
+
+def _put(node: Mapping, steps: Sequenced[str], value: Node, source: str, path: str) -> Mapping:
+    """A mapping with the value at the end of the steps, everything else as it was."""
+    first, *rest = steps
+    where = step(path, first)
+    entries = dict(node.entries)
+    key, old = entries.get(first, (Text(0, 0, first, file=source), None))
+    if rest:
+        inner = Mapping(0, 0, {}, source) if old is None or (isinstance(old, Text) and old.empty) else old
+        if not isinstance(inner, Mapping):
+            problems = Mistakes(source)
+            problems.add(At(0, 0), where, "is no mapping, so nothing stands in it", f"a value for {where} itself")
+            problems.stop()
+        assert isinstance(inner, Mapping)  # else the problems have stopped it
+        entries[first] = (key, _put(inner, rest, value, source, where))
+    elif isinstance(value, Text) and value.empty:
+        entries.pop(first, None)
+    else:
+        entries[first] = (Text(0, 0, first, file=source), value)
+    return replace(node, entries=entries)
+
+
+def _short(source: str) -> str:
+    shown = printable(Path(source))
+    return shown if len(shown) <= _LONGEST_SETTING else shown[: _LONGEST_SETTING - 3] + "..."
