@@ -64,9 +64,7 @@ def run(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with a front where an earlier run in that folder was stopped.")
     ] = False,
-    prove: Annotated[
-        bool, typer.Option("--prove", help="Solve or bound every combination of listed choices as well.")
-    ] = False,
+    prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
     json: AsJson = False,
 ) -> None:
@@ -88,7 +86,7 @@ def check(
     ] = False,
     json: AsJson = False,
 ) -> None:
-    """Read a study and say everything that is wrong with it, limits that bounds prove impossible included."""
+    """Read a study and say everything that is wrong with it, limits that cannot hold together included."""
     if deep:
         from tvimdesign.report.run.diagnostics import check_deep
 

@@ -30,7 +30,8 @@ CAD_TIME_LIMIT = 300.0  # s
 def check_study(path: Path, *, proof: bool = True) -> Study:
     """Read a study and everything it names. Raises InputError with all that is wrong with it.
 
-    Limits that bounds prove impossible are looked for as well, which takes half a second, unless `proof` is not asked.
+    Limits that arithmetic alone cannot keep are looked for as well, which takes half a second, unless `proof` is not
+    asked.
     """
     from tvimdesign.report.run.refusal import refuse_unfit
     from tvimdesign.solve.nlp.constraints import refuse_impossible
