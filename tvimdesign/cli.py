@@ -116,6 +116,14 @@ def new(
 
 
 @app.command()
+def schema() -> None:
+    """Print the JSON Schema of studies, with which an editor knows names, units and descriptions."""
+    from tvimdesign.study.schema import schema_text
+
+    typer.echo(schema_text(), nl=False)
+
+
+@app.command()
 def cad(
     design: Annotated[Path, typer.Argument(metavar="DESIGN|STUDY", help="design.json of a run, or a study file.")],
     out: Out = None,

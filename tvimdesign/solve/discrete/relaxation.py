@@ -49,7 +49,7 @@ class Relaxation:
         return self._screen.impossible({}, self.optimizer.model.start)
 
     def starts(self, most: int | None = None) -> list[Run]:
-        """A run from every start, or from so many at `most`, with every size free; and what different optima they are."""
+        """A run from every start, or so many at `most`, with every size free; and what different optima they are."""
         runs: list[Run] = []
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)

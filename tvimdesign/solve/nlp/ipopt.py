@@ -43,8 +43,8 @@ def solver_of(
     function: Any, asked: SolverOptions, known: Iterable[Any] = (), *, warm: bool = False, of_parameters: bool = True
 ) -> Any:
     """IPOPT for a problem, a function of `NLP`'s names; solvers of the same problem that are `known` lend their
-    derivatives, which are most of the work of building one. The multipliers `of_parameters` can be left out: where a run
-    ends at no geometry CasADi cannot compute them, and warns.
+    derivatives, which are most of the work of building one. The multipliers `of_parameters` can be left out: where a
+    run ends at no geometry CasADi cannot compute them, and warns.
     """
     most = asked.max_iterations
     ipopt: dict[str, Any] = {
