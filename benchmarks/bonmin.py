@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import time
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
 from typing import Any
@@ -50,11 +51,14 @@ class Chosen:
 def best_by_bonmin(study: Study, reference: dict[str, float]) -> Chosen:
     """Solve a study of listed sizes from its optimum between them; in a process of its own.
 
-    Bonmin prints a line for each problem whatever it is told, and ends the interpreter where the first problem it looks
-    into reaches the limit of iterations.
+    Bonmin prints a line for each problem whatever it is told, and ends the interpreter where a problem it looks into
+    reaches the limit of iterations: then there is no success.
     """
-    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-        return pool.submit(_alone, study, reference).result()
+    try:
+        with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+            return pool.submit(_alone, study, reference).result()
+    except BrokenProcessPool:
+        return Chosen(success=False, objective=np.inf, choices={}, seconds=0.0)
 
 
 def _alone(study: Study, reference: dict[str, float]) -> Chosen:

@@ -10,7 +10,7 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_records, discrete_sizes, with_records
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes
 from tvimdesign.solve.discrete.enumeration import enumerate_all
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
@@ -18,6 +18,7 @@ from tvimdesign.solve.infeasibility.reach import refuse_unreachable
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, SolverEffort, Standard, YieldReached
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
 

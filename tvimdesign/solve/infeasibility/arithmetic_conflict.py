@@ -13,11 +13,11 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.solve.discrete.discrete_choices import discrete_records, with_records
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.solution import ConflictSet
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.study import ProfileOptions, Study
 
 _STARTS = 5
