@@ -32,8 +32,8 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study
 
 _OPTIONS = {
-    "algorithm": "B-BB", "variable_selection": "most-fractional", "bb_log_level": 0, "print_level": 0, "sb": "yes",
-    "linear_solver": "mumps", "mumps_pivtol": 1e-2, "mu_init": 1e-3, "tol": 1e-8, "max_iter": 300,
+    "algorithm": "B-BB", "bb_log_level": 0, "print_level": 0, "sb": "yes",
+    "linear_solver": "mumps", "mumps_pivtol": 1e-2, "mu_init": 1e-3, "tol": 1e-8,
 }  # fmt: skip
 
 
@@ -51,8 +51,8 @@ class Chosen:
 def best_by_bonmin(study: Study, reference: dict[str, float]) -> Chosen:
     """Solve a study of listed sizes from its optimum between them; in a process of its own.
 
-    Bonmin prints a line for each problem whatever it is told, and ends the interpreter where a problem it looks into
-    reaches the limit of iterations: then there is no success.
+    Bonmin prints a line for each problem whatever it is told, and may end the interpreter where a problem in its tree
+    does not converge (so it did with `most-fractional` branching): then there is no success.
     """
     try:
         with ProcessPoolExecutor(1, get_context("spawn")) as pool:
