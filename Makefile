@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-front bench-designs check-cad lint format types contracts schema cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-front bench-designs check-cad lint format types contracts schema units cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -68,8 +68,10 @@ format: $(STAMP)  ## let ruff put the code in form
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-schema: $(STAMP)  ## write the study's JSON Schema from the table, and the usual units as pint reads them
-	$(BIN)/python -m tvimdesign.study.schema
+schema: $(STAMP)  ## write study.schema.json, for editors, from the table
+	$(BIN)/tvimdesign schema > study.schema.json
+
+units: $(STAMP)  ## write the usual units as pint reads them
 	$(BIN)/python -m tvimdesign.base.units
 
 # What is large is left out: STL beside 3MF, assemblies and PDF but for the first module, print files of milled ones.

@@ -84,9 +84,7 @@ def run(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with a front where an earlier run in that folder was stopped.")
     ] = False,
-    prove: Annotated[
-        bool, typer.Option("--prove", help="Solve or bound every combination of listed choices as well.")
-    ] = False,
+    prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
     settings: Settings = None,
     json: AsJson = False,
@@ -110,7 +108,7 @@ def check(
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
-    """Read a study and say everything that is wrong with it, limits that bounds prove impossible included."""
+    """Read a study and say everything that is wrong with it, limits that cannot hold together included."""
     from tvimdesign.report.run.check_study import describe, refuse_what_cannot_be
     from tvimdesign.study import read_tree
     from tvimdesign.study.tree import tree_of_file
@@ -152,6 +150,14 @@ def new(
     except OSError as error:
         raise InputError(f"{file}: cannot be written: {error.strerror}") from error
     typer.echo(f"{file} written; next: tvimdesign run {file}")
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON Schema of studies, with which an editor knows names, units and descriptions."""
+    from tvimdesign.study.schema import schema_text
+
+    typer.echo(schema_text(), nl=False)
 
 
 @app.command()

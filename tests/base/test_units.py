@@ -182,7 +182,7 @@ def test_pint_loads_only_when_asked() -> None:
 
 
 def test_the_usual_units_are_what_pint_reads() -> None:
-    assert json.loads(USUAL_UNITS.read_text(encoding="utf-8")) == read_by_pint(), "run `make schema`"
+    assert json.loads(USUAL_UNITS.read_text(encoding="utf-8")) == read_by_pint(), "run `make units`"
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])

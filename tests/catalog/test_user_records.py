@@ -8,6 +8,7 @@ import pytest
 
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.catalog import Catalog, check_records
+from tvimdesign.device.core.joint_impedance import melt_modes
 
 GOOD = """
 title: A module I measured
@@ -125,24 +126,120 @@ PCL = Path(__file__).parents[2] / "tvimdesign/catalog/data/polymers/pcl_80k.yaml
 @pytest.mark.parametrize(
     ("good", "bad", "said"),
     [
-        ("[2.068841e-3, 130775.3]", "[2.068841e-3, -3.5]",
-         "tables.melt_spectrum.rows[3].modulus: -3.5 does not do: it must be greater than zero"),
         ("[0.1, 0.07545]", "[0, 0.07545]",
          "tables.solid_spectrum.rows[4].relaxation_time: 0 does not do: it must be greater than zero"),
         ("[10, 0.07414]", "[0.5, 0.07414]",
          "tables.solid_spectrum.rows[3].relaxation_time: 1 does not do: it must be below the row's before"),
         ("[10, 0.07414]", "[1, 0.07414]",
          "tables.solid_spectrum.rows[3].relaxation_time: 1 does not do: it must be below the row's before"),
-        ("      - [0.1, 0.07545]\n", "", "melt_spectrum has 6, solid_spectrum has 5 rows"),
     ],
 )  # fmt: skip
-def test_a_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:
+def test_a_solid_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:
     text = PCL.read_text(encoding="utf-8")
     assert good in text
     with pytest.raises(CatalogError) as caught:
         put(tmp_path, text.replace(good, bad, 1), category="polymers").record("polymers", "mine")
     assert said in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
+
+
+OWN_SPECTRUM = """
+title: A melt I measured
+based_on: pcl_80k
+values:
+  zero_shear_viscosity: {value: 3500, unit: Pa*s, source: our rheometer, status: measured}
+  plateau_modulus: {value: 1000, unit: kPa, source: our rheometer, status: measured}
+tables:
+  melt_spectrum:
+    columns: {relaxation_time: s, modulus: Pa}
+    rows: [[1e-2, 2.5e5], [4e-3, 2.4e5], [1e-4, 3e5], [1e-5, 1e5], [1e-6, 6e4], [1e-7, 5e4]]
+    source: our rheometer
+    status: measured
+"""
+"""The sum of modulus times time is 3491 Pa s, that of the moduli 1.000 MPa."""
+
+
+def test_a_spectrum_of_ones_own_is_taken_where_it_agrees_with_viscosity_and_plateau(tmp_path: Path) -> None:
+    record = put(tmp_path, OWN_SPECTRUM, category="polymers").record("polymers", "mine")
+    assert melt_modes(record) == [(1e-2, 2.5e5), (4e-3, 2.4e5), (1e-4, 3e5), (1e-5, 1e5), (1e-6, 6e4), (1e-7, 5e4)]
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "said"),
+    [
+        ("3500", "3900", "values.zero_shear_viscosity: 3900 and tables.melt_spectrum contradict"),
+        ("3500", "35", "the sum of modulus times relaxation_time is 3491.07"),
+        ("1000, unit: kPa", "10, unit: kPa", "values.plateau_modulus: 10000 and tables.melt_spectrum contradict"),
+        ("3e5]", "-3.5]", "tables.melt_spectrum.rows[3].modulus: -3.5 does not do: it must be greater than zero"),
+        ("[4e-3, 2.4e5], ", "", "melt_spectrum has 5, solid_spectrum has 6 rows"),
+        ("[4e-3,", "[4e-2,", "rows[2].relaxation_time: 0.04 does not do: it must be below the row's before"),
+    ],
+)
+def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:
+    assert good in OWN_SPECTRUM
+    with pytest.raises(CatalogError) as caught:
+        put(tmp_path, OWN_SPECTRUM.replace(good, bad, 1), category="polymers").record("polymers", "mine")
+    assert said in str(caught.value)
+
+
+def test_a_hundredth_of_viscosity_and_plateau_changes_the_melt(tmp_path: Path) -> None:
+    text = "title: thin\nbased_on: pcl_80k\nvalues:\n" + "\n".join(
+        f"  {name}: {{value: {value}, unit: Pa{unit}, source: ours, status: measured}}"
+        for name, value, unit in (("zero_shear_viscosity", 28.24889, "*s"), ("plateau_modulus", 9500, ""))
+    )
+    catalog = put(tmp_path, text, category="polymers")
+    shipped, thin = (melt_modes(catalog.record("polymers", name)) for name in ("pcl_80k", "mine"))
+    for (slow, modulus), (own_slow, own_modulus) in zip(shipped, thin, strict=True):
+        assert own_slow == pytest.approx(slow)
+        assert own_modulus == pytest.approx(0.01 * modulus)
+
+
+def test_a_polymer_without_spectrum_needs_viscosity_and_plateau(tmp_path: Path) -> None:
+    text = PCL.read_text(encoding="utf-8").replace("plateau_modulus:", "plateau:")
+    with pytest.raises(CatalogError, match=r"values\.plateau_modulus: missing; expected MPa"):
+        put(tmp_path, text, category="polymers").record("polymers", "mine")
+
+
+def test_a_record_based_on_others_says_what_differs_and_keeps_their_sources(tmp_path: Path) -> None:
+    own = {
+        "first": ("petg", "density: {value: 1300, unit: kg/m^3"),
+        "second": ("first", "youngs_modulus: {value: 3, unit: GPa"),
+    }
+    for name, (base, value) in own.items():
+        text = f"title: {name}\nbased_on: {base}\nvalues:\n  {value}, source: scale, status: measured}}\n"
+        catalog = put(tmp_path, text, "structure_materials", name)
+    petg, found = (catalog.record("structure_materials", name) for name in ("petg", "second"))
+    assert found.title == "second"
+    assert (found.value("density"), found.entry("density").source) == (1300.0, "scale")
+    assert found.value("youngs_modulus") == pytest.approx(3e9)
+    assert found.entry("specific_heat") == petg.entry("specific_heat")
+    assert set(found.entries) == set(petg.entries)
+
+
+def test_a_record_may_be_based_on_the_shipped_one_that_it_replaces(tmp_path: Path) -> None:
+    text = "title: mine\nbased_on: qc_17\nvalues: {mass: {value: 9, unit: g, source: scale, status: measured}}"
+    found = put(tmp_path, text, name="qc_17").record("peltiers", "qc_17")
+    assert found.value("mass") == pytest.approx(9e-3)
+    assert found.entry("area") == Catalog().record("peltiers", "qc_17").entry("area")
+
+
+@pytest.mark.parametrize(
+    ("bases", "said"),
+    [
+        ({"a": "b", "b": "c", "c": "a"}, "based_on: a -> b -> c -> a goes in a circle"),
+        ({"a": "a"}, "based_on: a -> a goes in a circle"),
+        ({"a": "qc_71"}, "based_on: peltiers has no record 'qc_71'; did you mean qc_17"),
+        ({"a": "[qc_17]"}, "based_on: expected the name of one record of peltiers"),
+        ({"a": "../../x"}, "based_on: peltiers has no record"),
+    ],
+)
+def test_what_a_record_cannot_be_based_on_is_named(tmp_path: Path, bases: dict[str, str], said: str) -> None:
+    for name, base in bases.items():
+        catalog = put(tmp_path, f"title: {name}\nbased_on: {base}\n", name=name)
+    with pytest.raises(CatalogError) as caught:
+        catalog.record("peltiers", "a")
+    assert said in str(caught.value)
+    assert str(tmp_path) in str(caught.value)
 
 
 def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:

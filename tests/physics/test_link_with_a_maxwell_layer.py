@@ -3,6 +3,7 @@
 import casadi as ca
 import numpy as np
 import pytest
+import textbook
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -47,7 +48,7 @@ def test_energy_grows_by_the_work_done_less_the_heat_made(
     # Complex step: the derivative along the motion to machine precision.
     moved = state + 1e-30j * rate
     growth = np.imag(motion.stored_energy(moved[0], moved[1], list(moved[2:]), JOINT, MODES)) / 1e-30
-    heat = motion.dissipation(angle, internal, JOINT, MODES)
+    heat = textbook.dissipation(angle, internal, JOINT, MODES)
     assert heat >= 0.0
     scale = abs(torque * speed) + heat + motion.stored_energy(angle, speed, internal, JOINT, MODES)
     assert growth == pytest.approx(torque * speed - heat, abs=1e-9 * scale + 1e-12)

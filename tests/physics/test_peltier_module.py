@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import textbook
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq, minimize_scalar
@@ -26,7 +27,7 @@ modules = st.builds(
 @pytest.mark.parametrize("name", SHEETS)
 def test_parameters_follow_from_the_data_sheet(name: str) -> None:
     sheet, (seebeck, resistance, conductance) = SHEETS[name]
-    found = peltier.from_data_sheet(*sheet)
+    found = textbook.from_data_sheet(*sheet)
     assert found.seebeck == pytest.approx(seebeck * 1e-3, rel=5e-3)
     assert found.resistance == pytest.approx(resistance, rel=5e-3)
     assert found.conductance == pytest.approx(conductance, rel=5e-3)
@@ -36,7 +37,7 @@ def test_parameters_follow_from_the_data_sheet(name: str) -> None:
 def test_the_catalogues_parameters_are_those_of_its_data_sheet(name: str) -> None:
     record = Catalog().record("peltiers", name)
     fields = ("max_current", "max_voltage", "max_temperature_difference", "hot_side_temperature")
-    expected = peltier.from_data_sheet(*(record.value(field) for field in fields))
+    expected = textbook.from_data_sheet(*(record.value(field) for field in fields))
     assert (record.value("seebeck"), record.value("resistance"), record.value("conductance")) == pytest.approx(
         tuple(expected), rel=1e-4
     )
@@ -46,7 +47,7 @@ def test_the_catalogues_parameters_are_those_of_its_data_sheet(name: str) -> Non
 def test_the_module_reaches_its_rated_difference_at_its_rated_current(name: str) -> None:
     # At I_max, dT_max and the sheet's T_h no heat is drawn, and no other current draws any.
     current, voltage, difference, hot = SHEETS[name][0]
-    module = peltier.from_data_sheet(current, voltage, difference, hot)
+    module = textbook.from_data_sheet(current, voltage, difference, hot)
     scale = module.conductance * difference
     assert peltier.cold_side_heat(module, current, hot, hot - difference) == pytest.approx(0.0, abs=1e-9 * scale)
     for other in (0.9 * current, 1.1 * current):
@@ -58,7 +59,7 @@ def test_the_module_reaches_its_rated_difference_at_its_rated_current(name: str)
 def test_rated_cooling_follows_from_the_other_ratings(name: str, watts: float, within: float) -> None:
     # Q_max of the sheet, at T_c = T_h, which S, R and K do not use.
     sheet = SHEETS[name][0]
-    assert peltier.max_cooling_power(peltier.from_data_sheet(*sheet), sheet[3]) == pytest.approx(watts, rel=within)
+    assert peltier.max_cooling_power(textbook.from_data_sheet(*sheet), sheet[3]) == pytest.approx(watts, rel=within)
 
 
 @given(module=modules, cold=kelvins)
@@ -101,7 +102,7 @@ def test_current_through_a_module_of_one_temperature_pumps_heat_to_the_hot_side(
 
 def test_a_40_mm_module_with_a_well_sunk_cold_side_stalls_near_76_degrees_at_1_5_amperes() -> None:
     # Its conductance takes back all it pumps: no layer behind it is ever warmer.
-    module, cold = peltier.from_data_sheet(*SHEETS["teci_12706"][0]), 295.15
+    module, cold = textbook.from_data_sheet(*SHEETS["teci_12706"][0]), 295.15
     stalled = brentq(lambda hot: peltier.hot_side_heat(module, 1.5, hot, cold), cold, 400.0)
     assert stalled - 273.15 == pytest.approx(76.0, abs=1.0)
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from tvimdesign.catalog import Catalog, Record
+from tvimdesign.device.core.joint_impedance import melt_modes
 from tvimdesign.physics import polymer
 
 CELSIUS = 273.15
@@ -23,7 +24,7 @@ def solid_of(record: Record) -> polymer.SolidModulus:
 
 
 def modes_of(record: Record) -> list[tuple[float, float]]:
-    return [(row["relaxation_time"], row["modulus"]) for row in record.table("melt_spectrum")]
+    return list(melt_modes(record))
 
 
 def rheology_of(grade: str) -> polymer.Rheology:
@@ -118,6 +119,22 @@ def test_slow_melt_flows_with_its_zero_shear_viscosity(grade: str, low: float, h
     assert low <= loss / 1e-4 <= high
     assert loss / 1e-4 == pytest.approx(record.value("zero_shear_viscosity"), rel=1e-3)
     assert storage / 1e-8 == pytest.approx(sum(g * tau**2 for tau, g in modes), rel=1e-6)
+
+
+def test_spectrum_of_a_melt_is_the_power_law_by_hand() -> None:
+    """Two modes half a decade apart: t^-0.2 makes the faster one 10^0.1 = 1.2589 times as stiff."""
+    (slow, soft), (fast, stiff) = polymer.melt_spectrum(1000.0, 1e6, 2)
+    assert slow / fast == pytest.approx(3.16228, rel=1e-5)
+    assert stiff / soft == pytest.approx(1.25893, rel=1e-5)
+    assert soft + stiff == pytest.approx(1e6)
+    assert soft * slow + stiff * fast == pytest.approx(1000.0)
+
+
+def test_viscosity_moves_the_times_and_plateau_modulus_the_moduli() -> None:
+    one, thicker, stiffer = (polymer.melt_spectrum(*how, 6) for how in ((1e3, 1e6), (1e2, 1e6), (1e3, 1e4)))
+    for (time, modulus), (own_time, own_modulus), (longer, softer) in zip(one, thicker, stiffer, strict=True):
+        assert (own_time, own_modulus) == pytest.approx((0.1 * time, modulus))
+        assert (longer, softer) == pytest.approx((100.0 * time, 0.01 * modulus))
 
 
 @pytest.mark.parametrize("grade", GRADES)

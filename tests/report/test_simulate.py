@@ -106,13 +106,13 @@ def test_an_unknown_test_leaves_no_folder(tvimdesign: Command, tmp_path: Path) -
 def test_a_record_with_a_negative_modulus_is_named_by_the_command(tvimdesign: Command, tmp_path: Path) -> None:
     shipped = Path(__file__).parents[2] / "tvimdesign/catalog/data/polymers/pcl_80k.yaml"
     (tmp_path / "mine/polymers").mkdir(parents=True)
-    text = shipped.read_text(encoding="utf-8").replace("82513.7", "-82513.7")
+    text = shipped.read_text(encoding="utf-8").replace("0.83776", "-0.83776")
     (tmp_path / "mine/polymers/odd.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "study.yaml").write_text("mode: shear\ncatalog: mine\nmodule: {pcl_grade: odd}\n")
     done = tvimdesign("simulate", tmp_path / "study.yaml", "--test", "creep", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "odd.yaml" in done.stderr
-    assert "tables.melt_spectrum.rows[1].modulus: -82513.7 does not do: it must be greater than zero" in done.stderr
+    assert "tables.solid_spectrum.rows[1].relative_modulus: -0.83776 does not do: it must be" in done.stderr
     assert not (tmp_path / "out").exists()
 
 

@@ -152,7 +152,7 @@ def test_listed_sizes_are_as_good_as_solving_each_on_its_own() -> None:
         )
         try:
             solution = _solve(_study(text))
-        except InfeasibleError:  # bounds prove it
+        except InfeasibleError:  # no start keeps the limits
             continue
         if solution.status == "optimal":
             # Objectives are ratios to each study's own start; the listed study's start is the common measure.

@@ -5,6 +5,7 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
+from tvimdesign.device.core.joint_impedance import melt_modes
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
@@ -18,16 +19,13 @@ def answered(module: str, cold: float = 30.0, hot: float = 100.0) -> StudyResult
 
 
 def liquid_impedance(found: StudyResult, celsius: float) -> complex:
-    """K* of the joint with a layer that is all melt, at 1 Hz, from the record's table in complex numbers."""
+    """K* of the joint with a layer that is all melt, at 1 Hz, from the record's spectrum in complex numbers."""
     value = found.design.value
-    rows = Catalog().record("polymers", found.design.choices["pcl_grade"]).table("melt_spectrum")
+    modes = melt_modes(Catalog().record("polymers", found.design.choices["pcl_grade"]))
     kelvin, reference = celsius + KELVIN, value("pcl_melt_reference")
     shift = np.exp(value("pcl_flow_activation_energy") / 8.314462618 * (1.0 / kelvin - 1.0 / reference))
     omega = 2j * np.pi
-    modulus = sum(
-        row["modulus"] * omega * shift * row["relaxation_time"] / (1.0 + omega * shift * row["relaxation_time"])
-        for row in rows
-    )
+    modulus = sum(plateau * omega * shift * time / (1.0 + omega * shift * time) for time, plateau in modes)
     layer = modulus * value("layer_polar_moment") / value("pcl_thickness")
     return complex(value("spring_stiffness") + 1.0 / (1.0 / layer + 1.0 / value("structure_stiffness")))
 

@@ -10,7 +10,7 @@ from tvimdesign.base.errors import CatalogError
 from tvimdesign.catalog.categories import CATEGORIES
 from tvimdesign.catalog.record import Record
 from tvimdesign.catalog.validate import build_record
-from tvimdesign.catalog.yaml_file import read_tree
+from tvimdesign.catalog.yaml_file import Tree, read_tree
 
 _SHIPPED = Path(__file__).with_name("data")
 _MOST_PROBLEMS = 50
@@ -62,13 +62,54 @@ class Catalog:
         """Return a record, read once; raises CatalogError naming every problem of its file."""
         if (category, name) not in self._records:
             path = self.path(category, name)
-            read = _read_shipped if path.is_relative_to(_SHIPPED) else _read
-            self._records[category, name] = read(category, name, path)
+            shipped = path.is_relative_to(_SHIPPED)
+            self._records[category, name] = _read_shipped(category, name) if shipped else self._read(category, name)
         return self._records[category, name]
 
+    def _read(self, category: str, name: str) -> Record:
+        path = self.path(category, name)
+        return _built(category, name, path, self._tree(category, path, ()))
 
-def _read(category: str, name: str, path: Path) -> Record:
-    record, problems = build_record(category, name, _shown(path), read_tree(path))
+    def _tree(self, category: str, path: Path, before: tuple[Path, ...]) -> dict[str, Tree]:
+        """What a record's file says, over what those it is based on say; raises CatalogError for a circle."""
+        tree = read_tree(path)
+        base = tree.get("based_on")
+        if base is None:
+            return tree
+        if not isinstance(base, str):
+            raise CatalogError(f"{_shown(path)}: based_on: expected the name of one record of {category}")
+        chain, other = (*before, path), self._base(category, path, base)
+        if other in chain:
+            names = " -> ".join(one.stem for one in (*chain, other))
+            raise CatalogError(f"{_shown(path)}: based_on: {names} goes in a circle; one of them must say all itself")
+        return _over(tree, self._tree(category, other, chain))
+
+    def _base(self, category: str, path: Path, base: str) -> Path:
+        """The file of what a record is based on: a user's may be based on the shipped one of its own name."""
+        shipped = _SHIPPED / category / path.name
+        if base == path.stem and path != shipped and shipped.exists():
+            return shipped
+        try:
+            return self.path(category, base)
+        except CatalogError as error:
+            raise CatalogError(f"{_shown(path)}: based_on: {error}") from None
+
+
+_SECTIONS = ("values", "tables", "words")
+
+
+def _over(tree: dict[str, Tree], base: dict[str, Tree]) -> dict[str, Tree]:
+    """A record's tree with what it leaves out taken from its base: value by value, with source and status."""
+    merged = dict(tree)
+    for section in _SECTIONS:
+        own, inherited = tree.get(section, {}), base.get(section, {})
+        if isinstance(own, dict) and isinstance(inherited, dict):
+            merged[section] = {**inherited, **own}
+    return merged
+
+
+def _built(category: str, name: str, path: Path, tree: dict[str, Tree]) -> Record:
+    record, problems = build_record(category, name, _shown(path), tree)
     if len(problems) > _MOST_PROBLEMS:
         problems[_MOST_PROBLEMS:] = [f"{_shown(path)}: and {len(problems) - _MOST_PROBLEMS} more"]
     if problems:
@@ -76,8 +117,10 @@ def _read(category: str, name: str, path: Path) -> Record:
     return record
 
 
-_read_shipped = cache(_read)
-"""Shipped records do not change while the program runs: one reading serves every catalogue."""
+@cache
+def _read_shipped(category: str, name: str) -> Record:
+    """Shipped records do not change while the program runs, and are based on none but shipped ones."""
+    return Catalog()._read(category, name)
 
 
 def check_records(catalog: Catalog) -> list[str]:

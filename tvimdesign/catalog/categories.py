@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+AGREEMENT = 0.1
+"""Share by which a value may differ from what a table of the same record comes to: fits of one melt are no closer."""
+
 
 @dataclass(frozen=True)
 class Columns:
@@ -24,7 +27,9 @@ class Columns:
 class Category:
     """What a record must say. Every required number is greater than zero, or `may_be_zero`; `rising` lists rise.
 
-    The rows of `paired` tables belong together, first to first: there must be as many in each.
+    The rows of `paired` tables belong together, first to first: there must be as many in each. A table of `instead` may
+    stand in place of values or they in its place: each is the sum over the rows of the product of some columns, and
+    where a record has both they must agree to `AGREEMENT`.
     """
 
     values: Mapping[str, str] = field(default_factory=dict)
@@ -33,6 +38,7 @@ class Category:
     rising: tuple[tuple[str, ...], ...] = ()
     paired: tuple[str, ...] = ()
     may_be_zero: tuple[str, ...] = ()
+    instead: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
 
 
 CATEGORIES: Mapping[str, Category] = {
@@ -169,7 +175,6 @@ CATEGORIES: Mapping[str, Category] = {
     "polymers": Category(
         values={
             "density_solid": "kg/m^3",
-            "density_melt": "kg/m^3",
             "specific_heat_solid": "J/kg/K",
             "specific_heat_melt": "J/kg/K",
             "conductivity_solid": "W/m/K",
@@ -206,6 +211,12 @@ CATEGORIES: Mapping[str, Category] = {
             "solid_spectrum": Columns({"relaxation_time": "s", "relative_modulus": "1"}, falling=("relaxation_time",)),
         },
         paired=("melt_spectrum", "solid_spectrum"),
+        instead={
+            "melt_spectrum": {
+                "plateau_modulus": ("modulus",),
+                "zero_shear_viscosity": ("modulus", "relaxation_time"),
+            }
+        },
         rising=(
             ("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),
             ("glass_transition", "crystallization_reference", "equilibrium_melting_temperature"),

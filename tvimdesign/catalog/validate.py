@@ -6,17 +6,18 @@ import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 from itertools import pairwise
+from math import prod
 from typing import Any
 
 from tvimdesign.base import units
 from tvimdesign.base.errors import UnitError
-from tvimdesign.catalog.categories import CATEGORIES, Columns
+from tvimdesign.catalog.categories import AGREEMENT, CATEGORIES, Columns
 from tvimdesign.catalog.record import STATUSES, Entry, Record, RecordTable
 from tvimdesign.catalog.yaml_file import Tree
 
 _ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")
 _TABLE_FIELDS = ("columns", "rows", "source", "status", "range")
-_SECTIONS = ("title", "values", "tables", "words")
+_SECTIONS = ("title", "based_on", "values", "tables", "words")
 _LONGEST_UNIT = 40
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,60}")
 
@@ -31,6 +32,7 @@ def build_record(category: str, name: str, file: str, tree: dict[str, Tree]) -> 
     words = {key: item for key, item in check.section(tree, "words") if check.word(key, item) and isinstance(item, str)}
     check.required(tree, entries)
     check.paired(sheets)
+    check.agreeing(entries, sheets)
     return Record(category, name, title, entries, sheets, words, file), check.problems
 
 
@@ -210,6 +212,21 @@ class _Check:
             found = ", ".join(f"{name} has {count}" for name, count in counts.items())
             self.no("tables", f"{found} rows; they belong together, first to first, and must be as many")
 
+    def agreeing(self, entries: dict[str, Entry], sheets: dict[str, RecordTable]) -> None:
+        """Name the values that differ from what a table of the record, which may stand in their place, comes to."""
+        for table, values in self.category.instead.items():
+            for name, columns in values.items() if table in sheets else ():
+                if name not in entries:
+                    continue
+                rows = [dict(zip(sheets[table].columns, row, strict=True)) for row in sheets[table].rows]
+                found, said = sum(prod(row[column] for column in columns) for row in rows), entries[name].value
+                if abs(found - said) > AGREEMENT * said:
+                    self.no(
+                        f"values.{name}",
+                        f"{said:g} and tables.{table} contradict each other: the sum of {' times '.join(columns)} is "
+                        f"{found:g}; they must agree to {AGREEMENT:.0%}, in SI; leave one of them out",
+                    )
+
     def required(self, tree: dict[str, Tree], entries: dict[str, Entry]) -> None:
         """Name what the category wants and the file does not have at all; what is there but wrong is named already."""
         wanted: dict[str, dict[str, Any]] = {
@@ -217,6 +234,11 @@ class _Check:
             "tables": dict.fromkeys(self.category.tables, "see the shipped records"),
             "words": {name: " or ".join(allowed) for name, allowed in self.category.words.items()},
         }
+        for table, values in self.category.instead.items():
+            tables = tree.get("tables")
+            wanted["tables"].pop(table)
+            for name in values if isinstance(tables, dict) and table in tables else ():
+                wanted["values"].pop(name)
         for section, names in wanted.items():
             part = tree.get(section)
             present = part if isinstance(part, dict) else {}

@@ -64,11 +64,6 @@ def _speed(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
     return np.exp(_SLOWEST + ramp(logarithm - _SLOWEST, 0.1))
 
 
-def half_time(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
-    """Time in which half of the melt freezes at a constant temperature [s]; beyond all bounds above T_m0 [H]."""
-    return kinetics.reference_half_time / _speed(temperature_kelvin, kinetics)
-
-
 def rate_constant(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
     """K = (ln 2)^(1/n)/t_half [1/s], with which psi rises at a temperature [N]."""
     at_reference = np.log(2.0) ** (1.0 / kinetics.avrami_exponent) / kinetics.reference_half_time

@@ -84,14 +84,8 @@ def energy_terms(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, 
 
 
 def stored_energy(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
-    """Kinetic and elastic energy [J], sum of c d^2/2; at rest from outside it falls by `dissipation`."""
+    """Kinetic and elastic energy [J], sum of c d^2/2; at rest from outside it falls by the heat of the dashpots."""
     return 0.5 * sum(c * d**2 for c, d in energy_terms(angle, speed, internal, joint, modes))
-
-
-def dissipation(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
-    """Heat made in the layer's dashpots [W], sum k_m (phi - q_m)^2/tau_m; never negative."""
-    phi = layer_angle(angle, internal, joint, modes)
-    return sum(k * (phi - inner) ** 2 / time for (time, k), inner in zip(modes, internal, strict=True))
 
 
 def kelvin_voigt_rates(angle: Any, speed: Any, inertia: Any, damping: Any, stiffness: Any) -> list[Any]:

@@ -1,4 +1,4 @@
-"""The Peltier module: heat and voltage from current and temperatures, and its parameters from a data sheet.
+"""The Peltier module: heat and voltage from current and temperatures.
 
 Source: Rowe (ed.), CRC Handbook of Thermoelectrics, ch. 1; temperatures in kelvin.
 """
@@ -14,21 +14,6 @@ class PeltierModule(NamedTuple):
     seebeck: Any
     resistance: Any
     conductance: Any
-
-
-def from_data_sheet(
-    max_current: float, max_voltage: float, max_difference: float, hot_side_temperature: float
-) -> PeltierModule:
-    """Parameters from I_max, V_max, dT_max at the sheet's hot-side temperature [K].
-
-    S = V_max/T_h, R = V_max (T_h - dT_max)/(I_max T_h), K = V_max I_max (T_h - dT_max)/(2 T_h dT_max).
-    """
-    cold = hot_side_temperature - max_difference
-    return PeltierModule(
-        seebeck=max_voltage / hot_side_temperature,
-        resistance=max_voltage * cold / (max_current * hot_side_temperature),
-        conductance=max_voltage * max_current * cold / (2.0 * hot_side_temperature * max_difference),
-    )
 
 
 def max_cooling_power(module: PeltierModule, cold_temperature: Any) -> Any:

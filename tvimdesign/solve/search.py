@@ -10,15 +10,15 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_records, discrete_sizes, with_records
-from tvimdesign.solve.discrete.enumeration import account_for_all
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes
+from tvimdesign.solve.discrete.enumeration import enumerate_all
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
-from tvimdesign.solve.infeasibility.infeasibility_proof import at_a_glance, refuse_infeasible
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, SolverEffort, Standard, YieldReached
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
 
@@ -51,11 +51,8 @@ def optimize(
     sizes, records = discrete_sizes(study, table), discrete_records(study, table)
     _refuse_too_many(sizes, len(records))
     trees = _trees(study, catalog, table, sizes, records, reference, progress, objectives)
-    if all(at_a_glance(t.optimizer.model, t.optimizer.study, table, t.optimizer.problem.limits) for t in trees):
-        refuse_infeasible(study, catalog, table)
-    free = [(relaxation, run) for relaxation in trees for run in relaxation.starts()]
-    if not any(run.start.converged for _, run in free):
-        refuse_infeasible(study, catalog, table)
+    hopeless = all(relaxation.hopeless() for relaxation in trees)
+    free = [(relaxation, run) for relaxation in trees for run in relaxation.starts(1 if hopeless else None)]
     choosing: Choosing | None = None
     if sizes.names:
         choosing, found = _choose(trees, len(records), study.solver)
@@ -173,7 +170,7 @@ def _choose(
     found, proof = dict(search.found), SolverEffort()
     pruned, improved = search.pruned, 0.0
     if asked.prove:
-        found, pruned = _proven(trees, search.found, asked.alternatives, proof)
+        found, pruned = _each(trees, search.found, proof), 0
         improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
     shown = ranked[: asked.alternatives]
@@ -204,18 +201,17 @@ def _chosen(runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverO
     )  # fmt: skip
 
 
-def _proven(trees: Sequence[Relaxation], found: _Found, keep: int, work: SolverEffort) -> tuple[_Found, int]:
-    """All combinations accounted for: designs, those that were found included, and how many are ruled out by bounds."""
-    every, bounded = dict(found), 0
+def _each(trees: Sequence[Relaxation], known: _Found, work: SolverEffort) -> _Found:
+    """Designs of all combinations that have one; the better of two where one is known from a search."""
+    every = dict(known)
     for relaxation in trees:
         own, relaxation.work = relaxation.work, work
-        known = {box: run for (place, box), run in every.items() if place == relaxation.place}
-        accounted = account_for_all(relaxation, keep, known)
-        every |= {(relaxation.place, box): run for box, run in accounted.found.items()}
-        bounded += accounted.bounded
-        work.screened += accounted.broken
+        for box, run in enumerate_all(relaxation).items():
+            key = (relaxation.place, box)
+            if key not in every or order(run) < order(every[key]):
+                every[key] = run
         relaxation.work = own
-    return every, bounded
+    return every
 
 
 def _improvement(found: _Found, every: _Found) -> float:

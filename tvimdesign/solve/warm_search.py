@@ -7,10 +7,11 @@ from typing import Any
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
-from tvimdesign.solve.discrete.discrete_choices import discrete_records, discrete_sizes
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.record_choices import discrete_records
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Study

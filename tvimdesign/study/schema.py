@@ -1,10 +1,9 @@
-"""The JSON Schema of a study, read off the table, for editors; `python -m tvimdesign.study.schema` writes it anew."""
+"""The JSON Schema of a study, read off the table, for editors; `tvimdesign schema` prints it."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import Any, TypeAlias
 
 from pydantic import BaseModel
@@ -14,7 +13,6 @@ from tvimdesign.study.sections.sizes import SIZES_CATEGORY
 from tvimdesign.study.sections.tolerances import STANDARD, tolerance_rows
 from tvimdesign.study.study import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
 
-SCHEMA_FILE = Path(__file__).with_name("schema.json")
 _NUMBER = r"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
 _POINT = "[a-z][a-z0-9_]{0,31}"
 _Schema: TypeAlias = dict[str, Any]
@@ -81,11 +79,6 @@ def _of_mode(table: Table) -> _Schema:
         "operating_points": _points(table),
         "tolerances": _tolerances(table),
     }
-
-
-def write_schema(path: Path = SCHEMA_FILE) -> None:
-    """Write the schema of all modes, as it ships."""
-    path.write_text(schema_text(), encoding="utf-8")
 
 
 def schema_text() -> str:
@@ -226,7 +219,3 @@ def _options(options: type[BaseModel]) -> _Schema:
         "additionalProperties": False,
         "properties": schema["properties"],
     }
-
-
-if __name__ == "__main__":
-    write_schema()

@@ -87,7 +87,7 @@ class SolverOptions(_Part):
     tolerance: float = Field(1e-8, ge=1e-14, le=1e-2, description="relative tolerance of convergence")
     alternatives: int = Field(5, ge=1, le=100, description="combinations of listed choices that are told, best first")
     prove: bool = Field(
-        False, description="solve or bound every combination of listed choices, not only those branch and bound leaves"
+        False, description="solve every combination of listed choices, not only those that branch and bound leaves"
     )
 
 

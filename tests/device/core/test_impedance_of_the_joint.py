@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from tvimdesign.device import table_for
+from tvimdesign.device.core.joint_impedance import melt_modes
 from tvimdesign.physics import polymer
 
 TABLE = table_for("shear")
@@ -70,7 +71,7 @@ def test_frozen_layer_is_the_solid_and_molten_layer_the_melt(joint: dict[str, An
     expected = 411e6 * np.exp(-fall) / 2.9 * HERTZ ** (2.0 / np.pi * np.arctan(0.05))
     assert joint["storage_modulus@cold"] == pytest.approx(expected, rel=0.01)
     assert joint["loss_factor@cold"] == pytest.approx(0.05, abs=0.003)
-    modes = [(row["relaxation_time"], row["modulus"]) for row in inputs["pcl_grade"].table("melt_spectrum")]
+    modes = melt_modes(inputs["pcl_grade"])
     omega = 2.0 * np.pi * HERTZ
     melt = sum(g * 1j * omega * tau / (1.0 + 1j * omega * tau) for tau, g in modes)
     assert joint["storage_modulus@hot"] == pytest.approx(melt.real, rel=1e-3)

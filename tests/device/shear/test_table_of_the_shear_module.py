@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pint
 import pytest
+from every import of_every
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import USED_BY_PARTS, digits
@@ -21,28 +22,34 @@ TABLE = table_for("shear")
 NUMBERS = [row for row in TABLE.quantities if not isinstance(row, Choice)]
 
 
-@pytest.mark.parametrize("row", NUMBERS, ids=lambda row: row.name)
-def test_row_is_described_and_has_a_unit_that_can_be_read(row: Input | Output) -> None:
-    assert len(row.description) >= 8
-    assert row.group
-    assert np.isfinite(to_si(1.0, row.unit))
+def test_row_is_described_and_has_a_unit_that_can_be_read() -> None:
+    def check(row: Input | Output) -> None:
+        assert len(row.description) >= 8
+        assert row.group
+        assert np.isfinite(to_si(1.0, row.unit))
+
+    of_every(NUMBERS, check)
 
 
-@pytest.mark.parametrize("row", TABLE.choices, ids=lambda row: row.name)
-def test_choice_is_described_and_its_default_exists(row: Choice, inputs: dict[str, Any]) -> None:
-    assert len(row.description) >= 8
-    if row.category and inputs[row.name] not in row.options:
-        assert Catalog().record(row.category, inputs[row.name].name) == inputs[row.name]
-    else:
-        assert (inputs[row.name] if row.record else row.default) in row.options
+def test_choice_is_described_and_its_default_exists(inputs: dict[str, Any]) -> None:
+    def check(row: Choice) -> None:
+        assert len(row.description) >= 8
+        if row.category and inputs[row.name] not in row.options:
+            assert Catalog().record(row.category, inputs[row.name].name) == inputs[row.name]
+        else:
+            assert (inputs[row.name] if row.record else row.default) in row.options
+
+    of_every(TABLE.choices, check)
 
 
-@pytest.mark.parametrize("row", TABLE.inputs, ids=lambda row: row.name)
-def test_default_of_an_input_lies_within_its_limits(row: Input, inputs: dict[str, Any]) -> None:
-    assert row.lower < row.upper
-    found = [value for name, value in inputs.items() if name.partition("@")[0] == row.name]
-    assert found
-    assert all(row.lower <= value <= row.upper for value in found)
+def test_default_of_an_input_lies_within_its_limits(inputs: dict[str, Any]) -> None:
+    def check(row: Input) -> None:
+        assert row.lower < row.upper
+        found = [value for name, value in inputs.items() if name.partition("@")[0] == row.name]
+        assert found
+        assert all(row.lower <= value <= row.upper for value in found)
+
+    of_every(TABLE.inputs, check)
 
 
 def test_every_extra_is_a_choice_that_has_the_word_for_none() -> None:
@@ -58,13 +65,15 @@ def test_every_extra_is_a_choice_that_has_the_word_for_none() -> None:
 OF_EXTRAS = [row.name for row in (*TABLE.choices, *TABLE.inputs) if row.requires]
 
 
-@pytest.mark.parametrize("name", OF_EXTRAS)
-def test_what_is_of_an_extra_is_refused_in_a_study_of_a_module_without_it(name: str) -> None:
-    row, study = TABLE.quantity(name), read_study_text("mode: shear\n", "a test")
-    value = Catalog().names(row.category)[0] if isinstance(row, Choice) and row.category else row.default
-    lacking = row.requires[0]
-    with pytest.raises(InputError, match=f"{name}: no effect, as {lacking.choice} is {lacking.without}"):
-        refuse_impossible(study.model_copy(update={"module": {name: value}}), Catalog(), TABLE)
+def test_what_is_of_an_extra_is_refused_in_a_study_of_a_module_without_it() -> None:
+    def check(name: str) -> None:
+        row, study = TABLE.quantity(name), read_study_text("mode: shear\n", "a test")
+        value = Catalog().names(row.category)[0] if isinstance(row, Choice) and row.category else row.default
+        lacking = row.requires[0]
+        with pytest.raises(InputError, match=f"{name}: no effect, as {lacking.choice} is {lacking.without}"):
+            refuse_impossible(study.model_copy(update={"module": {name: value}}), Catalog(), TABLE)
+
+    of_every(OF_EXTRAS, check)
 
 
 def test_a_row_of_an_extra_is_computed_and_held_only_where_the_module_has_it() -> None:
@@ -95,12 +104,14 @@ def test_every_intermediate_result_is_used() -> None:
     assert {row.name for row in TABLE.outputs if row.hidden} <= used
 
 
-@pytest.mark.parametrize("row", [row for row in TABLE.inputs if row.record], ids=lambda row: row.name)
-def test_property_is_in_the_default_record_in_the_dimension_of_its_row(row: Input, inputs: dict[str, Any]) -> None:
-    assert row.record is not None
-    record = inputs[row.record[0]]
-    written = record.entry(row.record[1]).unit
-    assert _dimension(written) == _dimension(row.unit)
+def test_property_is_in_the_default_record_in_the_dimension_of_its_row(inputs: dict[str, Any]) -> None:
+    def check(row: Input) -> None:
+        assert row.record is not None
+        record = inputs[row.record[0]]
+        written = record.entry(row.record[1]).unit
+        assert _dimension(written) == _dimension(row.unit)
+
+    of_every([row for row in TABLE.inputs if row.record], check)
 
 
 REGISTRY = pint.UnitRegistry()
@@ -153,9 +164,11 @@ def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
             assert value == pytest.approx(symbols[name], rel=digits(name, 1e-11), abs=1e-300), name
 
 
-@pytest.mark.parametrize("row", table_for("shear").inputs, ids=lambda row: row.name)
-def test_every_input_says_where_its_default_comes_from(row: Input) -> None:
-    status, _, source = row.source.partition(": ")
-    assert status in {"paper", "handbook", "assumed", "numerics", "record"}
-    assert len(source) > 3
-    assert row.record or row.lower <= row.default <= row.upper
+def test_every_input_says_where_its_default_comes_from() -> None:
+    def check(row: Input) -> None:
+        status, _, source = row.source.partition(": ")
+        assert status in {"paper", "handbook", "assumed", "numerics", "record"}
+        assert len(source) > 3
+        assert row.record or row.lower <= row.default <= row.upper
+
+    of_every(TABLE.inputs, check)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
+from bonmin import best_by_bonmin
 from choosing import LISTED, by_brute_force, listed
 
 from tvimdesign.base.errors import InputError
@@ -14,9 +14,8 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
-from tvimdesign.solve.discrete.enumeration import account_for_all, enumerate_all
+from tvimdesign.solve.discrete.enumeration import enumerate_all
 from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
-from tvimdesign.solve.discrete.least_cost import LeastCost
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import Choosing, Solution, SolverEffort
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -123,14 +122,52 @@ def test_a_re_solve_takes_a_few_iterations(found: Solution) -> None:
     assert work.warm_iterations <= 8 * work.warm
 
 
-def test_a_proof_accounts_for_every_combination_and_finds_the_same(found: Solution) -> None:
+def test_solving_every_combination_finds_the_same_and_says_so(
+    found: Solution, alone: dict[tuple[float, ...], float]
+) -> None:
     proven = _chosen(_solve(listed(LISTED.replace("solver: {", "solver: {prove: true, "))))
     assert proven.proven
     assert proven.improved <= 1e-6
     assert [one.choices for one in proven.best] == [one.choices for one in _chosen(found).best]
-    assert proven.solved + proven.pruned + proven.without_design == proven.combinations
-    assert proven.pruned > 0
-    assert "All were then solved" in tally_in_words(proven)
+    assert (proven.solved, proven.pruned) == (len(alone), 0)
+    assert proven.solved + proven.without_design == proven.combinations
+    assert "Every combination was then solved" in tally_in_words(proven)
+
+
+def test_every_combination_is_as_good_as_solved_alone_and_cold(
+    found: Solution, alone: dict[tuple[float, ...], float]
+) -> None:
+    said: list[str] = []
+    relaxation = _relaxation(found)
+    relaxation.optimizer.progress = said.append
+    each = {
+        tuple(low for low, _ in relaxation.sizes.ends(box).values()): run.start.objective
+        for box, run in enumerate_all(relaxation).items()
+    }
+    assert set(each) == set(alone)
+    for sizes, objective in alone.items():
+        assert each[sizes] <= objective * (1.0 + 1e-6)
+    assert min(each.values()) == pytest.approx(min(alone.values()), rel=1e-6)
+    assert f"0 of {relaxation.sizes.count} combinations" in said[0]
+
+
+@pytest.mark.slow
+def test_bonmin_comes_to_the_same(found: Solution) -> None:
+    """A solver of others' making, by the algorithm of it that is right."""
+    chosen = best_by_bonmin(listed(), found.reference)
+    best = _chosen(found).best[0]
+    assert chosen.success
+    assert chosen.objective == pytest.approx(best.objective, rel=1e-6)
+    assert chosen.choices == pytest.approx(best.choices, rel=1e-6)
+
+
+def _relaxation(found: Solution) -> Relaxation:
+    """The problem of the listed study with its starts run, its objective over the same reference."""
+    study = listed()
+    optimizer = Optimizer(study, Catalog(), TABLE, found.reference)
+    relaxation = Relaxation(0, optimizer, {}, discrete_sizes(study, TABLE), SolverEffort())
+    relaxation.starts()
+    return relaxation
 
 
 def test_what_arithmetic_alone_rules_out_is_told(found: Solution) -> None:
@@ -138,37 +175,6 @@ def test_what_arithmetic_alone_rules_out_is_told(found: Solution) -> None:
     reported = tally_in_words(replace(chosen, work=replace(chosen.work, screened=3)))
     assert "3 sets of sizes needed none, by arithmetic alone." in reported
     assert "arithmetic" not in tally_in_words(replace(chosen, work=replace(chosen.work, screened=0)))
-
-
-def test_no_combination_costs_less_than_its_bound(alone: dict[tuple[float, ...], float]) -> None:
-    """And near the best the bounds are close: far more is ruled out by them than is solved."""
-    study = listed()
-    relaxation = Relaxation(0, Optimizer(study, Catalog(), TABLE), {}, discrete_sizes(study, TABLE), SolverEffort())
-    relaxation.starts()
-    least = LeastCost(relaxation)
-    least.find(math.inf)
-    bounds = {tuple(low for low, _ in relaxation.sizes.ends(box).values()): k for k, box in enumerate(least.boxes)}
-    for sizes, objective in alone.items():
-        (k,) = (k for one, k in bounds.items() if one == pytest.approx(sizes))
-        assert least.bounds[k] <= objective * (1.0 + 1e-6)
-        assert not least.broken[k]
-    ruled_out = np.sum(least.broken | (least.bounds >= min(alone.values())))
-    assert ruled_out >= 0.8 * len(least.boxes)
-
-
-def test_solving_each_and_accounting_for_all_come_to_the_same(found: Solution) -> None:
-    """Without a search before, and each combination solved against those that bounds leave."""
-    study = listed(LISTED.replace("1.9 mm, to: 2.4 mm", "2 mm, to: 2.2 mm"))
-    relaxation = Relaxation(
-        0, Optimizer(study, Catalog(), TABLE, found.reference), {}, discrete_sizes(study, TABLE), SolverEffort()
-    )
-    relaxation.starts()
-    each, every = enumerate_all(relaxation), account_for_all(relaxation, 2, {})
-    best = sorted(run.start.objective for run in each.values())[:2]
-    assert sorted(run.start.objective for run in every.found.values())[:2] == pytest.approx(best, rel=1e-6)
-    assert len(every.found) < len(each)
-    assert len(each) <= len(every.found) + every.bounded <= relaxation.sizes.count - every.broken
-    assert every.below <= 1e-6
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import textbook
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -172,7 +173,7 @@ def test_energy_never_rises_once_the_link_is_let_go(
 def test_energy_lost_is_the_heat_of_the_dashpots() -> None:
     moved = link.released(JOINT, HALF, 0.1, link.held(JOINT, HALF, 0.1, 10.0))
     early = moved.times <= 0.2
-    heat = motion.dissipation(moved.angle, list(moved.internal), JOINT, HALF)[early]
+    heat = textbook.dissipation(moved.angle, list(moved.internal), JOINT, HALF)[early]
     lost = moved.energy[0] - moved.energy[early][-1]
     assert np.trapezoid(heat, moved.times[early]) == pytest.approx(lost, rel=0.01)
 

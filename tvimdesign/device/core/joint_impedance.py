@@ -64,6 +64,14 @@ def pcl_solid_modulus(
                                 pcl_softening_onset, pcl_softening_width, pcl_poissons_ratio)  # fmt: skip
 
 
+def melt_modes(pcl_grade: Record) -> polymer.Modes:
+    """Relaxation spectrum of a grade's melt: the record's own, else from its viscosity and plateau modulus."""
+    if "melt_spectrum" in pcl_grade.tables:
+        return [(row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")]
+    viscosity, plateau = (pcl_grade.value(name) for name in ("zero_shear_viscosity", "plateau_modulus"))
+    return polymer.melt_spectrum(viscosity, plateau, len(pcl_grade.table("solid_spectrum")))
+
+
 @quantities.helper()
 def pcl_rheology(
     pcl_solid_modulus: polymer.SolidModulus,
@@ -79,10 +87,7 @@ def pcl_rheology(
     solid = [
         (quantity["relaxation_time"], quantity["relative_modulus"]) for quantity in pcl_grade.table("solid_spectrum")
     ]
-    melt = [
-        (melt_viscosity_factor * quantity["relaxation_time"], quantity["modulus"])
-        for quantity in pcl_grade.table("melt_spectrum")
-    ]
+    melt = [(melt_viscosity_factor * time, modulus) for time, modulus in melt_modes(pcl_grade)]
     return polymer.Rheology(pcl_solid_modulus, solid, melt, pcl_flow_activation_energy, pcl_melt_reference)
 
 

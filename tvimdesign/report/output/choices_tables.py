@@ -57,21 +57,19 @@ def tally_in_words(choosing: Choosing) -> str:
         said.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}{without}.")
     if runs and choosing.proven and choosing.improved > _BETTER:
         said.append(
-            f"All were then solved or bounded, and one is {choosing.improved:.2%} better than branch and bound found: "
-            "it is the answer. More `solver.starts` make branch and bound better."
+            f"Every combination was then solved, and one is {choosing.improved:.2%} better than branch and bound "
+            "found: it is the answer. More `solver.starts` make branch and bound better."
         )
     elif runs and choosing.proven:
         proof = choosing.proof
         said.append(
-            f"All were then solved ({_count(proof.warm + proof.cold, 'run')}), ruled out by arithmetic "
-            f"({proof.screened}), or cannot cost less by bounds of their own: the same best."
+            f"Every combination was then solved ({_count(proof.warm + proof.cold, 'run')}; {proof.screened} needed "
+            "none, by arithmetic alone): the same best."
         )
     elif runs:
         if choosing.inside > _BETTER:
             said.append(f"A design in a box of sizes was {choosing.inside:.1%} better than the bound of the box.")
-        said.append(
-            "Bounds are local optima, good as far as the starts go; `--prove` solves or bounds every combination."
-        )
+        said.append("Bounds are local optima, good as far as the starts go; `--prove` solves every combination.")
     return " ".join(said)
 
 

@@ -234,7 +234,6 @@ class Conflict(TypedDict):
     cannot_hold_together: list[SideEntry]
     least_violation: list[SideEntry]
     ends_of_ranges: list[str]
-    proved_by_bounds: bool
 
 
 class _FrontPoint(TypedDict):

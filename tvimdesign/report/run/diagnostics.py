@@ -17,11 +17,8 @@ from tvimdesign.study import Range, Study, catalog_of
 
 if TYPE_CHECKING:
     from tvimdesign.solve.infeasibility.inspection import Conditioning, DerivativeCheck, Structure, ValueRange
-    from tvimdesign.solve.infeasibility.lower_bound import LowerBound
     from tvimdesign.solve.nlp.solution import Start
 
-SECONDS = 2.0
-"""Processor time for the lower bound."""
 _BADLY_SCALED = 1e8
 _NEARLY_SINGULAR = 1e12
 _SHOWN = 12
@@ -38,7 +35,6 @@ class Diagnostics:
     structure: Structure
     start: Start
     """One run of the solver from the first point."""
-    bound: LowerBound
 
     @property
     def sound(self) -> bool:
@@ -68,9 +64,7 @@ def check_deep(study: Study, *, as_json: bool) -> None:
 
 def inspect_study(study: Study, progress: Progress) -> Diagnostics:
     """Build the problem of a study at its start's records, inspect it, and solve it once. Raises InputError."""
-    from tvimdesign.solve.infeasibility.infeasibility_proof import ranges_of
     from tvimdesign.solve.infeasibility.inspection import Inspection
-    from tvimdesign.solve.infeasibility.lower_bound import lower_bound
     from tvimdesign.solve.optimizer.optimizer import Optimizer
 
     table, catalog = table_for(study.mode), catalog_of(study)
@@ -91,13 +85,10 @@ def inspect_study(study: Study, progress: Progress) -> Diagnostics:
     derivatives = inspection.derivatives()
     progress("conditioning")
     conditioning = inspection.conditioning()
-    ranges = ranges_of(study, catalog, table)
-    structure = inspection.structure(ranges)
+    structure = inspection.structure()
     progress("solving once")
     start = optimizer.solve(begin=inspection.begin).start
-    progress("bounding from below")
-    bound = lower_bound(optimizer, ranges, start.objective if start.converged else None, SECONDS)
-    return Diagnostics(rows, columns, conditioning, derivatives, structure, start, bound)
+    return Diagnostics(rows, columns, conditioning, derivatives, structure, start)
 
 
 def in_words(found: Diagnostics) -> list[str]:
@@ -106,7 +97,6 @@ def in_words(found: Diagnostics) -> list[str]:
     lines += _structure(found.structure)
     converged = f"converged in {found.start.iterations} iterations, objective {found.start.objective:.5g}"
     lines.append(f"One solve from the start {converged}." if found.start.converged else endings([found.start])[0])
-    lines.append(bound_in_words(found.bound))
     return [*lines, "Nothing speaks against the problem." if found.sound else "Look at what is marked with !."]
 
 
@@ -159,34 +149,12 @@ def _structure(found: Structure) -> list[str]:
         lines.append(f"! no limit and no goal depends on {', '.join(found.idle)}; take it out of `vary`.")
     if found.unchangeable:
         lines.append(f"  nothing under `vary` can change {'; '.join(found.unchangeable)}; it holds.")
-    if found.slack:
-        lines.append(f"  bounds prove these to hold anywhere in the ranges: {'; '.join(found.slack)}.")
-    if found.slack_rules:
-        lines.append(f"  bounds prove {found.slack_rules} of the machine's rules to hold anywhere in the ranges.")
     return lines
-
-
-def bound_in_words(found: LowerBound) -> str:
-    """The certified bound, how far the best design is from it, and how much that says."""
-    weak = ""
-    if found.left_out:
-        weak = f" It is weak: limits on times are left out, and so is the share of {', '.join(found.left_out)}."
-    if not math.isfinite(found.bound):
-        return f"  lower bound: none; nothing is certain of {', '.join(found.left_out)} without simulating."
-    if not found.boxes:
-        return f"  lower bound: {found.bound:.5g}, and no more, as all that is minimised hangs on a simulation."
-    if found.gap is None:
-        return f"  lower bound: no design has an objective below {found.bound:.5g}.{weak}"
-    return (
-        f"  lower bound: no design has an objective below {found.bound:.5g}; this one may be improved by "
-        f"{found.gap:.1%} at most ({found.boxes} boxes).{weak}"
-    )
 
 
 def plain(found: Diagnostics) -> dict[str, Any]:
     """The check as plain data; null for what is infinite."""
     reported = asdict(found) | {"sound": found.sound}
-    reported["bound"]["gap"] = found.bound.gap
     reported["start"].pop("seconds")
     finite: dict[str, Any] = _finite(reported)
     return finite

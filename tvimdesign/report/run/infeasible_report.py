@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from tvimdesign.device import Table
 from tvimdesign.report.output.results_format import Conflict, Optimum, SideEntry, Starts
 from tvimdesign.report.output.tables import NOTHING, margin_text
+from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words
 from tvimdesign.solve.nlp.solution import ConflictSet, Side, Start
 from tvimdesign.solve.optimizer.statuses import meaning
 from tvimdesign.solve.result import StudyResult
@@ -20,7 +21,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
     conflict_set = solution.conflict_set if solution else None
     lines = [f"{answer.design.name}: no design found that keeps every limit ({answer.design.status})."]
     if conflict_set:
-        lines += _conflict_in_words(conflict_set)
+        lines += conflict_in_words(conflict_set)
     broken = sorted((check for check in answer.checks if not check.kept), key=lambda check: check.margin)
     if broken:
         lines.append(
@@ -44,29 +45,6 @@ def complaint(answer: StudyResult, table: Table) -> str:
         lines += endings(solution.starts if solution else ())
         lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")
     return "\n".join(lines)
-
-
-def _conflict_in_words(conflict_set: ConflictSet) -> list[str]:
-    how = "bounds prove it" if conflict_set.proved else "as far as the solver sees from its starts"
-    alone = len(conflict_set.sides) == 1
-    lines = [f"This cannot hold within the ranges, {how}:" if alone else f"These cannot hold together, {how}:"]
-    for side in conflict_set.sides:
-        lines.append(f"  {_named(side)}: {_place(side)}")
-    if conflict_set.ends:
-        lines.append(f"Ends of ranges that keep {'it' if alone else 'them'} from it: {', '.join(conflict_set.ends)}.")
-    return lines
-
-
-def _place(side: Side) -> str:
-    if side.move_words:
-        return f"alone it would have to move to {side.move_words}"
-    if side.beside:
-        return f"moving it alone is not enough, for then {' and '.join(side.beside)} cannot hold either"
-    return "how far it must move is not known"
-
-
-def _named(side: Side) -> str:
-    return side.text if side.origin == "require" else f"{side.text} ({side.origin})"
 
 
 def endings(starts: Sequence[Start]) -> list[str]:
@@ -114,7 +92,6 @@ def conflicts_reported(conflict_set: ConflictSet | None) -> Conflict | None:
         "cannot_hold_together": [_plain(side) for side in conflict_set.sides],
         "least_violation": [_plain(side) for side in conflict_set.broken],
         "ends_of_ranges": list(conflict_set.ends),
-        "proved_by_bounds": conflict_set.proved,
     }
 
 

@@ -1,4 +1,4 @@
-"""A study that has no design: proved before the search where bounds prove it, with the reason left in the folder."""
+"""A study that has no design: refused before the search, with the reason left in the folder."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from tvimdesign.study.tree import StudyTree, study_file
 def refuse_unfit(
     study: Study, catalog: Catalog, table: Table, progress: Callable[[str], None] = lambda _: None
 ) -> None:
-    """Raise InputError or InfeasibleError where the study can have no design: what `check` proves, and `run` first."""
-    from tvimdesign.solve.infeasibility.infeasibility_proof import refuse_infeasible
+    """Raise InputError or InfeasibleError where the study can have no design: what `check` finds, and `run` first."""
+    from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
     refuse_impossible(study, catalog, table)
-    progress("looking for limits that bounds prove impossible")
+    progress("looking for limits that cannot hold together")
     refuse_infeasible(study, catalog, table)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -92,21 +91,3 @@ def discrete_sizes(study: Study, table: Table) -> Sizes:
         if isinstance(vary, Options) and isinstance(table.quantity(name), Input)
     }
     return Sizes(tuple(listed), tuple(listed.values()))
-
-
-def discrete_records(study: Study, table: Table) -> list[dict[str, str]]:
-    """Every combination of the records and options a study lists; one that chooses nothing where it lists none."""
-    listed = {
-        name: [str(value) for value in vary.values]
-        for name, vary in study.vary.items()
-        if isinstance(vary, Options) and not isinstance(table.quantity(name), Input)
-    }
-    return [dict(zip(listed, combination, strict=True)) for combination in itertools.product(*listed.values())]
-
-
-def with_records(study: Study, records: Mapping[str, str]) -> Study:
-    """The study with some records chosen."""
-    if not records:
-        return study
-    vary = {name: value for name, value in study.vary.items() if name not in records}
-    return study.model_copy(update={"module": {**study.module, **records}, "vary": vary})

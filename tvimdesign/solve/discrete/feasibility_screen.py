@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.ipopt import NLP
 from tvimdesign.solve.nlp.solver_run import Ends
-from tvimdesign.solve.optimizer.arithmetic import Arithmetic
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
 
 _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
@@ -30,12 +30,23 @@ class FeasibilityScreen:
         """Write the problem; nothing is solved yet."""
         self._optimizer = optimizer
         unknowns, worst = ca.MX.sym("free", len(optimizer.free)), ca.MX.sym("worst")
-        _, residuals = Arithmetic(optimizer).values(unknowns)
+        residuals = self._residuals(unknowns)
         function = ca.Function(
             "screen", [ca.vertcat(unknowns, worst), ca.MX.sym("none", 0)], [worst, residuals - worst], *NLP
         )
         options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
         self._solver: Any = ca.nlpsol("screen", "ipopt", function.expand(), options)
+
+    def _residuals(self, unknowns: Any) -> Any:
+        """Those of the arithmetic limits at the free numbers' unknowns; margins for what spreads are left out."""
+        problem, model = self._optimizer.problem, self._optimizer.model
+        limits = [limit for limit in problem.limits if not on_cycle(self._optimizer.table, limit.output)]
+        wanted = list(dict.fromkeys(limit.output for limit in limits))
+        if not wanted:
+            return ca.MX(0, 1)
+        inputs = problem.with_unknowns(ca.MX(ca.DM(model.start)), unknowns)
+        values = model.outputs(wanted)(inputs, np.full(len(model.switch_names), np.nan))  # read by none of them
+        return ca.vertcat(*(limit.residual(values[wanted.index(limit.output)]) for limit in limits))
 
     def impossible(self, within: Mapping[str, Ends], begin: Array) -> bool:
         """Whether the limits are broken at the best point that a search from some inputs comes to.

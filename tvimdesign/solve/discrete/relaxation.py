@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import islice
 
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
 from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
@@ -43,12 +44,16 @@ class Relaxation:
     def _screen(self) -> FeasibilityScreen:
         return FeasibilityScreen(self.optimizer)
 
-    def starts(self) -> list[Run]:
-        """A run from every start with every size free, and what different optima they are."""
+    def hopeless(self) -> bool:
+        """Whether a search from the study's own start comes to no design that keeps the arithmetic limits."""
+        return self._screen.impossible({}, self.optimizer.model.start)
+
+    def starts(self, most: int | None = None) -> list[Run]:
+        """A run from every start, or so many at `most`, with every size free; and what different optima they are."""
         runs: list[Run] = []
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)
-        for number, begin in enumerate(self.optimizer.multistart.points()):
+        for number, begin in enumerate(islice(self.optimizer.multistart.points(), most)):
             self.optimizer.progress(f"start {number + 1} of {count}")
             run = self.optimizer.solve(begin=self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):

@@ -17,8 +17,7 @@ import numpy as np
 
 from tvimdesign.base.units import format_quantity
 from tvimdesign.solve.infeasibility.elastic_mode import AT_PEACE, ElasticMode, Settled
-from tvimdesign.solve.infeasibility.infeasibility_proof import proved, ranges_of
-from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint, on_cycle
+from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
 from tvimdesign.solve.nlp.solver_run import Array, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -28,7 +27,6 @@ _HEAVY = 100.0
 _FAINT = 1e-3
 """Multiplier below which a limit or the end of a range has no part in it: the trace of the objective leaves less."""
 _MOST_STARTS = 5
-_PROOF_BOXES = 2000
 
 
 @dataclass(frozen=True)
@@ -152,7 +150,6 @@ def _told(elastic: ElasticMode, least: Settled, members: Sequence[int], ends: Ar
         ),
         sides=tuple(sides),
         ends=tuple(_ends_in_words(optimizer, ends)),
-        proved=_proved(optimizer, [limits[k] for k in members]),
     )
 
 
@@ -187,9 +184,27 @@ def _ends_in_words(optimizer: Optimizer, multipliers: Array) -> list[str]:
     return found
 
 
-def _proved(optimizer: Optimizer, limits: Sequence[Constraint]) -> bool:
-    """Whether bounds alone prove that the set cannot hold; only algebraic limits can be."""
-    table = optimizer.table
-    if any(on_cycle(table, limit.output) for limit in limits):
-        return False
-    return proved(ranges_of(optimizer.study, optimizer.catalog, table), limits, _PROOF_BOXES)
+def conflict_in_words(conflict_set: ConflictSet) -> list[str]:
+    """What cannot hold, how far each limit would have to move, and what keeps it from that."""
+    seen, alone = "as far as the solver sees from its starts", len(conflict_set.sides) == 1
+    if alone:
+        side = conflict_set.sides[0]
+        lines = [f"{_named(side)} cannot hold within the ranges, {seen}: {_place(side)}."]
+    else:
+        lines = [f"These cannot hold together, {seen}:"]
+        lines += [f"  {_named(side)}: {_place(side)}" for side in conflict_set.sides]
+    if conflict_set.ends:
+        lines.append(f"Ends of ranges that keep {'it' if alone else 'them'} from it: {', '.join(conflict_set.ends)}.")
+    return lines
+
+
+def _named(side: Side) -> str:
+    return side.text if side.origin == "require" else f"{side.text} ({side.origin})"
+
+
+def _place(side: Side) -> str:
+    if side.move_words:
+        return f"alone it would have to move to {side.move_words}"
+    if side.beside:
+        return f"moving it alone is not enough, for then {' and '.join(side.beside)} cannot hold either"
+    return "how far it must move is not known"

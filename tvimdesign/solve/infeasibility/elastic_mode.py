@@ -71,7 +71,7 @@ class ElasticMode:
              ca.vertcat(rows[:first], rows[first:last] - slacks, rows[last:])],
             *NLP,
         )  # fmt: skip
-        self._solver = solver_of(written, optimizer.study.solver)
+        self._solver = solver_of(written, optimizer.study.solver, of_parameters=False)
         self._rows = ca.Function("rows", [whole["x"], whole["p"]], [rows])
 
     def settle(

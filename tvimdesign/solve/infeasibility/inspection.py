@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.solve.infeasibility.infeasibility_proof import Ranges
-from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words, is_constant
+from tvimdesign.solve.nlp.constraints import constraints_of, in_words, is_constant
 from tvimdesign.solve.nlp.labels import row_names, unknown_names
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Array
@@ -75,10 +74,6 @@ class Structure:
     """Free numbers that neither a limit nor the goal depends on."""
     unchangeable: tuple[str, ...]
     """Limits of the study that nothing free can change, though they hold."""
-    slack: tuple[str, ...]
-    """Limits of the study that bounds prove to hold anywhere within the ranges."""
-    slack_rules: int
-    """How many of the machine's rules that is so of."""
 
 
 class Inspection:
@@ -201,33 +196,15 @@ class Inspection:
         total: Any = sum(w * self._values(self._x + k * STEP * direction, self._p) for k, w in weights)
         return np.asarray(total).ravel() / (12.0 * STEP)
 
-    def structure(self, ranges: Ranges) -> Structure:
-        """What neither limits nor goal depend on, what nothing changes, and what bounds prove to hold anywhere."""
+    def structure(self) -> Structure:
+        """What neither limits nor goal depend on, and what nothing changes."""
         optimizer = self.optimizer
         table, free = optimizer.table, [one.name for one in optimizer.free]
         used = {int(column) for column in self._jacobian.sparsity().get_triplet()[1]}
         current_profiles = [current.row for current in optimizer.currents]
         own = [limit for limit in constraints_of(optimizer.study, table) if limit.origin == "require"]
         fixed = [limit for limit in own if is_constant(limit, table, [*free, *current_profiles])]
-        slack = [limit for limit in always_kept(ranges) if limit not in fixed]
         return Structure(
             idle=tuple(name for i, name in enumerate(free) if i not in used),
             unchangeable=tuple(in_words(limit, table) for limit in fixed),
-            slack=tuple(in_words(limit, table) for limit in slack if limit.origin == "require"),
-            slack_rules=sum(limit.origin != "require" for limit in slack),
         )
-
-
-def always_kept(ranges: Ranges) -> list[Constraint]:
-    """The algebraic limits that bounds prove to hold anywhere within the ranges."""
-    names = list(dict.fromkeys(limit.output for limit in ranges.limits))
-    if not names or not ranges.free:
-        return []
-    bounds = ranges.enclosure(names).bounds(ranges.low, ranges.high)
-    found = []
-    for limit in ranges.limits:
-        place = names.index(limit.output)
-        worst = bounds.high[place] if limit.sense == "<=" else bounds.low[place]
-        if bounds.whole[place] and limit.residual(worst) <= 0.0:
-            found.append(limit)
-    return found

@@ -39,9 +39,12 @@ _DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_h
 """Derivatives a solver has built, by the option under which another one takes them."""
 
 
-def solver_of(function: Any, asked: SolverOptions, known: Iterable[Any] = (), *, warm: bool = False) -> Any:
+def solver_of(
+    function: Any, asked: SolverOptions, known: Iterable[Any] = (), *, warm: bool = False, of_parameters: bool = True
+) -> Any:
     """IPOPT for a problem, a function of `NLP`'s names; solvers of the same problem that are `known` lend their
-    derivatives, which are most of the work of building one.
+    derivatives, which are most of the work of building one. The multipliers `of_parameters` can be left out: where a
+    run ends at no geometry CasADi cannot compute them, and warns.
     """
     most = asked.max_iterations
     ipopt: dict[str, Any] = {
@@ -53,4 +56,5 @@ def solver_of(function: Any, asked: SolverOptions, known: Iterable[Any] = (), *,
     lent = {option: other.get_function(name) for other in known for option, name in _DERIVATIVES.items()}
     own = {} if lent else derivatives_of(function)
     settings: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False, **lent, **own}
+    settings |= {} if of_parameters else {"calc_lam_p": False}
     return ca.nlpsol("design", "ipopt", function, settings)

@@ -130,7 +130,8 @@ class Problem:
         self.cycle = cycle
         wanted = self.wanted
         values = self.model.outputs(wanted)(device_inputs, cycle) if wanted else ca.MX(0, 1)
-        objective = sum(weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
+        parts = (weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
+        objective = sum(parts, ca.MX(0.0))
         back_offs = self._reserves(device_inputs) if self._reserves else {}
         rows = [
             limit.residual(values[wanted.index(limit.output)]) + back_offs.get(limit.name, 0.0) for limit in self.limits

@@ -119,7 +119,7 @@ class Choosing:
     between: Standard | None
     """The best design with every listed number free between its smallest and its largest size; None where none is."""
     proven: bool
-    """Whether every combination was solved or has a bound of its own, and not only those branch and bound leaves."""
+    """Whether every combination was solved, and not only those that branch and bound leaves."""
     improved: float
     """Share by which that found better than branch and bound did; zero where they agree."""
     work: SolverEffort
@@ -155,8 +155,6 @@ class ConflictSet:
     """Limits that cannot hold together, while without any one of them the others can."""
     ends: tuple[str, ...]
     """Ends of ranges that keep them from it."""
-    proved: bool
-    """Whether bounds prove it; otherwise it is as far as the solver sees from where it began."""
 
 
 @dataclass(frozen=True)

@@ -46,12 +46,15 @@ class Optimizer:
         progress: Progress = lambda _: None,
         simulator: Simulator | None = None,
         objectives: Sequence[str] = (),
+        *,
+        without_cycle: bool = False,
     ) -> None:
         """Compile the device, simulate the study's start, and build the problem.
 
         `reference` are the values the minimised outputs are divided by: the study's start unless given. A `simulator`
         of the same device saves compiling it again. Outputs that are `traded` can be weighed and bounded by a `Goal`
-        whether the study minimises them or not. Raises InfeasibleError where a limit is broken that nothing free
+        whether the study minimises them or not. `without_cycle` leaves out the limits that depend on a working cycle,
+        so that none is simulated. Raises InfeasibleError where a limit is broken that nothing free
         can mend, InputError from the table.
         """
         self.study, self.catalog, self.table, self.progress = study, catalog, table, progress
@@ -67,7 +70,10 @@ class Optimizer:
         self.free = tuple(self._free(name) for name in numbers)
         self.margins: dict[str, float] = {}
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
-        self.problem = self._problem(self.kept_constraints(constraints_of(study, table, self.model.words)), objectives)
+        limits = constraints_of(study, table, self.model.words)
+        if without_cycle:
+            limits = [limit for limit in limits if not on_cycle(table, limit.output)]
+        self.problem = self._problem(self.kept_constraints(limits), objectives)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[bool, Any] = {}

@@ -1,0 +1,87 @@
+"""Limits that arithmetic alone cannot keep together, looked for before a working cycle is simulated.
+
+The limits that depend on no cycle are a problem of a dozen unknowns. It is solved from several starts; where none of
+them keeps the limits, no start of the whole problem does, and the elastic problem says which limits conflict.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.base.units import format_quantity
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table
+from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
+from tvimdesign.solve.nlp.constraints import on_cycle
+from tvimdesign.solve.nlp.solution import ConflictSet
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
+from tvimdesign.study import ProfileOptions, Study
+
+_STARTS = 5
+_MOST_RECORDS = 20
+"""Combinations of records beyond which the search itself shall tell."""
+
+
+def refuse_infeasible(study: Study, catalog: Catalog, table: Table) -> None:
+    """Raise InfeasibleError, naming the limits and the ranges' ends, where no start keeps the arithmetic limits."""
+    records = discrete_records(study, table)
+    if not study.vary or len(records) > _MOST_RECORDS:
+        return
+    said: list[str] = []
+    for chosen in records:
+        reported = _conflict(with_records(study, chosen), catalog, table)
+        if not reported:
+            return
+        said.append(reported)
+    also = f"\nSo it is with every listed {' and '.join(records[0])}." if records[0] else ""
+    raise InfeasibleError(f"{study.name}: {said[0]}{also}")
+
+
+def _conflict(study: Study, catalog: Catalog, table: Table) -> str:
+    """What conflicts, with what to do; empty where a start keeps all limits."""
+    update = {
+        "minimize": {name: weight for name, weight in study.minimize.items() if not on_cycle(table, name)},
+        "solver": study.solver.model_copy(update={"starts": max(_STARTS, study.solver.starts)}),
+        "profile": ProfileOptions(), "robust": None,
+    }  # fmt: skip
+    try:
+        optimizer = Optimizer(study.model_copy(update=update), catalog, table, without_cycle=True)
+    except InfeasibleError as error:  # a limit that nothing free can mend
+        return str(error)
+    if not optimizer.free or not optimizer.problem.limits:
+        return ""
+    runs = []
+    for begin in optimizer.multistart.points():
+        runs.append(optimizer.solve(begin=begin))
+        if runs[-1].start.converged:
+            return ""
+    found = find_conflicts(optimizer, runs, lambda _: None)
+    if found is None or found.conflict_set is None:
+        return ""
+    lines = conflict_in_words(found.conflict_set)
+    fixed = _fixed(optimizer, found.conflict_set)
+    ways = f"Ease a limit, widen a range, or vary {fixed}." if fixed else "Ease a limit, or widen a range."
+    return "\n".join([*lines, ways])
+
+
+def _fixed(optimizer: Optimizer, conflict_set: ConflictSet) -> str:
+    """The input that could be varied and is not, where a hundredth of it moves the only limit's output most of all."""
+    if len(conflict_set.sides) != 1:
+        return ""
+    model, table = optimizer.model, optimizer.table
+    output = conflict_set.sides[0].text.split(" ")[0]
+    inputs = ca.SX.sym("inputs", len(model.names))
+    cycle = np.full(len(model.switch_names), np.nan)  # read by none of the arithmetic outputs
+    value = model.outputs([output]).call([inputs, cycle], True, False)[0]
+    slopes = np.asarray(ca.Function("slopes", [inputs], [ca.gradient(value, inputs)])(model.start)).ravel()
+    moved = dict(zip(model.names, np.abs(slopes * model.start), strict=True))
+    free = [one.name for one in optimizer.free]
+    could = {row.name for row in table.inputs if row.variable}
+    most = max((name for name in moved if name in could or name in free), key=moved.__getitem__)
+    if most in free:
+        return ""
+    value = format_quantity(float(model.start[model.index[most]]), table.unit(most))
+    return f"{most} ({value}), which moves it more than all that is varied"
