@@ -7,6 +7,7 @@ from math import cos, pi, sin
 from pathlib import Path
 
 import cadquery as cq
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -87,6 +88,7 @@ def _radii(
 
 def main() -> None:
     """Write the plans of both modes."""
+    mpl.rcParams.update({"svg.hashsalt": "tvimdesign", "svg.fonttype": "none", "font.family": "DejaVu Sans"})
     for study in ("paper_shear", "paper_compression"):
         draw(study, ROOT / f"docs/pictures/plan_{study}.svg")
 

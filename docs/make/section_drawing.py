@@ -121,7 +121,7 @@ def _wound(outline: Outline, sense: float) -> Outline:
 def _outline(wire: cq.Wire, flat: Sequence[int]) -> Outline:
     points: list[tuple[float, ...]] = []
     for edge in wire:
-        count = 2 if edge.geomType() == "LINE" else 120
+        count = 2 if edge.geomType() == "LINE" else int(np.clip(2.0 * edge.Length(), 12, 200))
         piece = [at.toTuple() for at in edge.positions(np.linspace(0.0, 1.0, count).tolist())]
         if points and dist(piece[-1], points[-1]) < dist(piece[0], points[-1]):
             piece.reverse()
