@@ -73,7 +73,7 @@ schema: $(STAMP)  ## write the study's JSON Schema from the table, and the usual
 	$(BIN)/python -m tvimdesign.base.units
 
 docs: $(STAMP)  ## build the docs site into build/site: strict, links checked, nothing loaded from the network
-	$(BIN)/python -m mkdocs build --quiet --strict
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 	@echo "the site is in build/site: open build/site/index.html"
 
 pictures: $(STAMP)  ## draw docs/pictures anew: labelled sections, and every study's module from a run with parts (minutes)

@@ -25,6 +25,8 @@ ABOUT = {
     "Gaps": "Distances that must not vanish, and the rules that hold them.",
 }
 """What each group of quantities is about, in the order in which a reader meets them."""
+_WIDE = "---\nhide: [toc]\n---\n"
+"""Leaves the width of the table of contents to the page."""
 
 
 def reference_pages() -> dict[str, str]:
@@ -67,7 +69,7 @@ def _index(counts: dict[str, int]) -> str:
 def _page(group: str, entries: Iterable[tuple[Quantity, list[str]]]) -> str:
     head = ["name", "kind", "unit", "default", "allowed", "meaning", "source"]
     rows = ["| " + " | ".join(_cells(quantity, modes)) + " |" for quantity, modes in entries]
-    return "\n".join([f"# {group}", "", ABOUT[group], "", f"| {' | '.join(head)} |", "|---" * len(head) + "|", *rows, ""])
+    return "\n".join([_WIDE, f"# {group}", "", ABOUT[group], "", f"| {' | '.join(head)} |", "|---" * len(head) + "|", *rows, ""])
 
 
 def _cells(quantity: Quantity, modes: list[str]) -> list[str]:

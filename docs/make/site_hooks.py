@@ -1,4 +1,4 @@
-"""What MkDocs calls while it builds the site: reference pages, files of the repository that pages link to, and MathML."""
+"""What MkDocs calls while it builds the site: reference and gallery, files of the repository that pages link to, and MathML."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from mkdocs.structure.files import File
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from gallery_page import gallery_page
 from mathml import with_mathml
 from reference_pages import reference_pages
 
@@ -25,8 +26,8 @@ _LINK = re.compile(r"\[([^\]]*)\]\(([^)#:\s]+)\)")
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Add the pages made from the table, and each file outside docs/ that a page links to."""
-    for path, text in reference_pages().items():
+    """Add the pages made from the table and the studies, and each file outside docs/ that a page links to."""
+    for path, text in {**reference_pages(), "gallery.md": gallery_page()}.items():
         files.append(File.generated(config, path, content=text))
     wanted = {
         outside
