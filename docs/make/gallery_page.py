@@ -14,8 +14,9 @@ def gallery_page() -> str:
     parts = [
         "# Gallery of the studies",
         "",
-        "Every file in `studies/` runs as it is: `tvimdesign run studies/NAME.yaml`. The pictures are made by the code, of the module a run comes to: on",
-        "the left whole, on the right opened. `make pictures` makes them again. The README's table has their sizes and times.",
+        "Every file in `studies/` runs as it is: `tvimdesign run studies/NAME.yaml`. The code makes the pictures,",
+        "of the module a run comes to: on the left whole, on the right opened. `make pictures` makes them again.",
+        "The README's table has sizes and times.",
         "",
     ]  # fmt: skip
     for path in sorted((ROOT / "studies").glob("*.yaml")):

@@ -36,8 +36,9 @@ def draw(path: Path) -> None:
 def _inside(axes: Axes) -> None:
     for left, text in ((16, "housing"), (70, "link")):
         axes.plot([left, left], [3.0, 21.0], color="black", linewidth=2.2)
-        axes.plot([left, left + (-4 if left < 40 else 4)], [12, 12], color="black", linewidth=2.2)
-        axes.text(left + (-5 if left < 40 else 5), 12, text, ha="right" if left < 40 else "left", va="center", fontsize=11)
+        outwards = -1 if left < 40 else 1
+        axes.plot([left, left + 4 * outwards], [12, 12], color="black", linewidth=2.2)
+        axes.text(left + 5 * outwards, 12, text, ha="right" if left < 40 else "left", va="center", fontsize=11)
     _spring(axes, 16, 70, 17.5)
     axes.text(43, 20.3, "torsion springs: always there", ha="center", fontsize=10.5)
     axes.plot([16, 24], [8, 8], color="black", linewidth=1.3)
@@ -52,7 +53,8 @@ def _box(axes: Axes, corner: tuple[float, float], size: tuple[float, float], col
     axes.add_patch(FancyBboxPatch(corner, *size, boxstyle="round,pad=0,rounding_size=1.2", facecolor=colour,
                                   edgecolor="black", linewidth=0.8))  # fmt: skip
     ink = "white" if colour == _BLUE else "black"
-    axes.text(corner[0] + 0.5 * size[0], corner[1] + 0.5 * size[1], text, ha="center", va="center", fontsize=11, color=ink)
+    middle = (corner[0] + 0.5 * size[0], corner[1] + 0.5 * size[1])
+    axes.text(*middle, text, ha="center", va="center", fontsize=11, color=ink)
 
 
 def _spring(axes: Axes, left: float, right: float, height: float) -> None:

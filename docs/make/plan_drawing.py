@@ -1,4 +1,4 @@
-"""Draws the labelled plans in docs/pictures: a cut through the PCL, seen from above, with what is measured around the axis."""
+"""Draws the labelled plans in docs/pictures: cut through the PCL, with what is measured around the axis."""
 
 from __future__ import annotations
 

@@ -51,13 +51,13 @@ def _index(counts: dict[str, int]) -> str:
     return "\n".join([
         "# Reference: all quantities",
         "",
-        "These pages are made from the table of quantities, which is also what studies, reports and parts are read from.",
+        "These pages are made from the table of quantities, of which studies, reports and parts are made too.",
         "`tvimdesign rows WORD` lists the same in the terminal.",
         "",
         "- An **input** is a number that a study may set under `module`. A **variable** may also stand under `vary`.",
         "- A **choice** is a word: a record of the catalogue, or one of a few options.",
-        "- An **output** is a result. A study may `require` and `minimize` it. `name@point` exists at each operating point.",
-        "- *Allowed* are the ends of an input, or the rules that every study keeps unless it sets a limit of its own.",
+        "- An **output** is a result. A study may `require` and `minimize` it; `name@point` is at an operating point.",
+        "- *Allowed* are the ends of an input, or the rules that every study keeps unless it sets its own limit.",
         "",
         "| group | quantities | about |",
         "|---|---|---|",
@@ -69,7 +69,8 @@ def _index(counts: dict[str, int]) -> str:
 def _page(group: str, entries: Iterable[tuple[Quantity, list[str]]]) -> str:
     head = ["name", "kind", "unit", "default", "allowed", "meaning", "source"]
     rows = ["| " + " | ".join(_cells(quantity, modes)) + " |" for quantity, modes in entries]
-    return "\n".join([_WIDE, f"# {group}", "", ABOUT[group], "", f"| {' | '.join(head)} |", "|---" * len(head) + "|", *rows, ""])
+    table = [f"| {' | '.join(head)} |", "|---" * len(head) + "|", *rows]
+    return "\n".join([_WIDE, f"# {group}", "", ABOUT[group], "", *table, ""])
 
 
 def _cells(quantity: Quantity, modes: list[str]) -> list[str]:

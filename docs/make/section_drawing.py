@@ -1,11 +1,11 @@
-"""Draws the labelled sections in docs/pictures from the parts themselves: every radius, level and height by its name."""
+"""Draws the labelled sections in docs/pictures from the parts: every radius, level and height by its name."""
 
 from __future__ import annotations
 
 import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from math import dist, inf, pi
+from math import dist, pi
 from pathlib import Path
 from typing import Any
 
@@ -54,7 +54,8 @@ def start(study: str) -> Dimensions:
 def to_label(dims: Dimensions) -> list[str]:
     """The radii, levels, heights and thicknesses that a module has, by name."""
     table = table_for(dims.mode)
-    names = [q.name for q in table.quantities if not isinstance(q, Choice) and q.unit == "mm" and LENGTHS.search(q.name)]
+    lengths = [q.name for q in table.quantities if not isinstance(q, Choice) and q.unit == "mm"]
+    names = [name for name in lengths if LENGTHS.search(name)]
     skipped = {q.name for q in table.quantities if q.group in {"Gaps", "Process"}} | _unused(dims)
     return [name for name in names if name not in skipped and dims.by_name.get(name, 0.0) != 0.0]
 
@@ -119,21 +120,19 @@ def _wound(outline: Outline, sense: float) -> Outline:
 
 
 def _outline(wire: cq.Wire, flat: Sequence[int]) -> Outline:
-    points: list[tuple[float, ...]] = []
-    for edge in wire:
-        count = 2 if edge.geomType() == "LINE" else int(np.clip(2.0 * edge.Length(), 12, 200))
-        piece = [at.toTuple() for at in edge.positions(np.linspace(0.0, 1.0, count).tolist())]
-        if points and dist(piece[-1], points[-1]) < dist(piece[0], points[-1]):
-            piece.reverse()
-        elif not points and (following := list(wire)[1:]) and _starts_reversed(piece, following[0]):
-            piece.reverse()
-        points += piece
-    return Outline([[point[axis] for axis in flat] for point in points], closed=False)
+    """A wire as points; its edges come in order, each in its own sense."""
+    first, *others = [_sampled(edge) for edge in wire]
+    if others and min(dist(first[0], end) for end in (others[0][0], others[0][-1])) < 1e-6:
+        first.reverse()
+    points = first
+    for piece in others:
+        points += piece[::-1] if dist(piece[-1], points[-1]) < dist(piece[0], points[-1]) else piece
+    return Outline([[point[axis] for axis in flat] for point in points])
 
 
-def _starts_reversed(piece: list[tuple[float, ...]], following: cq.Edge) -> bool:
-    ends = [following.positionAt(share).toTuple() for share in (0.0, 1.0)]
-    return min(dist(piece[0], end) for end in ends) < min(dist(piece[-1], end) for end in ends)
+def _sampled(edge: cq.Edge) -> list[tuple[float, ...]]:
+    count = 2 if edge.geomType() == "LINE" else int(np.clip(2.0 * edge.Length(), 12, 200))
+    return [at.toTuple() for at in edge.positions(np.linspace(0.0, 1.0, count).tolist())]
 
 
 def half_section(placed: Mapping[str, cq.Shape], azimuth: float, size: float) -> dict[str, list[Outline]]:
@@ -231,8 +230,8 @@ def _label_sides(axes: Axes, dims: Dimensions) -> None:
                 marks.append((0.5 * (low + high), sign * at, name))
         for (level, radius, name), at in _spread(marks, 0):
             colour = _COLOURS["levels" if name in chosen["levels"] else "heights"]
-            line = [(radius, level), (sign * outside, level), (sign * (outside + 5.0), at), (sign * (outside + 6.0), at)]
-            axes.plot(*zip(*line, strict=True), color=colour, linewidth=0.5)
+            beside = [sign * (outside + more) for more in (0.0, 5.0, 6.0)]
+            axes.plot([radius, *beside], [level, level, at, at], color=colour, linewidth=0.5)
             if name in chosen["levels"]:
                 axes.plot(radius, level, "o", color=colour, markersize=2.2)
             axes.text(sign * (outside + 6.5), at, _text(dims, name), color=colour, fontsize=8.5, va="center",

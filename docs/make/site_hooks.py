@@ -1,4 +1,4 @@
-"""What MkDocs calls while it builds the site: reference and gallery, files of the repository that pages link to, and MathML."""
+"""What MkDocs calls to build the site: reference and gallery, files that pages link to, equations as MathML."""
 
 from __future__ import annotations
 
