@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-front bench-designs check-cad lint format types contracts schema units cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-front bench-designs check-cad docs pictures lint format types contracts schema units cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -73,6 +73,17 @@ schema: $(STAMP)  ## write study.schema.json, for editors, from the table
 
 units: $(STAMP)  ## write the usual units as pint reads them
 	$(BIN)/python -m tvimdesign.base.units
+
+docs: $(STAMP)  ## build the docs site into build/site: strict, links checked, nothing loaded from the network
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
+	@echo "the site is in build/site: open build/site/index.html"
+
+pictures: $(STAMP)  ## draw docs/pictures anew: labelled sections, and every study's module from a run with parts (minutes)
+	$(BIN)/python docs/make/section_drawing.py
+	$(BIN)/python docs/make/plan_drawing.py
+	$(BIN)/python docs/make/joint_drawing.py
+	for study in studies/*.yaml; do $(BIN)/tvimdesign run $$study --overwrite --no-plots || exit 1; done
+	$(BIN)/python docs/make/study_pictures.py
 
 # What is large is left out: STL beside 3MF, assemblies and PDF but for the first module, print files of milled ones.
 REFERENCES := paper_shear paper_compression machined_shear machined_compression

@@ -26,6 +26,7 @@ LONGEST = (
     "test_cad_mounts.py",
     "test_front.py",
     "test_stiffening.py",
+    "test_docs_commands.py",
 )
 """Files of a minute or more, the longest two first."""
 

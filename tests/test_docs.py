@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from support import ROOT, Command
+from support import ROOT, STUDIES, Command
 
 from tvimdesign.catalog import Catalog, check_records
 from tvimdesign.device import table_for
@@ -24,7 +24,35 @@ def _blocks(language: str) -> list[str]:
 
 def test_the_first_two_commands_are_the_study_and_the_tests() -> None:
     start = README.index("## Quick start")
-    assert re.findall(r"^```sh\n(.*?)^```", README[start:], re.M | re.S)[:2] == ["make study\n", "make test\n"]
+    quick = README[start : README.index("\n## ", start + 1)]
+    assert re.findall(r"^```sh\n(.*?)^```", quick, re.M | re.S) == ["make study\n", "make test\n"]
+
+
+def test_the_readme_is_read_in_a_few_minutes() -> None:
+    assert len(README.split()) <= 1600
+    pictures = {ROOT / path for path in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)}
+    assert sum(path.stat().st_size for path in pictures) < 1_500_000
+
+
+def _study_rows() -> dict[str, list[str]]:
+    """The README's table of studies: cells by the study's name."""
+    rows = [line for line in README.splitlines() if line.startswith("| [") and "](studies/" in line]
+    return {line[3 : line.index("]")]: [cell.strip() for cell in line.split("|")[1:-1]] for line in rows}
+
+
+def test_the_readme_shows_every_study_with_its_picture() -> None:
+    rows = _study_rows()
+    assert set(rows) == {path.stem for path in STUDIES}
+    assert all(cells[1] == f"![](docs/pictures/studies/{name}.png)" for name, cells in rows.items())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("study", STUDIES, ids=lambda path: str(path.stem))
+def test_sizes_and_times_of_the_studies_are_what_they_come_to(study: Path) -> None:
+    read = read_study(study)
+    values = answer(read, Catalog(), table_for(read.mode)).design.values
+    size, mass, soft = (values[name] for name in ("envelope_diameter", "module_mass", "softening_time"))
+    assert _study_rows()[study.stem][3] == f"{1e3 * size:.0f} mm, {1e3 * mass:.0f} g, soft after {soft:.0f} s"
 
 
 @pytest.mark.parametrize(("study", "column"), [("paper_as_published", 1), ("paper_shear", 2)])
@@ -49,16 +77,15 @@ def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column:
     assert reported == expected
 
 
-@pytest.mark.parametrize("block", [0, 1])
-def test_the_studies_in_the_readme_have_an_optimum(block: int) -> None:
-    study = read_study_text(_blocks("yaml")[block], "README.md")
+def test_the_study_in_the_readme_has_an_optimum() -> None:
+    study = read_study_text(_blocks("yaml")[0], "README.md")
     assert answer(study, Catalog(), table_for(study.mode)).design.status == "optimal"
 
 
 def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path) -> None:
     lines = [line.split("#")[0] for line in _blocks("sh")[2].splitlines()]
     commands = [shlex.split(line)[1:] for line in lines if line.strip()]
-    assert [words[0] for words in commands] == ["new", "check", "run", "cad", "rows", "simulate", "ledger"]
+    assert [words[0] for words in commands] == ["new", "check", "run", "cad", "rows", "simulate", "paper-check"]
     for words in commands:
         if words[0] == "cad":  # the parts have their own tests; here its input is looked at
             assert (tmp_path / words[1]).exists()
@@ -70,7 +97,7 @@ def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path) ->
 
 def test_the_record_in_the_docs_is_one_that_can_be_used(tmp_path: Path) -> None:
     page = (ROOT / "docs/catalogue.md").read_text()
-    record = re.findall(r"^```yaml\n(.*?)^```", page, re.M | re.S)[0]
+    record = re.findall(r"^```yaml title=\"my_records/peltiers/my_pad.yaml\"\n(.*?)^```", page, re.M | re.S)[0]
     (tmp_path / "peltiers").mkdir()
     (tmp_path / "peltiers/my_pad.yaml").write_text(record)
     catalog = Catalog(tmp_path)
@@ -81,9 +108,10 @@ def test_the_record_in_the_docs_is_one_that_can_be_used(tmp_path: Path) -> None:
 
 
 def test_links_lead_somewhere() -> None:
-    for page in (ROOT / "README.md", ROOT / "cad/README.md", *sorted((ROOT / "docs").glob("*.md"))):
-        for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
-            assert (page.parent / target).exists(), f"{page.name}: {target}"
+    for page in (ROOT / "README.md", ROOT / "cad/README.md", *sorted((ROOT / "docs").rglob("*.md"))):
+        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
+            made_by_the_site = re.search(r"(^|/)(reference/|gallery\.md$)", target)
+            assert made_by_the_site or (page.parent / target).exists(), f"{page.name}: {target}"
 
 
 def test_the_citation_has_the_package_s_version() -> None:

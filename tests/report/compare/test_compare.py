@@ -264,9 +264,9 @@ def test_both_modes_of_the_shipped_pair_converge_from_ten_starts(tvimdesign: Com
         assert len(front["points"]) + front["dominated"] >= 6
     ratio = {row["name"]: row["ratio"]["compression"] for row in reported["comparisons"]["optimised"]}
     shares = [f"{100.0 * (ratio[name] - 1.0):.0f} %" for name in ("response_time", "envelope_volume", "module_mass")]
-    readme = " ".join((ROOT / "README.md").read_text().split())
-    assert f"compression is {shares[0]} slower, {shares[1]} larger and {shares[2]} heavier than shear" in readme
-    assert f"takes {100.0 * (1.0 - ratio['switch_energy']):.0f} % less energy for a switch" in readme
+    page = " ".join((ROOT / "docs/how-to/compare-modes.md").read_text().split())
+    assert f"compression is {shares[0]} slower, {shares[1]} larger and {shares[2]} heavier than shear" in page
+    assert f"takes {100.0 * (1.0 - ratio['switch_energy']):.0f} % less energy for a switch" in page
     assert "compression wins nowhere" in reported["sentence"]
     assert (
         sum(line.startswith("drawn") for line in io.StringIO((tmp_path / "out/compare.csv").read_text("utf-8-sig")))
@@ -276,7 +276,7 @@ def test_both_modes_of_the_shipped_pair_converge_from_ten_starts(tvimdesign: Com
 
 @pytest.mark.slow
 def test_no_compression_module_of_the_pair_is_found_that_damps_as_the_paper_s_does() -> None:
-    """Said in the README; the shear module of the pair does."""
+    """Said in docs/how-to/compare-modes.md; the shear module of the pair does."""
     for mode, found in (("shear", "optimal"), ("compression", "infeasible")):
         text = (ROOT / f"studies/compare_{mode}.yaml").read_text()
         study = read_study_text(text.replace("require:", 'require:\n  joint_damping@hot: ">= 1 N.m.s/rad"'), mode)

@@ -10,7 +10,8 @@ from tvimdesign.study import Study, catalog_of
 def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
     """Return the study. Raises InputError for what it asks and no module can be, InfeasibleError likewise.
 
-    Limits that arithmetic alone cannot keep are looked for as well, which takes half a second, unless `proof` is not asked.
+    Limits that arithmetic alone cannot keep are looked for as well, which takes half a second, unless `proof` is not
+    asked.
     """
     from tvimdesign.report.run.refusal import refuse_unfit
     from tvimdesign.solve.nlp.constraints import refuse_impossible

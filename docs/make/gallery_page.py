@@ -1,0 +1,39 @@
+"""Makes the gallery from the study files: name, description, mode, picture and file of each."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def gallery_page() -> str:
+    """The gallery as Markdown. Raises FileNotFoundError where a study has no picture."""
+    parts = [
+        "# Gallery of the studies",
+        "",
+        "Every file in `studies/` runs as it is: `tvimdesign run studies/NAME.yaml`. The code makes the pictures,",
+        "of the module a run comes to: on the left whole, on the right opened. `make pictures` makes them again.",
+        "The README's table has sizes and times.",
+        "",
+    ]  # fmt: skip
+    for path in sorted((ROOT / "studies").glob("*.yaml")):
+        study = yaml.safe_load(path.read_text(encoding="utf-8"))
+        picture = f"pictures/studies/{path.stem}.png"
+        if not (ROOT / "docs" / picture).exists():
+            raise FileNotFoundError(f"docs/{picture} is missing: `make pictures` makes it")
+        varied = len(study.get("vary", {}))
+        done = f"optimises {varied} variables" if varied else "evaluated as it stands"
+        parts += [
+            f"## {study['name']}",
+            "",
+            f"![{study['name']}: whole and opened]({picture})",
+            "",
+            str(study.get("description", "")).strip(),
+            "",
+            f"Mode: {study['mode']}; {done}. File: [`studies/{path.name}`](../studies/{path.name}).",
+            "",
+        ]
+    return "\n".join(parts)

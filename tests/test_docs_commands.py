@@ -1,0 +1,94 @@
+"""The tutorial and the how-to pages: their files are written and their commands run, in the order of the page."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from support import ROOT, Command
+
+DOCS = ROOT / "docs"
+PAGES = ["tutorial.md", *(f"how-to/{path.name}" for path in sorted((DOCS / "how-to").glob("*.md")))]
+QUICK = ["tutorial.md", "how-to/own-peltier.md", "how-to/my-printer.md", "how-to/scripts.md"]
+"""Pages that every run of the tests goes through, without parts, plots and long virtual tests."""
+LONG = {"cad", "simulate", "tolerate", "compare"}
+_BLOCK = re.compile(r'^```(\w+)(?: title="([^"]+)")?\n(.*?)^```', re.M | re.S)
+
+
+def _steps(page: str) -> Iterator[tuple[str, str]]:
+    """What a page has one do, in order: ("FILE:name", text) or ("command", line)."""
+    for language, title, text in _BLOCK.findall((DOCS / page).read_text()):
+        if title:
+            yield f"FILE:{title}", text
+        elif language == "sh":
+            yield from (("command", line) for line in text.splitlines() if line.strip())
+
+
+def _place(tmp_path: Path) -> None:
+    """A place like the repository: commands name studies and released parts by their path in it."""
+    for name in ("studies", "cad"):
+        (tmp_path / name).symlink_to(ROOT / name)
+
+
+def _do(page: str, tvimdesign: Command, place: Path, more: list[str], skipped: set[str]) -> None:
+    for kind, text in _steps(page):
+        if kind != "command":
+            file = place / kind.removeprefix("FILE:")
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+            continue
+        program, *words = shlex.split(text, comments=True)
+        if words[0] in skipped:
+            continue
+        if program == "python":
+            done = subprocess.run([sys.executable, *words], cwd=place, capture_output=True, text=True, check=False)
+        else:
+            assert program == "tvimdesign", text
+            done = tvimdesign(*words, *(more if words[0] == "run" else []), cwd=place, timeout=600.0)
+        assert done.returncode == 0, f"{page}: {text}\n{done.stderr}\n{done.stdout}"
+
+
+def _records(page: str, place: Path) -> None:
+    """The record that the page on Peltier modules takes from the catalogue's page."""
+    if "peltier" in page:
+        for kind, text in _steps("catalogue.md"):
+            file = place / kind.removeprefix("FILE:")
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+
+
+@pytest.mark.parametrize("page", QUICK)
+def test_the_commands_of_a_page_work(page: str, tvimdesign: Command, tmp_path: Path) -> None:
+    _place(tmp_path)
+    _records(page, tmp_path)
+    _do(page, tvimdesign, tmp_path, ["--no-plots"] if page != "how-to/scripts.md" else [], LONG)
+    if page == "tutorial.md":
+        _check_the_tutorial_s_table(tmp_path / "results/elbow/results.json")
+
+
+def _check_the_tutorial_s_table(results: Path) -> None:
+    values = {name: entry["value"] for name, entry in json.loads(results.read_text())["values"].items()}
+    expected = {
+        "hot stiffness": f"{values['joint_stiffness@hot']:.1f} N·m/rad",
+        "torque held when frozen": f"{values['holding_torque']:.0f} N·m",
+        "diameter": f"{values['envelope_diameter']:.0f} mm",
+        "joint soft": f"{values['softening_time']:.0f} s",
+        "mass": f"{values['module_mass']:.0f} g",
+    }
+    lines = (DOCS / "tutorial.md").read_text().splitlines()
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines if line.startswith("|")]
+    assert {row[0]: row[2] for row in rows if row[0] in expected} == expected
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", PAGES)
+def test_all_that_a_page_says_is_done_as_written(page: str, tvimdesign: Command, tmp_path: Path) -> None:
+    _place(tmp_path)
+    _records(page, tmp_path)
+    _do(page, tvimdesign, tmp_path, [], set())
