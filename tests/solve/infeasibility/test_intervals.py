@@ -26,6 +26,7 @@ OF_TWO: dict[str, Callable[..., object]] = {
     "sum": lambda x, y: x + y, "difference": lambda x, y: x - y, "product": lambda x, y: x * y,
     "quotient": lambda x, y: x / y, "power": lambda x, y: x**y, "least": ca.fmin, "largest": ca.fmax,
     "arctangent": ca.atan2, "order": lambda x, y: x <= y, "least of a root": lambda x, y: ca.fmin(ca.sqrt(x), y),
+    "not in order": lambda x, y: ca.logic_not(x <= y),
     "the other of a root": lambda x, y: ca.fmax(x, ca.sqrt(y)),
 }  # fmt: skip
 
@@ -86,6 +87,21 @@ def test_a_sum_contains_the_exact_one_that_floats_miss() -> None:
         (interval.cosine(_box((3.0, 7.0))), -1.0, 1.0),
         (interval.cosine(_box((0.5, 1.0))), np.cos(1.0), np.cos(0.5)),
         (interval.sine(_box((0.1, 2.0))), np.sin(0.1), 1.0),
+        (interval.cosine(_box((7.0, 12.0))), -1.0, np.cos(12.0)),  # with three half turns within, and no whole one
+        (interval.cosine(_box((-12.0, -10.0))), np.cos(10.0), np.cos(12.0)),
+        (interval.size(_box((-3.0, -1.0))), 1.0, 3.0),
+        (interval.size(_box((1.0, 3.0))), 1.0, 3.0),
+        (interval.size(_box((-3.0, 2.0))), 0.0, 3.0),
+        (interval.negation(_box((0.0, 0.0))), 1.0, 1.0),
+        (interval.negation(_box((1.0, 1.0))), 0.0, 0.0),
+        (interval.negation(_box((0.0, 1.0))), 0.0, 1.0),
+        (interval.at_most(_box((1.0, 2.0)), _box((2.0, 3.0))), 1.0, 1.0),
+        (interval.at_most(_box((1.0, 4.0)), _box((2.0, 3.0))), 0.0, 1.0),
+        (interval.at_most(_box((4.0, 5.0)), _box((2.0, 3.0))), 0.0, 0.0),
+        (interval.sign(_box((1.0, 2.0))), 1.0, 1.0),
+        (interval.sign(_box((-2.0, 1.0))), -1.0, 1.0),
+        (interval.least(_box((1.0, 5.0)), _box((2.0, 3.0))), 1.0, 3.0),
+        (interval.largest(_box((1.0, 5.0)), _box((2.0, 3.0))), 2.0, 5.0),
         (interval.power(_box((2.0, 3.0)), interval.point(-2.0)), 1.0 / 9.0, 0.25),
     ],
 )
