@@ -62,8 +62,12 @@ def test_every_output_of_a_switch_has_the_derivatives_by_the_switch_that_differe
     jacobian = ca.Function("jacobian", [cycle], [ca.jacobian(unity.every_output(unity.start, cycle), cycle)])
     shown = differences(lambda x: unity.every_output(unity.start, x), supplied, list(range(len(supplied))), 1e-3)
     values = np.abs(np.asarray(unity.every_output(unity.start, supplied)).ravel())[:, None]
-    error = np.abs(np.asarray(ca.DM(jacobian(supplied)).full()) - shown)
-    assert np.all(error * supplied <= 1e-9 * np.maximum(values, 1e-6))
+    exact = np.asarray(ca.DM(jacobian(supplied)).full())
+    # Of a small rest of two large numbers, as the margin to a hot point that is just reached, the larger counts.
+    allowed = 1e-9 * np.maximum(np.maximum(values, np.abs(exact * supplied)), 1e-6)
+    error = np.abs(exact - shown) * supplied
+    wrong = [(unity.output_names[i], unity.switch_names[j]) for i, j in np.argwhere(~(error <= allowed))]
+    assert not wrong
 
 
 def event_gradient(model: DeviceFunctions, cycle: Cycle, event: str) -> tuple[float, Array]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tvimdesign.device import table_for
+from tvimdesign.device.core import softening
 from tvimdesign.device.table.phases import EQUILIBRIUM_STIFFENING, SOFTENING, STIFFENING
 from tvimdesign.physics import heat
 
@@ -111,3 +112,12 @@ def test_the_supply_gives_volts_in_size_and_takes_nothing_back(known: dict[str, 
     for at_terminals, given_by_supply in ((8.0, 8.0), (-8.0, 0.0), (0.0, 0.005)):
         found = TABLE.evaluate({**known, "terminal_power": at_terminals}, ["electrical_power"])["electrical_power"]
         assert found == pytest.approx(given_by_supply, abs=1e-5)  # a corner of 0.01 W, half as high in the middle
+
+
+def test_a_switch_ends_by_the_criterion_that_was_chosen(stack: heat.Stack) -> None:
+    # Faces at 95 and 75 degC, the mean at 85, on the way to 100: what is left of each, over 100 K.
+    profile = heat.profile(heat.initial_state(stack, 5, 300.0), stack)._replace(near=368.15, far=348.15)
+    left = {"near_face": -0.05, "mean": -0.15, "far_face": -0.25, "softening": np.log(15.0 / 30.0)}
+    for criterion, expected in left.items():
+        found = softening.response_time(criterion, profile, 358.15, 373.15, 30.0, 15.0)
+        assert found == pytest.approx(expected, rel=1e-9), criterion

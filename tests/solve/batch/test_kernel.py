@@ -29,6 +29,16 @@ ONE: dict[str, tuple[Callable[[float], float], list[float]]] = {
     "asin": (math.asin, [-1.0, 0.2, 1.0]),
     "fabs": (math.fabs, [-2.0, 0.0, 3.0]),
     "tanh": (math.tanh, [-20.0, 0.1]),
+    "cos": (math.cos, [-3.0, 0.1, 50.0]),
+    "tan": (math.tan, [-1.0, 0.1, 1.5]),
+    "acos": (math.acos, [-1.0, 0.2, 1.0]),
+    "atan": (math.atan, [-1e6, 0.3, 2.0]),
+    "sinh": (math.sinh, [-2.0, 1e-9, 5.0]),
+    "cosh": (math.cosh, [-2.0, 0.0, 5.0]),
+    "erf": (math.erf, [-0.5, 1e-9, 2.0]),
+    "floor": (math.floor, [-1.5, -1.0, 0.0, 2.7]),
+    "ceil": (math.ceil, [-1.5, -1.0, 0.0, 2.7]),
+    "sign": (lambda x: math.copysign(1.0, x) if x else 0.0, [-2.5, 0.0, 1e-300]),
 }
 
 
@@ -54,6 +64,18 @@ def test_functions_of_two_numbers_and_choices() -> None:
     entries = [x**y, ca.atan2(x, y), ca.fmin(x, y), ca.fmax(x, y), ca.if_else(x < y, x, y), x / y, x**0.3]
     found = Kernel(ca.Function("f", [x, y], [ca.vertcat(*entries)]))(np.array([[2.5], [1.5]]))[:, 0]
     assert found == pytest.approx([2.5**1.5, math.atan2(2.5, 1.5), 1.5, 2.5, 1.5, 2.5 / 1.5, 2.5**0.3], rel=1e-15)
+
+
+def test_comparisons_and_logic_are_those_of_casadi() -> None:
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    entries = [x < y, x <= y, x == y, x != y, ca.logic_not(x), ca.logic_and(x, y), ca.logic_or(x, y),
+               ca.if_else(x, y, 7.0), ca.copysign(x, y), -x, x * x, 2 * x, 1 / (x + 3.0)]  # fmt: skip
+    function = ca.Function("f", [x, y], [ca.vertcat(*entries)])
+    columns = np.array(
+        [[-1.0, -1.0, 0.0, 0.0, 0.0, 2.0, 2.0, 2.0, 0.5], [-1.0, 2.0, 0.0, 3.0, -3.0, 2.0, 0.0, 1.0, 0.5]]
+    )
+    expected = np.hstack([np.asarray(function(*column)) for column in columns.T])
+    assert Kernel(function)(columns) == pytest.approx(expected, rel=1e-15)
 
 
 def test_an_operation_without_a_vector_form_is_named() -> None:

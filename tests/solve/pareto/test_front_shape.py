@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
 
 from tvimdesign.solve.pareto import front_shape as shape
 from tvimdesign.solve.pareto.front_shape import Frame
@@ -83,6 +84,16 @@ def test_candidates_lie_in_the_hull_of_the_ends_and_reach_its_corners() -> None:
         assert np.linalg.norm(places - end, axis=1).min() < 1e-12
     # A circle within the triangle is no further from a place than half a step.
     assert shape.farthest(places, places[:1])[1] == pytest.approx(np.linalg.norm(ends[0] - ends[1]), rel=1e-9)
+
+
+@given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=6, max_size=12, unique=True))
+def test_the_corners_of_a_hull_are_those_of_qhull(points: list[tuple[int, int]]) -> None:
+    places = np.array(points, dtype=float)
+    assume(np.linalg.matrix_rank(places - places[0]) == 2)
+    expected = {points[i] for i in ConvexHull(places).vertices}
+    found = [(int(x), int(y)) for x, y in shape._hull(places)]
+    assert set(found) == expected
+    assert len(found) == len(expected)
 
 
 def test_ends_on_a_line_make_a_thin_front() -> None:

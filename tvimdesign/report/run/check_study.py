@@ -1,4 +1,4 @@
-"""Checks a study without answering it: its text, limits that cannot hold together, records that contradict themselves."""
+"""Checks a study without answering it: its text, limits that cannot hold together, records with doubtful values."""
 
 from __future__ import annotations
 
