@@ -73,7 +73,8 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
         moduli = layer.series_modulus(*polymer.moduli(now.cells, now.fractions, omega, rheology))
-        impedance = thermal_stack.impedance_now(moduli, moment, numbers["pcl_thickness"], structure, springs)
+        branch = thermal_stack.branch_now(moduli, moment, numbers["pcl_thickness"], structure)
+        impedance = thermal_stack.impedance_now(springs, branch)
         mean = np.mean(now.cells)
         return [now.near - target, mean - target, now.far - target, np.log(soft / impedance)]
 

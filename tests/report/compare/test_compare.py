@@ -53,7 +53,7 @@ def test_a_comparison_leaves_a_whole_folder(pair: Path) -> None:
 def test_pictures_have_something_on_them(pair: Path) -> None:
     import matplotlib.image as mpimg
 
-    for name in PICTURES:
+    for name in [one for one in PICTURES if one.endswith(".png")]:
         picture = mpimg.imread(pair / name)
         assert picture.shape[0] > 300, name
         assert picture[..., :3].std() > 0.02, f"{name} is blank"

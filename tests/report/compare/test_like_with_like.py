@@ -22,7 +22,7 @@ def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
     folder = tmp_path_factory.mktemp("unlike")
     first, second = SHEAR, FIXED + REQUIRED
     paths = written(folder, shear=first, compression=second)
-    jobs = {name: ComparisonJob(path, 0, [], lambda _: None) for name, path in zip(("s", "c"), paths, strict=True)}
+    jobs = {name: ComparisonJob(path, 0, [], [], lambda _: None) for name, path in zip(("s", "c"), paths, strict=True)}
     return Outcome(
         dict(zip(("s", "c"), entrants(folder, first, second), strict=True)),
         {name: job.run() for name, job in jobs.items()},

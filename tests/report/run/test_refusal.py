@@ -1,4 +1,4 @@
-"""What `check` proves impossible `run` proves first, and leaves its reason in the folder."""
+"""What `check` refuses, `run` finds before it searches, and leaves its reason in the folder."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ import pytest
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.report.output.results_format import results_schema
+from tvimdesign.report.run import answered_study
 from tvimdesign.report.run import run_study as module
-from tvimdesign.solve import result
 
 STUDY = """mode: shear
 vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm]}
 require: {envelope_diameter: "<= 120 mm"}
 minimize: module_mass
+solver: {starts: 30}
 """
 
 
@@ -24,38 +25,45 @@ def _run(path: Path, out: Path, *, as_json: bool = False) -> None:
     module.run_study(path, out, overwrite=False, cad=False, plots=False, as_json=as_json)
 
 
-def test_nothing_is_solved_of_what_bounds_prove_impossible(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def test_one_start_of_thirty_is_enough_for_what_check_refuses(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path, out = tmp_path / "impossible.yaml", tmp_path / "out"
     path.write_text(STUDY)
-    monkeypatch.setattr(result, "optimize", lambda *_, **__: pytest.fail("it was solved"))
     with pytest.raises(InfeasibleError, match="envelope_diameter <= 120 mm cannot hold") as refused:
         _run(path, out, as_json=True)
     assert refused.value.exit_code == 3
     reported = json.loads((out / "results.json").read_text())
     jsonschema.validate(reported, results_schema())
-    assert (reported["status"], reported["feasible"]) == ("infeasible", False)
-    assert "envelope_diameter <= 120 mm cannot hold" in reported["reason"]
-    assert reported["reason"] in (out / "summary.txt").read_text()
-    assert json.loads((out / "study.resolved.json").read_text())["require"][0]["output"] == "envelope_diameter"
+    assert reported["feasible"] is False
+    assert len(json.loads((out / "design.json").read_text())["solution"]["starts"]) == 1
+    (limit,) = reported["conflict_set"]["cannot_hold_together"]
+    assert limit["limit"] == "envelope_diameter <= 120 mm"
+    assert "envelope_diameter" in (out / "summary.txt").read_text()
     assert (out / "study.yaml").read_text() == STUDY
-    manifest = json.loads((out / "manifest.json").read_text())
-    assert manifest["status"] == "infeasible"
-    assert {"results.json", "summary.txt", "study.yaml", "study.resolved.json"} <= manifest["files"].keys()
     said = json.loads(capsys.readouterr().out)
     jsonschema.validate(said, results_schema())
     assert said["folder"] == str(out)
 
 
-def test_a_reason_found_only_by_the_search_is_left_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     path, out = tmp_path / "study.yaml", tmp_path / "out"
     path.write_text(STUDY.replace("<= 120 mm", "<= 300 mm"))
 
     def refuse(*_: object, **__: object) -> None:
         raise InfeasibleError("no start keeps it")
 
-    monkeypatch.setattr(result, "optimize", refuse)
+    monkeypatch.setattr(answered_study, "answer", refuse)
     with pytest.raises(InfeasibleError):
-        _run(path, out)
-    assert json.loads((out / "results.json").read_text())["reason"] == "no start keeps it"
+        _run(path, out, as_json=True)
+    reported = json.loads((out / "results.json").read_text())
+    jsonschema.validate(reported, results_schema())
+    assert (reported["status"], reported["reason"]) == ("infeasible", "no start keeps it")
+    assert reported["reason"] in (out / "summary.txt").read_text()
+    assert json.loads((out / "study.resolved.json").read_text())["require"][0]["output"] == "envelope_diameter"
+    manifest = json.loads((out / "manifest.json").read_text())
+    assert manifest["status"] == "infeasible"
+    assert {"results.json", "summary.txt", "study.yaml", "study.resolved.json"} <= manifest["files"].keys()
+    assert json.loads(capsys.readouterr().out)["reason"] == "no start keeps it"

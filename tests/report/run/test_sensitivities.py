@@ -52,8 +52,8 @@ def test_a_derivative_in_reading_units_adds_what_one_percent_more_does(
 
 def test_the_heat_map_has_no_empty_rows_and_columns(found: tuple[OutputSensitivities, ResolvedModule]) -> None:
     data = heat_map(*found)
-    assert "peltier_temperature_margin" not in data["outputs"]
-    assert {"module_mass", "response_time", "spring_stiffness"} <= set(data["outputs"])
+    assert "Peltier temperature margin" not in data["outputs"]
+    assert {"module mass", "response time", "spring stiffness"} <= set(data["outputs"])
     assert all(any(abs(value) >= 5e-3 for value in row) for row in data["values"])
     assert all(any(abs(value) >= 5e-3 for value in column) for column in zip(*data["values"], strict=True))
     assert "stiffness_over_stroke" not in data["outputs"]  # nothing changes it in this module

@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -55,14 +56,19 @@ class ComparisonJob:
     """One study on its way: what was found, what failed, how long each step took."""
 
     def __init__(self, path: Path, points: int, settings: Sequence[str], others: Sequence[Path], say: Say) -> None:
-        """Read the study, and those it is compared with; the parent has seen that they can be read."""
+        """Read the study; the parent has seen that it can be read."""
         self.study = read_tree(tree_of_file(path, settings))
-        self.others = [read_tree(tree_of_file(other, settings)) for other in others]
+        self._others = [(other, settings) for other in others]
         self.catalog: Catalog = catalog_of(self.study)
         self.table = table_for(self.study.mode)
         self.points, self.say = points, say
         self._built: list[tuple[Optimizer, list[Run]]] = []
         self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}, "release": {}, "heat": {}}
+
+    @cached_property
+    def others(self) -> list[Study]:
+        """The studies it is compared with; one that is gone since costs this one its optimum alone."""
+        return [read_tree(tree_of_file(path, settings)) for path, settings in self._others]
 
     def run(self) -> dict[str, Any]:
         """Do every step that can be done."""

@@ -18,7 +18,6 @@ from tvimdesign.report.output.tables import results
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
 from tvimdesign.report.run.record_checks import record_checks
-from tvimdesign.report.run.refusal import refuse_unfit
 from tvimdesign.report.run.why import why
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
@@ -60,14 +59,13 @@ def answer_study(
 
     With `drawn_only` nothing is optimised: what may change stands at its start. `early` is told the answer before the
     front is sought. Raises InputError, and InfeasibleError
-    for what no search can mend, which bounds prove first; a search that finds no design is a result.
+    for what no search can mend; a search that finds no design is a result.
     """
     study = read_tree(tree)
     study = proving(study) if prove else study
     table, catalog = table_for(study.mode), catalog_of(study)
     study = drawn(study, catalog, table) if drawn_only else study
     front = FrontOfRun(study, table, folder)
-    refuse_unfit(study, catalog, table, progress)
     found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs, search=search)
     early(found)
     answered = AnsweredStudy(tree, study, table, catalog, found, front, _reported(found, table))

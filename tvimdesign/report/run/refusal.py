@@ -18,7 +18,7 @@ from tvimdesign.study.tree import StudyTree, study_file
 def refuse_unfit(
     study: Study, catalog: Catalog, table: Table, progress: Callable[[str], None] = lambda _: None
 ) -> None:
-    """Raise InputError or InfeasibleError where the study can have no design: what `check` finds, and `run` first."""
+    """Raise InputError or InfeasibleError where the study can have no design: what `check` finds."""
     from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
