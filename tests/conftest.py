@@ -41,7 +41,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def tvimdesign() -> Command:
     """Run `python -m tvimdesign` with arguments; returns the finished process."""
 
-    def call(*arguments: object, cwd: Path = ROOT, timeout: float = 300.0) -> subprocess.CompletedProcess[str]:
+    def call(
+        *arguments: object, cwd: Path = ROOT, timeout: float = 300.0, spread: str = "off"
+    ) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
             [sys.executable, "-m", "tvimdesign", *map(str, arguments)],
             capture_output=True,
@@ -50,7 +52,13 @@ def tvimdesign() -> Command:
             timeout=timeout,
             check=False,
             # Parts are made anew: what an earlier run has kept must not hide what this one would make.
-            env={**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "120", "TVIMDESIGN_CACHE": ""},
+            env={
+                **os.environ,
+                "PYTHONPATH": str(ROOT),
+                "COLUMNS": "120",
+                "TVIMDESIGN_CACHE": "",
+                "TVIMDESIGN_SPREAD": spread,
+            },
         )
 
     return call

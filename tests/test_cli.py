@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from support import ROOT, Command
 
-from tvimdesign.cli import _default_folder, _name_of
+from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.virtual_tests.registry import TESTS
 
 HEAVY = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy", "numpy", "pint")
@@ -24,7 +24,7 @@ def test_help_loads_no_heavy_library() -> None:
     code = f"""
 import sys
 sys.argv = ["tvimdesign", "--help"]
-from tvimdesign.cli import main
+from tvimdesign.cli.main import main
 try:
     main()
 except SystemExit as ended:
@@ -311,10 +311,10 @@ def test_simulate_without_a_test_lists_the_tests_with_what_they_show(tvimdesign:
     ],
 )
 def test_every_design_has_a_folder_of_its_own(design: str, parts: str, test: str) -> None:
-    assert _default_folder(Path(design)) == Path(parts).resolve()
-    assert _name_of(Path(design)) == test
+    assert default_folder(Path(design)) == Path(parts).resolve()
+    assert name_of(Path(design)) == test
 
 
 def test_a_study_or_a_run_gives_its_name(tmp_path: Path) -> None:
-    assert _default_folder(Path("studies/elbow.yaml")) == Path("results/elbow")
-    assert (_name_of(Path("studies/elbow.yaml")), _name_of(tmp_path)) == ("elbow", tmp_path.name)
+    assert default_folder(Path("studies/elbow.yaml")) == Path("results/elbow")
+    assert (name_of(Path("studies/elbow.yaml")), name_of(tmp_path)) == ("elbow", tmp_path.name)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from support import ROOT, STUDIES, Command
 
-from tvimdesign.report import completions
+from tvimdesign.cli import completions
 from tvimdesign.study import read_study
 from tvimdesign.study.template import examples
 
@@ -133,7 +133,7 @@ def test_the_shipped_studies_are_in_the_wheel(tmp_path: Path) -> None:
 
 def offered(words: str, shell: str = "bash") -> list[str]:
     """What a shell offers for the last of some words."""
-    code = "import sys; sys.argv[0] = 'tvimdesign'; from tvimdesign.cli import main; main()"
+    code = "import sys; sys.argv[0] = 'tvimdesign'; from tvimdesign.cli.main import main; main()"
     shells = {
         "bash": {"COMP_WORDS": words, "COMP_CWORD": str(len(words.split(" ")) - 1)},
         "zsh": {"_TYPER_COMPLETE_ARGS": words},
@@ -192,6 +192,7 @@ def test_files_are_those_a_command_reads(tmp_path: Path, monkeypatch: pytest.Mon
 # --- the old word ---
 
 
+@pytest.mark.slow
 def test_ledger_is_paper_check_with_a_warning(tvimdesign: Command) -> None:
     new, old = tvimdesign("paper-check", "--json"), tvimdesign("ledger", "--json")
     assert (new.returncode, old.returncode) == (0, 0)

@@ -82,6 +82,7 @@ def test_the_study_in_the_readme_has_an_optimum() -> None:
     assert answer(study, Catalog(), table_for(study.mode)).design.status == "optimal"
 
 
+@pytest.mark.slow
 def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path) -> None:
     lines = [line.split("#")[0] for line in _blocks("sh")[2].splitlines()]
     commands = [shlex.split(line)[1:] for line in lines if line.strip()]

@@ -1,5 +1,5 @@
 """`python -m tvimdesign` is `tvimdesign`."""
 
-from tvimdesign.cli import main
+from tvimdesign.cli.main import main
 
 main()

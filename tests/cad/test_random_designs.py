@@ -24,6 +24,7 @@ def test_designs_of_either_mode_that_keep_the_rules_are_sound(mode: str, count: 
     assert found.refused["rotor_spring_gap"] > 0
 
 
+@pytest.mark.slow
 def test_a_random_design_is_sound_or_refused_by_a_named_rule() -> None:
     found = tally("shear", 1)
     assert (found.failed, found.built) == ([], 1)

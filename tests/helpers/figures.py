@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 
-from tvimdesign.report.figures.canvas import png, sign
+from tvimdesign.report.figures.theme.canvas import png, sign
 
 NAME = "A study's name"
 LABEL = re.compile(r"^[A-Z][^_]* \((?:[^()]+|\(.*\))\)$", re.DOTALL)

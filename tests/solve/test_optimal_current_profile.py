@@ -182,6 +182,7 @@ def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
     assert saved == pytest.approx(shadow_price, rel=0.1)
 
 
+@pytest.mark.slow
 def test_ten_random_starts_find_one_profile() -> None:
     solution = solve(with_pieces(8).replace("starts: 1", "starts: 11"))
     assert len(solution.starts) == 11

@@ -86,6 +86,7 @@ def test_the_optimum_is_feasible_outside_the_solver(paper: Solution) -> None:
     assert paper.feasible
 
 
+@pytest.mark.slow
 def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: Solution) -> None:
     """Ten times the cells in layer and rotor, scipy's Radau at a tolerance far below a tenth of the step."""
     study = read_study(ROOT / "studies/paper_shear.yaml")

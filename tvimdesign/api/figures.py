@@ -23,8 +23,8 @@ def drawn(drawing: Drawing, study: str) -> Figure:
     import matplotlib as mpl
 
     with mpl.rc_context():
-        from tvimdesign.report.figures.canvas import sign
-        from tvimdesign.report.figures.style import SETTINGS
+        from tvimdesign.report.figures.theme.canvas import sign
+        from tvimdesign.report.figures.theme.style import SETTINGS
 
         mpl.rcParams.update(SETTINGS)
         file, _, function = drawing.figure.partition(".")

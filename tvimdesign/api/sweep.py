@@ -6,19 +6,20 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from tvimdesign.api import html
 from tvimdesign.api.quantity import Quantity
 from tvimdesign.api.result import Result
 from tvimdesign.api.shown_progress import shown_progress
-from tvimdesign.api.study import Study
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.compare.normalization import at_its_start, common
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.solve.warm_search import WarmSearch
+from tvimdesign.study import Study as ResolvedStudy
+from tvimdesign.study.tree import StudyTree
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,12 +30,29 @@ _ALWAYS = ("module_mass", "envelope_diameter", "response_time")
 """Outputs that every table has, whatever the study minimises and requires."""
 
 
+class SweptStudy(Protocol):
+    """What a sweep needs of a study: `tvimdesign.Study` has it."""
+
+    _tree: StudyTree
+
+    @property
+    def resolved(self) -> ResolvedStudy:
+        """The study as it was read, every number in SI."""
+
+    @property
+    def mode(self) -> str:
+        """Shear or compression."""
+
+    def set(self, values: Mapping[str, Any], /) -> SweptStudy:
+        """A copy with inputs and choices of the module fixed."""
+
+
 @dataclass(frozen=True)
 class Cell:
     """One study of a sweep: where it stands on the axes, and its result, or why it has none."""
 
     at: Mapping[str, Any]
-    study: Study
+    study: SweptStudy
     result: Result | None
     status: str
 
@@ -94,7 +112,7 @@ class Sweep:
             row[name] = found.value if isinstance(found, Quantity) else found
         return row
 
-    def _plain(self, name: str, value: Any, study: Study) -> Any:
+    def _plain(self, name: str, value: Any, study: SweptStudy) -> Any:
         """A value of an axis as a number in the row's unit; as it was given where it is none."""
         set_to, unit = study.resolved.module.get(name), self._unit(name)
         return from_si(set_to, unit) if isinstance(set_to, float) else str(value)
@@ -130,7 +148,7 @@ class Sweep:
         return html.heading("Sweep", f"{len(self)} cells") + html.grid(heads, rows)
 
 
-def swept(study: Study, axes: Mapping[str, Sequence[Any]], progress: bool) -> Sweep:
+def swept(study: SweptStudy, axes: Mapping[str, Sequence[Any]], progress: bool) -> Sweep:
     """Answer a study at every cell of the grid, what is minimised over its value at the study's own start.
 
     Raises InputError for no grid, StudyError for what cannot be set.
@@ -145,7 +163,7 @@ def swept(study: Study, axes: Mapping[str, Sequence[Any]], progress: bool) -> Sw
     return Sweep(dict(axes), tuple(found), search.warm_solves)
 
 
-def _cells(study: Study, axes: Mapping[str, Sequence[Any]]) -> list[tuple[dict[str, Any], Study]]:
+def _cells(study: SweptStudy, axes: Mapping[str, Sequence[Any]]) -> list[tuple[dict[str, Any], SweptStudy]]:
     """Every study of the grid, each read, so that a value that cannot be is told before anything is solved."""
     empty = [name for name, values in axes.items() if isinstance(values, str) or not len(values)]
     count = math.prod(len(values) for values in axes.values())
@@ -168,7 +186,7 @@ def _numbered(say: Progress, cell: str) -> Progress:
     return lambda text: say(f"{cell}: {text}" if text else "")
 
 
-def _answered(at: Mapping[str, Any], study: Study, search: WarmSearch, say: Progress) -> Cell:
+def _answered(at: Mapping[str, Any], study: SweptStudy, search: WarmSearch, say: Progress) -> Cell:
     try:
         say("begins")
         result = Result(answer_study(study._tree, say, search=search))

@@ -31,6 +31,7 @@ def test_every_part_is_one_valid_solid(design: Design) -> None:
         assert solid.isValid()
 
 
+@pytest.mark.slow
 def test_every_check_holds_at_rest_and_through_the_stroke(design: Design) -> None:
     dims = dimensions(design)
     steps: list[str] = []

@@ -16,7 +16,7 @@ from PIL import Image
 from tests.helpers.figures import faults, signed
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.report.figures.canvas import as_file, png
+from tvimdesign.report.figures.theme.canvas import as_file, png
 from tvimdesign.report.run.run_plot_data import drawings, plot_data
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text

@@ -284,6 +284,7 @@ modes = st.lists(
 
 @settings(max_examples=40, deadline=None)
 @given(modes, modes, st.floats(1.0, 5.0), st.floats(-4.0, 4.0), st.sampled_from([0.0, 0.01, 0.3]))
+@pytest.mark.slow
 def test_energy_never_rises_once_the_link_is_let_go(
     first: list[tuple[float, float]], second: list[tuple[float, float]], structure: float, hold: float, squeeze: float
 ) -> None:

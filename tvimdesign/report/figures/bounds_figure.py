@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tvimdesign.report.figures.axes import TICKS, heading, row_texts
-from tvimdesign.report.figures.canvas import new_figure, place
-from tvimdesign.report.figures.style import BROKEN, COLOURS, FAINT, NAME_STRIP
+from tvimdesign.report.figures.theme.axes import TICKS, heading, row_texts
+from tvimdesign.report.figures.theme.canvas import new_figure, place
+from tvimdesign.report.figures.theme.style import BROKEN, COLOURS, FAINT, NAME_STRIP
 
 _ROW = 0.155  # inches
 _LEFT, _WIDE = 2.75, 3.0  # inches: names stand left of the axes, numbers right of them

@@ -8,9 +8,9 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.axes import TICKS, heading
-from tvimdesign.report.figures.canvas import caption, new_figure, place
-from tvimdesign.report.figures.style import MARKERS, WIDTH, style_of
+from tvimdesign.report.figures.theme.axes import TICKS, heading
+from tvimdesign.report.figures.theme.canvas import caption, new_figure, place
+from tvimdesign.report.figures.theme.style import MARKERS, WIDTH, style_of
 
 _LEFT, _GAP = 0.62, 0.65  # inches
 

@@ -9,9 +9,9 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.axes import TICKS
-from tvimdesign.report.figures.canvas import new_figure, place
-from tvimdesign.report.figures.style import BROKEN, COLOURS, SEQUENCE, WIDTH, style_of
+from tvimdesign.report.figures.theme.axes import TICKS
+from tvimdesign.report.figures.theme.canvas import new_figure, place
+from tvimdesign.report.figures.theme.style import BROKEN, COLOURS, SEQUENCE, WIDTH, style_of
 
 
 def front(data: dict[str, Any]) -> Figure:

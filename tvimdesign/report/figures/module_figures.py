@@ -6,9 +6,9 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.axes import TICKS, heading, legend_above, log_ticks
-from tvimdesign.report.figures.canvas import caption, new_figure, place
-from tvimdesign.report.figures.style import BAND, COLOURS, LIMIT, SMALL, WIDTH, style_of
+from tvimdesign.report.figures.theme.axes import TICKS, heading, legend_above, log_ticks
+from tvimdesign.report.figures.theme.canvas import caption, new_figure, place
+from tvimdesign.report.figures.theme.style import BAND, COLOURS, LIMIT, SMALL, WIDTH, style_of
 
 
 def impedance(data: dict[str, Any]) -> Figure:

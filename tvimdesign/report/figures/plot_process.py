@@ -101,7 +101,7 @@ def main() -> None:
 
 
 def _draw(folder: Path, drawings: Sequence[Drawing], request: dict[str, Any]) -> None:
-    from tvimdesign.report.figures.canvas import as_file, sign
+    from tvimdesign.report.figures.theme.canvas import as_file, sign
 
     for drawing in drawings:
         file, _, function = drawing.figure.partition(".")

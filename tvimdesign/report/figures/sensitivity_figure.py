@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.canvas import caption, new_figure, place
-from tvimdesign.report.figures.style import WIDTH
+from tvimdesign.report.figures.theme.canvas import caption, new_figure, place
+from tvimdesign.report.figures.theme.style import WIDTH
 
 _STRONGEST = 3.0
 """Elasticity from which on colours are the same: a few fourth powers would leave all else pale."""

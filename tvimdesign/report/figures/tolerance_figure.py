@@ -7,9 +7,9 @@ from typing import Any
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tvimdesign.report.figures.axes import heading, row_texts
-from tvimdesign.report.figures.canvas import new_figure, place
-from tvimdesign.report.figures.style import BROKEN, COLOURS, FAINT, HATCHES, LIMIT, NAME_STRIP
+from tvimdesign.report.figures.theme.axes import heading, row_texts
+from tvimdesign.report.figures.theme.canvas import new_figure, place
+from tvimdesign.report.figures.theme.style import BROKEN, COLOURS, FAINT, HATCHES, LIMIT, NAME_STRIP
 
 _ACROSS = 3
 

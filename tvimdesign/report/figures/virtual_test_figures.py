@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from tvimdesign.report.figures.axes import TICKS, heading, log_ticks
-from tvimdesign.report.figures.canvas import caption, new_figure, place
-from tvimdesign.report.figures.style import ASIDE, COLOURS, LINE_STYLES, NAME_STRIP, WIDTH
 from tvimdesign.report.figures.swings import drawn
+from tvimdesign.report.figures.theme.axes import TICKS, heading, log_ticks
+from tvimdesign.report.figures.theme.canvas import caption, new_figure, place
+from tvimdesign.report.figures.theme.style import ASIDE, COLOURS, LINE_STYLES, NAME_STRIP, WIDTH
 
 _ACROSS = 3
 _DECADES_SHOWN = 1e10

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from tvimdesign.report.figures import bounds_figure, cycle_figures, module_figures
-from tvimdesign.report.figures.axes import log_ticks
-from tvimdesign.report.figures.canvas import new_figure, place, png
+from tvimdesign.report.figures.theme.axes import log_ticks
+from tvimdesign.report.figures.theme.canvas import new_figure, place, png
 
 LOADED = (bounds_figure, cycle_figures, module_figures)
 

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.status import Status
 
+from tvimdesign.base.errors import TvimError
 from tvimdesign.report.output.remaining_time import RemainingTime, clock
 
 Progress = Callable[[str], None]
@@ -51,7 +52,7 @@ def progress_output() -> Iterator[Progress]:
 
     try:
         yield say
-    except RuntimeError as error:
+    except (RuntimeError, TvimError) as error:  # a library that was interrupted says it failed
         if interrupted:
             raise KeyboardInterrupt from error
         raise

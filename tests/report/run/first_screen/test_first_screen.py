@@ -152,8 +152,8 @@ def test_what_holds_it_back_has_the_largest_shadow_prices() -> None:
 
 def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(tvimdesign: Command, tmp_path: Path) -> None:
     study = ROOT / "studies/paper_as_published.yaml"
-    short = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "short")
-    full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "full")
+    short = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "short", spread="on")
+    full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "full", spread="on")
     assert len(short.stdout.splitlines()) <= LINES
     assert short.stdout.splitlines()[-1].lstrip().endswith("--full")
     for table in ("At the operating points", "What the module is", "What rests on what is assumed"):
@@ -177,7 +177,7 @@ def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_i
 ) -> None:
     monkeypatch.setenv("PYTHONWARNINGS", "always")
     (tmp_path / "study.yaml").write_text(INFEASIBLE)
-    done = tvimdesign("run", tmp_path / "study.yaml", "--no-cad", "--no-plots", "--out", tmp_path / "out")
+    done = tvimdesign("run", tmp_path / "study.yaml", "--no-cad", "--no-plots", "--out", tmp_path / "out", spread="on")
     assert done.returncode == 3
     lines = done.stdout.splitlines()
     assert lines[0].startswith("Too much asked · shear · NO DESIGN FOUND")
@@ -196,7 +196,9 @@ def test_no_library_warns_on_standard_error(
 ) -> None:
     monkeypatch.setenv("PYTHONWARNINGS", "always")
     (tmp_path / "study.yaml").write_text(text)
-    done = tvimdesign("run", tmp_path / "study.yaml", "--no-cad", "--sensitivities", "--out", tmp_path / "out")
+    done = tvimdesign(
+        "run", tmp_path / "study.yaml", "--no-cad", "--sensitivities", "--out", tmp_path / "out", spread="on"
+    )
     assert done.returncode == 0
     assert [line for line in done.stderr.splitlines() if not line.startswith("... ")] == []
     assert done.stdout.splitlines()[0].startswith("study · ")

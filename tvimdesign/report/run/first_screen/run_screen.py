@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import time
 from collections.abc import Mapping
 from types import TracebackType
@@ -22,6 +23,8 @@ from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 
 FILE = "summary.txt"
+SPREAD = "TVIMDESIGN_SPREAD"
+"""Variable of the environment: `off` leaves yield and assumptions out, where many runs share few processors."""
 _FILE_WIDTH = 120
 _COLOURS = {
     "bold": r"^\S.*? · (?=shear|compression)", "green": r"OPTIMAL|ALL LIMITS KEPT",
@@ -39,7 +42,7 @@ class RunScreen:
     def __init__(self, study: Study) -> None:
         """Start the clock, and the process that says how sure the study's design is."""
         self._began = time.perf_counter()
-        self._process = UncertaintyProcess(study)
+        self._process = UncertaintyProcess(study) if os.environ.get(SPREAD) != "off" else None
         self._asked = False
         self._lines: list[str] = []
 
@@ -49,17 +52,18 @@ class RunScreen:
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
         """End the process if it has not ended."""
-        self._process.__exit__(kind, value, at)
+        if self._process:
+            self._process.__exit__(kind, value, at)
 
     def ask(self, answer: StudyResult) -> None:
         """Ask how sure the design is, if there is one, and come back at once."""
-        if answer.found:
+        if answer.found and self._process:
             self._process.begin(answer.design)
             self._asked = True
 
     def tell(self, answered: AnsweredStudy, folder: ResultsFolder, console: Console | None, *, full: bool) -> None:
         """Write summary.txt, and print the first screen, or everything."""
-        uncertainty = self._process.finish() if self._asked else {}
+        uncertainty = self._process.finish() if self._process and self._asked else {}
         told = Told(time.perf_counter() - self._began, uncertainty, answered.reported["doubts"], answered.front.front)
         write_summary(answered, folder, uncertainty)
         if console is not None and full:

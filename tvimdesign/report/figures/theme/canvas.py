@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from tvimdesign.report.figures.style import NAME_STRIP, RESOLUTION, SETTINGS, SMALL, WIDTH
+from tvimdesign.report.figures.theme.style import NAME_STRIP, RESOLUTION, SETTINGS, SMALL, WIDTH
 
 mpl.rcParams.update(SETTINGS)
 _COMPRESSION = 1

@@ -8,7 +8,7 @@ from typing import Any
 
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from tvimdesign.report.figures.style import SMALL
+from tvimdesign.report.figures.theme.style import SMALL
 
 TICKS = 6
 """Steps of an axis at most: every tick, with its line and label, takes a millisecond to draw."""

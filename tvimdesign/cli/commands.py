@@ -1,22 +1,18 @@
-"""The command line: thin, and quick to answer; what a command needs is imported when the command runs."""
+"""The commands: thin, and quick to answer; what a command needs is imported when it runs."""
 
 from __future__ import annotations
 
-import gc
-import sys
 import warnings
-from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
-from tvimdesign.base.errors import InputError, RenamedWarning, TvimError
-from tvimdesign.report import completions
+from tvimdesign.base.errors import InputError, RenamedWarning
+from tvimdesign.cli import completions
+from tvimdesign.cli.folders import default_folder, name_of
+from tvimdesign.cli.options import AsJson, Out, Overwrite, Settings, StudyFile, StudyOrDesign
 from tvimdesign.virtual_tests.registry import TESTS
-
-INTERRUPTED = 130
-_STOPPED = "interrupted; what was finished is kept\n"
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -25,33 +21,6 @@ app = typer.Typer(
     help="Size thermo-active variable impedance modules: a study file in, a module that can be made out.",
     epilog="Exit codes: 0 done, 2 bad input, 3 infeasible or not converged, 4 partly done, 130 interrupted.",
 )
-
-StudyFile = Annotated[
-    Path, typer.Argument(metavar="STUDY", help="Study file (YAML).", autocompletion=completions.study_files)
-]
-StudyOrDesign = Annotated[
-    Path,
-    typer.Argument(
-        metavar="STUDY|DESIGN",
-        help="Study file, or design.json or folder of a run.",
-        autocompletion=completions.designs_and_studies,
-    ),
-]
-Settings = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set",
-        metavar="NAME=VALUE",
-        help="Change the study for this once, as often as needed: pcl_thickness='1.2 mm' fixes an input or a choice, "
-        "require.holding_torque='>= 15 N.m' sets what stands at a path.",
-        autocompletion=completions.settings,
-    ),
-]
-Out = Annotated[
-    Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study's file> unless given.")
-]
-Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the results of an earlier run in that folder.")]
-AsJson = Annotated[bool, typer.Option("--json", help="Print results as JSON.")]
 
 
 def _print_version(asked: bool) -> None:
@@ -93,7 +62,7 @@ def run(
     from tvimdesign.report.run.run_study import run_study
 
     run_study(
-        study, out or _default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
+        study, out or default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
         prove=prove, resume=resume, full=full, as_json=json, settings=settings or (),
     )  # fmt: skip
 
@@ -177,7 +146,7 @@ def cad(
     """Make the parts of a design: STEP, print files, drawings, checks; in a folder beside the run's, ending in -cad."""
     from tvimdesign.report.run.run_study import make_parts
 
-    make_parts(design, out or _default_folder(design), overwrite=overwrite, as_json=json)
+    make_parts(design, out or default_folder(design), overwrite=overwrite, as_json=json)
 
 
 @app.command()
@@ -194,7 +163,7 @@ def simulate(
     """Put a module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
     from tvimdesign.report.simulate_study import simulate_study
 
-    folder = out or Path("results") / f"{_name_of(study)}-{test}"
+    folder = out or Path("results") / f"{name_of(study)}-{test}"
     simulate_study(study, test, folder, overwrite=overwrite, as_json=json, settings=settings or ())
 
 
@@ -210,7 +179,7 @@ def tolerate(
     """Say what tolerances do: worst case, root-sum-square and Monte Carlo, yield, into results/<study>-tolerances."""
     from tvimdesign.report.tolerate.tolerate_study import tolerate_study
 
-    folder = out or Path("results") / f"{_name_of(study)}-tolerances"
+    folder = out or Path("results") / f"{name_of(study)}-tolerances"
     tolerate_study(study, folder, samples, workers, overwrite=overwrite, as_json=json)
 
 
@@ -288,72 +257,3 @@ def rows(
     from tvimdesign.report.rows import print_rows
 
     print_rows(mode, match, as_json=json)
-
-
-def _default_folder(source: Path) -> Path:
-    """results/<study>; for a design a folder of its own beside the run's, with -cad after the design's name."""
-    if source.suffix != ".json":
-        return Path("results") / source.stem
-    folder = source.resolve().parent
-    beside = folder.parent.parent if folder.name == "front" and source.name != "design.json" else folder.parent
-    return beside / f"{_name_of(source)}-cad"
-
-
-def _name_of(source: Path) -> str:
-    """What folders of a study or a design are named by: <run>, or <run>-front-03 of one of several in a folder."""
-    if source.suffix != ".json":
-        return source.resolve().name if source.is_dir() else source.stem
-    folder, own = source.resolve().parent, source.name.removesuffix(".json").removesuffix(".design")
-    if own == "design":
-        return folder.name
-    return f"{folder.parent.name}-front-{own}" if folder.name == "front" else f"{folder.name}-{own}"
-
-
-def main() -> None:
-    """Run the command line; every error is a message and an exit code, never a traceback."""
-    warnings.showwarning = _show_warning
-    gc.set_threshold(200_000, 20, 20)  # a command makes many objects and keeps most: looking for garbage costs 5 %
-    code = _guarded(lambda: app(standalone_mode=False))
-    gc.freeze()  # or the interpreter looks through all of them once more on its way out, for nothing: 5 %
-    sys.exit(code)
-
-
-def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
-    """What a user can act on, in plain words; libraries' own warnings are for developers and stay unsaid."""
-    if issubclass(category, RenamedWarning):
-        sys.stderr.write(f"Warning: {message}\n")
-
-
-def _guarded(command: Callable[[], Any]) -> int:
-    try:
-        code = command()
-        if code == INTERRUPTED:
-            sys.stderr.write(_STOPPED)
-        return code if isinstance(code, int) else 0
-    except TvimError as error:
-        sys.stderr.write(f"{error}\n")
-        if "--json" in sys.argv and error.exit_code == InputError.exit_code:
-            _print_error(error)
-        return error.exit_code
-    except (KeyboardInterrupt, typer.Abort):
-        sys.stderr.write(_STOPPED)
-        return INTERRUPTED
-    except BrokenPipeError:
-        sys.stderr.close()
-        return 0
-    except Exception as error:
-        # Typer's usage errors can show themselves; their common base has no public name.
-        show = getattr(error, "show", None)
-        if show is None:
-            raise
-        show()
-        return InputError.exit_code
-
-
-def _print_error(error: TvimError) -> None:
-    """The error as JSON on standard output: the message, and each problem of a study with its place."""
-    import json
-    from dataclasses import asdict
-
-    problems = [asdict(problem) for problem in getattr(error, "problems", ())]
-    typer.echo(json.dumps({"error": str(error), "problems": problems}, indent=2))
