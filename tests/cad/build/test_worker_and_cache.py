@@ -170,13 +170,14 @@ def test_results_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(
 STUCK = """
 import sys
 import time
-from tvimdesign.cad import job, shear
+from tvimdesign.cad.build import main as job
+from tvimdesign.cad.parts import shear_parts
 
 def stuck(dims):
     while True:
         time.sleep(0.01)
 
-shear.DRAWN["{kind}"] = stuck
+shear_parts.DRAWN["{kind}"] = stuck
 sys.exit(job.main(sys.argv[1:]))
 """
 

@@ -276,8 +276,8 @@ def test_a_sheet_is_a_pdf_of_its_true_size_with_no_date(module: tuple[Design, So
 def test_a_drawing_is_the_same_file_whatever_order_sets_have_in_a_process() -> None:
     code = """
 import hashlib
-from tvimdesign.cad.drawing.drawing_sheet import Sheet
-sheet = Sheet(1.0)
+from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
+sheet = DrawingSheet(1.0)
 sheet.text("A", (50.0, 50.0))
 print(hashlib.sha256(sheet.dxf()).hexdigest())
 """
