@@ -57,7 +57,7 @@ def test_it_shows_a_study_results_tables_and_figures(outputs: list[Any]) -> None
         if isinstance(output, pd.DataFrame):
             assert len(output) > 2
         if isinstance(output, Figure):
-            assert output._repr_png_()[:4] == b"\x89PNG"  # type: ignore[attr-defined]  # what a notebook asks for
+            assert output._repr_png_()[:4] == b"\x89PNG"  # what a notebook asks for
             assert any(line.get_xydata().size > 6 for axes in output.axes for line in axes.lines)
 
 

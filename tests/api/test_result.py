@@ -67,7 +67,7 @@ def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result) -
     assert dict(mpl.rcParams) == before
     for figure in figures.values():
         assert len(figure.axes) > 0
-        assert figure._repr_png_()[:4] == b"\x89PNG"  # type: ignore[attr-defined]  # what a notebook asks for
+        assert figure._repr_png_()[:4] == b"\x89PNG"  # what a notebook asks for
     with pytest.raises(tvim.InputError, match="there are: cycle"):
         result.plot("cicle")
 
