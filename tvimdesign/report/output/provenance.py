@@ -36,7 +36,17 @@ def provenance(name: str, design: Design, table: Table, catalog: Catalog) -> Pro
     if row.record:
         return _of_record(*row.record, row, design, table, catalog)
     status, _, source = row.source.partition(": ")
-    return Provenance(status, source)
+    return Provenance(status, source, *(_of_factor(row, design, table, catalog) or (row.low, row.high)))
+
+
+def _of_factor(row: Input, design: Design, table: Table, catalog: Catalog) -> Ends | None:
+    """The range of a factor of a chosen record's value, as the record has it."""
+    if row.range_of is None:
+        return None
+    chosen = table.quantity(row.range_of[0])
+    assert isinstance(chosen, Choice)
+    entry = catalog.record(chosen.category or "", design.choices[row.range_of[0]]).entries.get(row.range_of[1])
+    return entry.share_of_range if entry else None
 
 
 def _of_record(choice: str, field: str, row: Input, design: Design, table: Table, catalog: Catalog) -> Provenance:
