@@ -20,7 +20,7 @@ import numpy as np
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.derivatives import derivatives_of

@@ -21,9 +21,9 @@ from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation import device_functions, phase_functions
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.working_cycle import device_functions, phase_functions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.solve.nlp.transcription import radau
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 

@@ -19,8 +19,8 @@ from quick import Quick
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import impossible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study

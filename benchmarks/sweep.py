@@ -17,9 +17,9 @@ import numpy as np
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel, of_columns
 from tvimdesign.study import given, read_study

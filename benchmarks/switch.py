@@ -25,9 +25,9 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.device.core import thermal_stack
 from tvimdesign.physics import heat, layer, polymer
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ import switch
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
 

@@ -8,9 +8,9 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Supplied, Table, table_for
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.study import given, read_study_text
 
 POINTS = ("cold", "hot")

@@ -10,8 +10,8 @@ import pytest
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.trajectory import Trajectory
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text

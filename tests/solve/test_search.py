@@ -12,7 +12,7 @@ from support import ROOT
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize

@@ -10,8 +10,8 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Cycle, Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text

@@ -20,7 +20,7 @@ def designs_and_studies(incomplete: str) -> list[str]:
 
 def tests(incomplete: str) -> list[str]:
     """Virtual tests."""
-    from tvimdesign.virtual_tests.registry import TESTS
+    from tvimdesign.simulation.registry import TESTS
 
     return _beginning(TESTS, incomplete)
 

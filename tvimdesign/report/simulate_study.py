@@ -23,12 +23,12 @@ from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import head
 from tvimdesign.report.output.tables import curves_csv, number
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.simulation.registry import find_test
+from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import Study, catalog_of, read_tree
 from tvimdesign.study.design import read_design
 from tvimdesign.study.tree import study_file, tree_of_file
-from tvimdesign.virtual_tests.registry import find_test
-from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 
 def simulate_study(

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from tvimdesign import __version__
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
-from tvimdesign.simulation.curves import Curves, impedance_sweep, phase_history
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.melt_history import intervals
-from tvimdesign.simulation.resolved_module import ResolvedModule
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.joint_tests.release import contact_seen
+from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, phase_history
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.melt_history import intervals
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
     advice_of,
@@ -33,7 +34,6 @@ from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
-from tvimdesign.virtual_tests.joint_tests.release import contact_seen
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from support import ROOT, fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study
 

@@ -143,7 +143,7 @@ _BUILT: dict[str, Any] = {}
 
 
 def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
-    from tvimdesign.simulation.device_functions import DeviceFunctions
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
     from tvimdesign.study import given as resolve
 
     if not _BUILT:

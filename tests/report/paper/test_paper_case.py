@@ -13,7 +13,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.paper_claims import claims
-from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import Study, given, read_study, read_study_text
 

@@ -12,7 +12,7 @@ from support import Command
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities
 from tvimdesign.study import read_study_text

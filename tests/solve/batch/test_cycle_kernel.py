@@ -10,8 +10,8 @@ from support import ROOT, fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.study import given, read_study
 

@@ -14,8 +14,8 @@ from support import ROOT, digits
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.elimination import newton_step
 from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
 from tvimdesign.study import given, read_study

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.derivatives import derivatives_of
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.optimizer.optimizer import Optimizer

@@ -13,10 +13,10 @@ from support import fine
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import resolve_study
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.transcription import guess
 from tvimdesign.study import read_study

@@ -12,10 +12,10 @@ from support import fine
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.current_profile import CurrentProfile
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.sensitivity.output_sensitivity import (
     FINER,
     OutputSensitivities,

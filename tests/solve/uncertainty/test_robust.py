@@ -13,7 +13,7 @@ from tvimdesign.device import table_for
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.full_summary import _robustness
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.simulation.resolved_module import resolve_design
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, trace_front

@@ -12,8 +12,8 @@ import pytest
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp.moments import moments
 from tvimdesign.solve.uncertainty.contributors import contributors_of

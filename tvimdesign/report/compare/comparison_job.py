@@ -29,7 +29,9 @@ from tvimdesign.report.output.thresholds import soft_in_words
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.why import binding
 from tvimdesign.report.simulate_study import figure_data, findings
-from tvimdesign.simulation.resolved_module import resolve_design
+from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
+from tvimdesign.simulation.registry import find_test
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
@@ -37,8 +39,6 @@ from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, catalog_of, drawn, read_tree
 from tvimdesign.study.tree import tree_of_file
-from tvimdesign.virtual_tests.joint_tests.release import ANGLE_PANEL
-from tvimdesign.virtual_tests.registry import find_test
 
 Say = Callable[[str], None]
 HELD_TOLD = 3

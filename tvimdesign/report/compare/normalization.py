@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import Study, catalog_of, given
 
 Values = Mapping[str, float]

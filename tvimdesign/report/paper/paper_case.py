@@ -21,7 +21,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.catalog.record import Entry
 from tvimdesign.device import Input, table_for
 from tvimdesign.report.paper.paper_claims import from_paper
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.ratio_sensitivity import Array, Influence, Pair, Span, ratio
 from tvimdesign.study import given, read_study_text
 

@@ -18,7 +18,7 @@ from tvimdesign.physics import dynamics, layer, spring, transmission
 from tvimdesign.report.paper.paper_claims import claims, from_paper
 
 if TYPE_CHECKING:
-    from tvimdesign.simulation.device_functions import DeviceFunctions
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def published_model() -> DeviceFunctions:
     """The paper's module as published, compiled."""
     from tvimdesign.catalog import Catalog
     from tvimdesign.device import table_for
-    from tvimdesign.simulation.device_functions import DeviceFunctions
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
     from tvimdesign.study import given, read_study_text
 
     study = read_study_text(claims()["study"], "the paper's module")
@@ -127,7 +127,7 @@ def published_model() -> DeviceFunctions:
 
 def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
     """The paper's thickness as assumed here [m], and a function from changed inputs to the values of one switch."""
-    from tvimdesign.simulation.cycle import Simulator
+    from tvimdesign.simulation.working_cycle.cycle import Simulator
 
     model = published_model()
     simulator = Simulator(model)

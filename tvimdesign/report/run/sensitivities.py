@@ -10,7 +10,7 @@ from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.report.output.axis_labels import name_in_words
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.sensitivity.output_sensitivity import FINER, OutputSensitivities, entries, output_sensitivities
 

@@ -9,7 +9,7 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, results_csv
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.why import why_csv
-from tvimdesign.simulation.curves import PHASE_UNITS
+from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS
 from tvimdesign.study.design import write_design
 from tvimdesign.study.tree import study_file
 

@@ -33,7 +33,7 @@ from tvimdesign.report.tolerate.tolerance_tables import (
     spreads,
 )
 from tvimdesign.report.tolerate.words import of_concern, sentences
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer

@@ -12,7 +12,7 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.solution import ConflictSet

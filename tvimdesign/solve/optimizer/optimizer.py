@@ -15,10 +15,10 @@ import numpy as np
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.current_profile import ramp_time
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.current_profile import ramp_time
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.ipopt import NLP, solver_of

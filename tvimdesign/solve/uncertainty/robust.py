@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.objective import Objective

@@ -11,9 +11,9 @@ from comparable import SHEAR
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel, assumed_inputs
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing

@@ -11,7 +11,7 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import Swing, UncertaintyModel
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
