@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from quick import Quick
 from scipy.integrate import solve_ivp
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.device.core import thermal_stack
 from tvimdesign.physics import heat, layer, polymer
@@ -206,7 +205,7 @@ def main() -> None:
     chosen = parser.parse_args()
     study = read_study(STUDY)
     rows = table_for(study.mode)
-    model = DeviceFunctions(rows, given(study, Catalog(), rows), tuple(study.operating_points), study.solver.cells)
+    model = DeviceFunctions(rows, given(study), tuple(study.operating_points), study.solver.cells)
     text = "\n\n".join(table(model, wanted, chosen.repeats) for wanted in (None, 1e-4))
     print(text)
     if chosen.out:

@@ -17,7 +17,7 @@ def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
     """Every value by full name, with unit, meaning and status; infinite where something never happens."""
     import pandas as pd
 
-    design, table = answered.result.design, answered.table
+    design, table = answered.result.design, answered.study.table
     stands = _stands(answered)
     rows = []
     for name, entry in answered.reported["values"].items():
@@ -41,7 +41,7 @@ def constraint_table(answered: AnsweredStudy) -> pd.DataFrame:
     """Every requirement and rule: limit, value, unit, margin and its unit, whether it is kept, where it is from."""
     import pandas as pd
 
-    return pd.DataFrame([check_row(check, answered.table) for check in answered.result.checks])
+    return pd.DataFrame([check_row(check, answered.study.table) for check in answered.result.checks])
 
 
 def _stands(answered: AnsweredStudy) -> dict[str, str]:
@@ -54,7 +54,7 @@ def _stands(answered: AnsweredStudy) -> dict[str, str]:
         stand = "broken" if not check.kept else "binds" if check.margin <= NOTHING else "kept"
         found[check.output] = max(stand, found.get(check.output, "kept"), key=order.index)
     for limit in answered.study.require:  # a limit on what is the least of several is put on each of them
-        several = [found[name] for name in _all_of(limit.output, answered.table) if name in found]
+        several = [found[name] for name in _all_of(limit.output, answered.study.table) if name in found]
         found |= {limit.output: max(several, key=order.index)} if several else {}
     return found
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign import __version__
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Path, Table
 from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, phase_history
@@ -97,8 +96,6 @@ class StudyResult:
 
 def answer(
     study: Study,
-    catalog: Catalog,
-    table: Table,
     progress: Progress = lambda _: None,
     reference: dict[str, float] | None = None,
     keep: Keep = lambda *_: None,
@@ -110,21 +107,21 @@ def answer(
     What found the optimum is handed to `keep`, able to trade some outputs afterwards. A `search` may stand in place of
     the usual one.
     """
-    solution = None
-    refuse_impossible(study, catalog, table)
+    solution, table = None, study.table
+    refuse_impossible(study)
     if study.task == "optimize":
-        solution = search(study, catalog, table, progress, reference, keep, objectives)
+        solution = search(study, progress, reference, keep, objectives)
         model, inputs, cycle, values = solution.model, solution.inputs, solution.cycle, solution.values
         status, current_profiles = solution.status, solution.current_profiles
     else:
         progress("simulating one working cycle")
-        model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
         cycle = Simulator(model).run_to_show(inputs)
         values = model.values(inputs, cycle.values)
         status, current_profiles = "evaluated", {}
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
-    resolved = ResolvedModule(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
+    resolved = ResolvedModule(study, {**given(study), **model.words, **numbers})
     open_values = intervals(resolved, model, inputs, cycle.values, current_profiles)
     seen = _seen(resolved, exists=solution is None or status == "optimal")
     open_values |= {name: (low, high) for name, (_, low, high) in seen.items() if low < high}

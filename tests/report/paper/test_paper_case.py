@@ -9,8 +9,6 @@ from typing import Any
 import pytest
 from support import ROOT
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.paper_claims import claims
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -28,7 +26,7 @@ def shipped(mode: str) -> Study:
 
 
 def resolved(study: Study) -> dict[str, Any]:
-    return given(study, Catalog(), table_for(study.mode))
+    return given(study)
 
 
 @pytest.mark.parametrize("mode", MODES)

@@ -5,8 +5,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.physics import polymer
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.joint_tests import sine as sine_test
@@ -24,7 +22,7 @@ POINTS = ("cold", "melting", "hot")
 
 @pytest.fixture(scope="module")
 def resolved() -> ResolvedModule:
-    return resolve_study(read_study(STUDY), Catalog(), table_for("shear"))
+    return resolve_study(read_study(STUDY))
 
 
 @pytest.fixture(scope="module")
@@ -204,7 +202,7 @@ def test_interval_holds_what_stands_between_the_histories(resolved: ResolvedModu
 
 def test_study_without_points_is_tested_at_the_papers_three_temperatures() -> None:
     def bench(text: str) -> ResolvedModule:
-        return with_paper_points(resolve_study(read_study_text(text, "a test"), Catalog(), table_for("shear")))
+        return with_paper_points(resolve_study(read_study_text(text, "a test")))
 
     resolved = bench("mode: shear\n")
     assert resolved.points == ("cold", "melting", "hot")

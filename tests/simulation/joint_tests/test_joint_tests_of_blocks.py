@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 from support import ROOT
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.physics import one_sided
 from tvimdesign.report.output.tables import results
 from tvimdesign.simulation.joint_tests import joint_motion, step_test
@@ -33,7 +31,7 @@ def resolved() -> ResolvedModule:
     study = read_study(ROOT / "studies" / "paper_compression.yaml")
     # Without its cover: the core is shorter, and stiffer.
     study = study.model_copy(update={"module": {**study.module, "cover": "none"}})
-    return resolve_study(study, Catalog(), table_for("compression"))
+    return resolve_study(study)
 
 
 @pytest.fixture(scope="module")
@@ -173,7 +171,7 @@ def test_rows_say_what_the_release_says(resolved: ResolvedModule, trial: Callabl
 
 
 def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) -> None:
-    found = answer(resolved.study, resolved.catalog, resolved.table)
+    found = answer(resolved.study)
     seen, reported = contact_seen(resolved), results(found, resolved.table)["values"]
     for name, (nominal, low, high) in seen.items():
         assert found.design.values[name] == nominal
@@ -187,7 +185,7 @@ def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) 
 
 def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
     study = read_study(ROOT / "studies" / "paper_as_published.yaml")
-    shear = resolve_study(study, Catalog(), table_for("shear"))
+    shear = resolve_study(study)
     assert all(ends == (0.0, 0.0, 0.0) for ends in contact_seen(shear).values())
     release = release_test.release(shear)
     for point in POINTS:

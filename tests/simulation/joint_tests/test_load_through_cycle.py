@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.physics import slices
 from tvimdesign.simulation.joint_tests.load_through_cycle import (
     Carried,
@@ -148,7 +146,7 @@ def test_freezing_under_load_leaves_a_layer_that_does_not_relax_as_it_is() -> No
 
 
 def test_module_heated_under_load_lets_go_before_the_switch_ends_and_freezes_where_it_is() -> None:
-    resolved = resolve_study(read_study_text("mode: shear\n", "a test"), Catalog(), table_for("shear"))
+    resolved = resolve_study(read_study_text("mode: shear\n", "a test"))
     history = slice_histories(resolved)
     assert history.temperatures.shape == (resolved.study.solver.cells, len(history.times))
     assert history.temperatures[:, 0] == pytest.approx(resolved.quantity("ambient_temperature"), abs=0.01)

@@ -9,8 +9,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.physics import polymer
 from tvimdesign.simulation.registry import TESTS, find_test
 from tvimdesign.simulation.rheometer import oscillation, transient
@@ -25,7 +23,7 @@ Done = Callable[[str], Trial]
 
 
 def rig_of(text: str = "") -> ResolvedModule:
-    return resolve_study(read_study_text(f"mode: shear\n{text}", "a test"), Catalog(), table_for("shear"))
+    return resolve_study(read_study_text(f"mode: shear\n{text}", "a test"))
 
 
 @pytest.fixture(scope="module")

@@ -4,8 +4,6 @@ from dataclasses import replace
 
 import pytest
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.simulation.joint_tests.case import histories_at
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
@@ -16,7 +14,7 @@ KELVIN = 273.15
 
 @pytest.fixture(scope="module")
 def resolved() -> ResolvedModule:
-    return resolve_study(read_study_text("mode: shear\n", "a test"), Catalog(), table_for("shear"))
+    return resolve_study(read_study_text("mode: shear\n", "a test"))
 
 
 def test_sixty_degrees_is_liquid_or_third_or_two_thirds_frozen(resolved: ResolvedModule) -> None:

@@ -5,8 +5,6 @@ from collections.abc import Callable
 import pytest
 from support import ROOT, fine
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
@@ -25,9 +23,9 @@ def test_the_shipped_tolerance_finds_the_values_of_the_tight_one(
 
 def test_an_event_that_a_second_look_just_misses_is_found_where_it_is() -> None:
     """At this start the sample after the event has it, and the same moment integrated once more not quite."""
-    study, catalog = read_study(ROOT / "studies" / "fast_switch.yaml"), Catalog()
-    table = table_for(study.mode)
-    model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+    study = read_study(ROOT / "studies" / "fast_switch.yaml")
+    table = study.table
+    model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
     shown, tight = Simulator(model).run_to_show(model.start), fine(model).run(model.start)
     for name in ("softening_time", "stiffening_time", "equilibrium_stiffening_time"):
         assert shown.values[name] == pytest.approx(tight.values[name], rel=2e-5), name

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from support import fine
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -124,9 +123,7 @@ def test_a_steady_state_does_not_hang_on_the_last_digits_of_where_the_switch_end
         "pcl_outer_radius": 17.845e-3, "arc_span": 1.31931, "pcl_thickness": 1.87755e-3,
     }  # fmt: skip
     table = table_for("shear")
-    model = DeviceFunctions(
-        table, given(study, Catalog(), table) | sizes, tuple(study.operating_points), study.solver.cells
-    )
+    model = DeviceFunctions(table, given(study) | sizes, tuple(study.operating_points), study.solver.cells)
     simulator = Simulator(model)
     found = []
     for step in range(40):

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from tvimdesign.catalog import Catalog, Record
-from tvimdesign.device import Table
+from tvimdesign.catalog import Record
 from tvimdesign.physics import peltier
 from tvimdesign.study import Study, given
 
@@ -12,9 +11,9 @@ ALIKE = 0.1
 _RATED = ("seebeck", "resistance", "conductance", "hot_side_temperature", "max_cooling_power")
 
 
-def record_checks(study: Study, catalog: Catalog, table: Table) -> list[str]:
+def record_checks(study: Study) -> list[str]:
     """A sentence for each chosen record that contradicts itself."""
-    records = [record for record in given(study, catalog, table).values() if isinstance(record, Record)]
+    records = [record for record in given(study).values() if isinstance(record, Record)]
     return [said for record in records if record.category == "peltiers" and (said := _of_module(record))]
 
 

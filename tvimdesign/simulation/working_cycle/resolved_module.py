@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.study import Study, given
@@ -18,11 +17,14 @@ class ResolvedModule:
     """A module on the bench. `values` holds every input in SI by full name, and every choice as record or word."""
 
     study: Study
-    catalog: Catalog
-    table: Table
     values: Mapping[str, Any]
     current_profiles: Mapping[str, CurrentProfile] = field(default_factory=dict)
     """Currents that follow a profile, by phase."""
+
+    @property
+    def table(self) -> Table:
+        """The quantities of its mode."""
+        return self.study.table
 
     @property
     def points(self) -> tuple[str, ...]:
@@ -34,16 +36,16 @@ class ResolvedModule:
         return self.table.evaluate(self.values, [name])[name]
 
 
-def resolve_study(study: Study, catalog: Catalog, table: Table) -> ResolvedModule:
+def resolve_study(study: Study) -> ResolvedModule:
     """Resolve a study for testing; what it varies stands at its start. Raises InputError for what has no value."""
-    return ResolvedModule(study, catalog, table, given(study, catalog, table))
+    return ResolvedModule(study, given(study))
 
 
-def resolve_design(design: Design, catalog: Catalog, table: Table) -> ResolvedModule:
+def resolve_design(design: Design) -> ResolvedModule:
     """The module of a design, with the currents found for it. Raises InputError for what has no value."""
     study = Study.model_validate({**design.study, "vary": {}, "profile": {}})
     study = study.model_copy(update={"module": {**study.module, **design.choices}})
-    values = given(study, catalog, table)
+    values = given(study)
     numbers = {name: design.values[name] for name, value in values.items() if isinstance(value, float | int)}
     current_profiles = {phase: CurrentProfile.from_plain(plain) for phase, plain in design.current_profiles.items()}
-    return ResolvedModule(study, catalog, table, {**values, **numbers}, current_profiles)
+    return ResolvedModule(study, {**values, **numbers}, current_profiles)

@@ -112,9 +112,7 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
         return {}
     model = optimizer.model
     numbers = {name: float(run.inputs[i]) for name, i in model.index.items()}
-    resolved = ResolvedModule(
-        study, optimizer.catalog, optimizer.table, {**numbers, **model.words}, run.current_profiles
-    )
+    resolved = ResolvedModule(study, {**numbers, **model.words}, run.current_profiles)
     contributors = contributors_of(resolved)
     names = [contributor.name for contributor in contributors]
     options = study.solver
