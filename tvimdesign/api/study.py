@@ -150,7 +150,7 @@ class Study:
         bounds prove impossible.
         """
         from tvimdesign.report.run.check_study import refuse_what_cannot_be
-        from tvimdesign.report.run.record_checks import record_checks
+        from tvimdesign.study.record_checks import record_checks
 
         study = refuse_what_cannot_be(self.resolved)
         return record_checks(study)

@@ -17,11 +17,11 @@ from rich.text import Text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.progress import wide_console
 from tvimdesign.report.output.tables import number
+from tvimdesign.study.resolve import words_of
 from tvimdesign.study.text.mistakes import did_you_mean
 
 _SHOWN = 8
@@ -124,7 +124,7 @@ def _facts(plain: dict[str, Any]) -> str:
 
 def _plain(row: Quantity) -> dict[str, Any]:
     if isinstance(row, Choice):
-        allowed = ", ".join([*row.options, *(Catalog().names(row.category) if row.category else [])])
+        allowed = ", ".join(words_of(row))
         return _entry(row, "choice", "", f"from {row.record[0]}" if row.record else row.default, allowed)
     name = f"{row.name}@point" if row.per_point else row.name
     if isinstance(row, Input):

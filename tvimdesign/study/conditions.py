@@ -14,8 +14,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
-from tvimdesign.catalog import Record
 from tvimdesign.device import Choice, Input
 from tvimdesign.study.resolve import given
 from tvimdesign.study.study import Range, Requirement, Study, Vary

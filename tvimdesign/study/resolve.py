@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tvimdesign.base.errors import CatalogError, InputError
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
@@ -35,6 +36,11 @@ def drawn(study: Study) -> Study:
     module = {name: getattr(starts[name], "name", starts[name]) for name in study.vary}
     update = {"module": {**study.module, **module}, "vary": {}, "minimize": {}, "profile": ProfileOptions()}
     return study.model_copy(update=update)
+
+
+def words_of(choice: Choice) -> list[str]:
+    """What a study may write for a choice: its options, then the shipped records."""
+    return [*choice.options, *(Catalog().names(choice.category) if choice.category else [])]
 
 
 def _chosen(row: Choice, study: Study, chosen: dict[str, Any]) -> Any:

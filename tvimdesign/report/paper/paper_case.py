@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 import yaml
 
+from tvimdesign.base.record import Entry
 from tvimdesign.base.units import from_si, pretty, to_si
-from tvimdesign.catalog.record import Entry
 from tvimdesign.device import Input, table_for
 from tvimdesign.report.paper.paper_claims import from_paper
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions

@@ -16,11 +16,11 @@ from tvimdesign.report.output.results_format import RunResults
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
-from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.report.run.why import why
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
 from tvimdesign.study import Study, drawn, read_tree
+from tvimdesign.study.record_checks import record_checks
 from tvimdesign.study.tree import StudyTree
 
 

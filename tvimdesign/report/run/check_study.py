@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.study import Study
+from tvimdesign.study.record_checks import record_checks
 
 
 def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:

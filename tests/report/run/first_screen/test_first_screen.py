@@ -15,10 +15,10 @@ from tvimdesign.device import Table
 from tvimdesign.report.run.first_screen.requirements import lines_of
 from tvimdesign.report.run.first_screen.screen import AFTER, LINES, Told, first_screen
 from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
-from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.report.run.why import binding
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_study, read_study_text
+from tvimdesign.study.record_checks import record_checks
 
 LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 2.6 mm}"
 CHOICES = SHEAR.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}")

@@ -1,23 +1,16 @@
-"""What the records a study chooses say against themselves: a data sheet whose ratings do not agree."""
+"""Whether the ratings of a Peltier module's data sheet agree with one another."""
 
 from __future__ import annotations
 
-from tvimdesign.catalog import Record
+from tvimdesign.base.record import Record
 from tvimdesign.physics import peltier
-from tvimdesign.study import Study, given
 
 ALIKE = 0.1
 """Share by which ratings of a Peltier module may differ from what the others make of them: makers round that far."""
 _RATED = ("seebeck", "resistance", "conductance", "hot_side_temperature", "max_cooling_power")
 
 
-def record_checks(study: Study) -> list[str]:
-    """A sentence for each chosen record that contradicts itself."""
-    records = [record for record in given(study).values() if isinstance(record, Record)]
-    return [said for record in records if record.category == "peltiers" and (said := _of_module(record))]
-
-
-def _of_module(record: Record) -> str:
+def contradiction(record: Record) -> str:
     """What is wrong with a Peltier module's cooling power; nothing where it agrees or where the record has none."""
     if not set(_RATED) <= record.entries.keys():
         return ""

@@ -37,7 +37,7 @@ class RecordTable:
 
 @dataclass(frozen=True)
 class Record:
-    """One thing on a category: a material, a wire table, a Peltier module."""
+    """One thing of a category: a material, a wire table, a Peltier module."""
 
     category: str
     name: str

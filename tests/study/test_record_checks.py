@@ -8,8 +8,8 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.report.run.check_study import describe
-from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.study import Study, read_study
+from tvimdesign.study.record_checks import record_checks
 
 STUDY = "tvimdesign: 1\nname: Doubt\nmode: shear\ncatalog: records\nmodule: {peltier_module: bench}\n"
 
@@ -43,5 +43,5 @@ def test_a_sheet_that_agrees_is_not(shipped: Path, tmp_path: Path) -> None:
 
 
 def test_a_record_without_that_rating_is_not() -> None:
-    study = read_study(Path(__file__).parents[3] / "studies" / "paper_shear.yaml")
+    study = read_study(Path(__file__).parents[2] / "studies" / "paper_shear.yaml")
     assert record_checks(study) == []
