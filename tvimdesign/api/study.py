@@ -213,15 +213,10 @@ def _written(tree: StudyTree, section: str) -> list[tuple[str, Any]]:
 
 
 def _range(name: str, study: ResolvedStudy) -> str:
-    from tvimdesign.device import Choice
-
-    row, vary = study.table.quantity(name), study.vary[name]
+    vary = study.vary[name]
     if isinstance(vary, Range):
         values: Sequence[float | str] = (vary.lower, vary.upper)
     else:
         values = vary.values
-    shown = [
-        value if isinstance(value, str) or isinstance(row, Choice) else format_quantity(value, row.unit)
-        for value in values
-    ]
+    shown = [value if isinstance(value, str) else format_quantity(value, study.table.unit(name)) for value in values]
     return " to ".join(map(str, shown)) if isinstance(vary, Range) else "one of " + ", ".join(map(str, shown))
