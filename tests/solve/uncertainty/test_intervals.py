@@ -11,11 +11,10 @@ import pytest
 from comparable import SHEAR
 from scipy.stats import qmc
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.intervals import draw, intervals, share_of_variance
 from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, unmeasured_inputs
@@ -32,7 +31,7 @@ def unknown(name: str, low: float, high: float, value: float = math.nan) -> Unme
 
 @cache
 def module() -> ResolvedModule:
-    resolved = resolve_study(read_study_text(SHEAR, "a test"), Catalog(), TABLE)
+    resolved = resolve_study(read_study_text(SHEAR, "a test"))
     return replace(resolved, study=resolved.study.model_copy(update={"tolerances": standard_tolerances(TABLE)}))
 
 
@@ -176,7 +175,7 @@ def test_no_two_of_fifty_inputs_are_drawn_together() -> None:
 
 def test_a_value_that_the_study_sets_or_that_is_measured_is_not_moved() -> None:
     own = read_study_text(SHEAR.replace("module:\n", "module:\n  hot_contact: 10000 W/m^2/K\n"), "a test")
-    names = {one.name for one in unmeasured_inputs(resolve_study(own, Catalog(), TABLE))}
+    names = {one.name for one in unmeasured_inputs(resolve_study(own))}
     assert "hot_contact" in {one.name for one in unmeasured_inputs(module())}
     assert "hot_contact" not in names
     record = module().values["peltier_module"]
@@ -197,7 +196,7 @@ def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
     # A softening limit in the middle of what the time may be is kept by about half.
     middle = float(np.median([found().intervals["softening_time"].low, found().intervals["softening_time"].high]))
     text = SHEAR.replace("require:\n", f'require:\n  softening_time: "<= {middle:.4g} s"\n')
-    resolved = resolve_study(read_study_text(text, "a test"), Catalog(), TABLE)
+    resolved = resolve_study(read_study_text(text, "a test"))
     held = UncertaintyModel(resolved, ["softening_time"]).at(resolved, 4, 256).held
     name = next(name for name in held if name.startswith("softening_time"))
     times = [

@@ -50,7 +50,7 @@ _INSULATED = {"rotor_contact": 1e-3}
 
 def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
     """The paper's thickness as assumed here [m], and a function from changed inputs to the values of one switch."""
-    from tvimdesign.simulation.cycle import Simulator
+    from tvimdesign.simulation.working_cycle.cycle import Simulator
 
     model = published_model()
     simulator = Simulator(model)

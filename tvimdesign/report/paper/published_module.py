@@ -8,45 +8,41 @@ from typing import TYPE_CHECKING
 from tvimdesign.report.paper.paper_claims import claims, from_paper
 
 if TYPE_CHECKING:
-    from tvimdesign.simulation.device_functions import DeviceFunctions
-    from tvimdesign.simulation.resolved_module import ResolvedModule
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+    from tvimdesign.study import Study
+
+
+def _study() -> Study:
+    from tvimdesign.study import read_study_text
+
+    return read_study_text(claims()["study"], "the paper's module")
 
 
 @cache
 def published_model() -> DeviceFunctions:
     """The module, compiled."""
-    from tvimdesign.catalog import Catalog
-    from tvimdesign.device import table_for
-    from tvimdesign.simulation.device_functions import DeviceFunctions
-    from tvimdesign.study import given, read_study_text
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+    from tvimdesign.study import given
 
-    study = read_study_text(claims()["study"], "the paper's module")
-    table = table_for(study.mode)
-    return DeviceFunctions(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+    study = _study()
+    return DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
 
 
 @cache
 def published_module() -> ResolvedModule:
     """The module with a value for every input, and the records it chose."""
-    from tvimdesign.catalog import Catalog
-    from tvimdesign.device import table_for
-    from tvimdesign.simulation.resolved_module import resolve_study
-    from tvimdesign.study import read_study_text
+    from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 
-    study = read_study_text(claims()["study"], "the paper's module")
-    return resolve_study(study, Catalog(), table_for(study.mode))
+    return resolve_study(_study())
 
 
 @cache
 def published_values() -> dict[str, float]:
     """Values of the module [SI], one working cycle simulated."""
-    from tvimdesign.catalog import Catalog
-    from tvimdesign.device import table_for
     from tvimdesign.solve.result import answer
-    from tvimdesign.study import read_study_text
 
-    study = read_study_text(claims()["study"], "the paper's module")
-    return answer(study, Catalog(), table_for(study.mode)).design.values
+    return answer(_study()).design.values
 
 
 def spring_rate(wire_diameter: float, youngs_modulus: float | None = None) -> float:

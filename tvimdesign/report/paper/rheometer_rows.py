@@ -15,7 +15,7 @@ from tvimdesign.base.units import from_si
 from tvimdesign.physics import polymer, viscoelasticity
 from tvimdesign.report.paper.paper_claims import Instrument, from_paper, instrument
 from tvimdesign.report.paper.published_module import published_module
-from tvimdesign.simulation.melt_history import fractions_at
+from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 
 _SURE = 0.1
 """Share by which an uncorrected modulus may be low before it is called wrong."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.catalog import Record
-from tvimdesign.catalog.record import Entry
+from tvimdesign.base.record import Entry, Record
 from tvimdesign.device import Input
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 Array = NDArray[np.float64]
 

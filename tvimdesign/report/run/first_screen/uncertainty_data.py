@@ -5,15 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.report.output.number_entry import finite, number_entry
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.intervals import Interval, Swing
@@ -43,15 +41,12 @@ class Uncertainty:
 
     def __init__(self, study: Study) -> None:
         """Compile the module the study starts from, whose numbers under `vary` may change."""
-        self.study, self.table = study, table_for(study.mode)
+        self.study, self.table = study, study.table
         self.own = bool(study.tolerances)
         required = [one.output for one in study.require]
         self.asked = list(dict.fromkeys([*required, *study.minimize, *FIRST_SCREEN]))
-        start = resolve_study(study, self._catalog(study), self.table)
+        start = resolve_study(study)
         self.model = UncertaintyModel(self._tolerant(start), self.asked, list(study.vary))
-
-    def _catalog(self, study: Study) -> Catalog:
-        return Catalog(Path(study.catalog_folder) if study.catalog_folder else None)
 
     def _tolerant(self, resolved: ResolvedModule) -> ResolvedModule:
         """A module with the tolerances that count."""
@@ -60,7 +55,7 @@ class Uncertainty:
 
     def of(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> DesignUncertainty:
         """What there is to say of one design; `modules` and `draws` are powers of two."""
-        resolved = self._tolerant(resolve_design(design, self._catalog(self.study), self.table))
+        resolved = self._tolerant(resolve_design(design))
         if not self.model.fits(resolved):  # another record was chosen
             self.model = UncertaintyModel(resolved, self.asked)
         return self.model.at(resolved, modules, draws)
