@@ -120,7 +120,8 @@ def _interval(
     low, high = (float(end) for end in np.quantile(happens, [outside, 1.0 - outside], method="inverted_cdf"))
     moved = [Swing(one, _or_never(a), _or_never(b)) for one, (a, b) in zip(inputs, ends, strict=True)]
     swings = sorted((swing for swing in moved if swing.at_low != swing.at_high), key=lambda swing: -swing.size)
-    within = np.clip(np.where(np.isfinite(happens), happens, instead), low, min(high, max(instead, low)))
+    most = high if np.isfinite(high) else max(instead, low)
+    within = np.clip(np.where(np.isfinite(happens), happens, instead), low, most)
     moving = {swing.moved.name for swing in swings}
     shares = {
         one.name: share_of_variance(column, within)
@@ -142,7 +143,7 @@ def share_of_variance(column: Array, values: Array) -> float:
     This is the correlation ratio, less what as many groups of a column of noise would have.
     """
     total = float(np.var(values))
-    if total <= 1e-18 * float(np.mean(values)) ** 2 or total == 0.0:
+    if total <= 1e-18 * float(np.mean(values)) ** 2 or total == 0.0 or len(values) < 2 * _BINS:
         return 0.0
     groups = np.array_split(values[np.argsort(column, kind="stable")], _BINS)
     sizes, means = np.array([len(group) for group in groups]), np.array([np.mean(group) for group in groups])
