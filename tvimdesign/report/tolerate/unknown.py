@@ -35,7 +35,7 @@ def unknown_data(unknown: DesignUncertainty, table: Table) -> dict[str, Any]:
     }
 
 
-def unknown_rows(data: Mapping[str, Any]) -> list[dict[str, str | float | None]]:
+def unknown_rows(data: Mapping[str, Any]) -> list[dict[str, Any]]:
     """A row an output: what it may be, all together and one at a time, and what carries most of it."""
     return [
         {

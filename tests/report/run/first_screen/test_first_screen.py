@@ -168,7 +168,7 @@ def test_every_headline_and_requirement_is_told_with_what_it_may_be(name: str) -
     assert f"measure first: {next(iter(soft['shares']))}" in text
     lines = {line.name: line for line in lines_of(one.found, one.table, {}, intervals)}
     told = [line for line in lines.values() if line.may_be]
-    assert told
+    assert told or not one.study.require
     assert name == "many" or all(re.search(rf"^{line.name}\s.*{line.may_be}", text, re.MULTILINE) for line in told)
 
 
@@ -195,7 +195,8 @@ def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(tvimdesign:
     reported = json.loads((tmp_path / "short/results.json").read_text())
     assert reported["format"] == 1
     soft = reported["uncertainty"]["intervals"]["softening_time"]
-    rows = {row["name"]: row for row in csv.DictReader((tmp_path / "short/results.csv").open(encoding="utf-8-sig"))}
+    text = (tmp_path / "short/results.csv").read_text("utf-8-sig")
+    rows = {row["name"]: row for row in csv.DictReader(text.splitlines())}
     may_be = [float(rows["softening_time"][f"may_be_{end}"]) for end in ("low", "high")]
     assert may_be == pytest.approx([soft["low"], soft["high"]])
     assert rows["softening_time"]["measure_first"] == next(iter(soft["shares"]))

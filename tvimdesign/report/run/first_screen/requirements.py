@@ -153,6 +153,7 @@ def assumption(row: Mapping[str, Any]) -> tuple[str, str]:
 
 _NOTHING_ASSUMED = ("", "")
 _HEAD = ("", "asked", "got", "may be", "margin")
+_MAY_BE = 3
 _RESTS_ON = "rests on (assumed)"
 
 
@@ -169,6 +170,9 @@ def screen_lines(lines: Sequence[Line], width: int) -> list[str]:
     marks = dict(zip(named, _MARKS, strict=False))
     rows = [(*_figures(line), marks.get(line.rests_on, "")) for line in lines]
     marked = _table(rows, "")
+    if max(map(len, marked)) > width:  # what each may be stands in summary.txt, too
+        rows = [(*row[:_MAY_BE], "", *row[_MAY_BE + 1 :]) for row in rows]
+        marked = _table(rows, "")
     if max(map(len, marked)) > width:
         marked = _narrow(rows)
     return [*marked, *joined("  assumed", (f"{mark} {text[0]}" for text, mark in marks.items()), width)]
@@ -184,8 +188,9 @@ def _table(rows: Sequence[Sequence[str]], last: str) -> list[str]:
 
 def _told(rows: Sequence[Sequence[str]]) -> Sequence[Sequence[str]]:
     """The rows without the column of what may be, where it says nothing."""
-    at = _HEAD.index("may be")
-    return rows if any(row[at] for row in rows[1:]) else [(*row[:at], *row[at + 1 :]) for row in rows]
+    if any(row[_MAY_BE] for row in rows[1:]):
+        return rows
+    return [(*row[:_MAY_BE], *row[_MAY_BE + 1 :]) for row in rows]
 
 
 def _narrow(rows: Sequence[Sequence[str]]) -> list[str]:

@@ -109,7 +109,6 @@ def _stiff(answer: StudyResult, said: _Values) -> Iterator[str]:
     yield f"{said('stiffening_time')} from the end of the switch"
     yield stiff_in_words(answer.design, said.table)
     yield f"frozen {said('frozen_time')}"
-    yield from filter(None, [said.first("stiffening_time")])
 
 
 def trade_lines(front: Any, table: Table, width: int) -> list[str]:
