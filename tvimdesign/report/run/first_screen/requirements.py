@@ -168,7 +168,7 @@ def screen_lines(lines: Sequence[Line], width: int) -> list[str]:
             return beside
     named = list(dict.fromkeys(line.rests_on for line in lines if line.rests_on[0]))
     marks = dict(zip(named, _MARKS, strict=False))
-    rows = [(*_figures(line), marks.get(line.rests_on, "")) for line in lines]
+    rows: list[Sequence[str]] = [(*_figures(line), marks.get(line.rests_on, "")) for line in lines]
     marked = _table(rows, "")
     if max(map(len, marked)) > width:  # what each may be stands in summary.txt, too
         rows = [(*row[:_MAY_BE], "", *row[_MAY_BE + 1 :]) for row in rows]
