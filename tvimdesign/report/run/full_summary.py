@@ -263,9 +263,11 @@ def _print_warnings(answer: StudyResult, warnings: Sequence[tuple[str, str]], co
 
 
 def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Console) -> None:
-    """What each headline and requirement may be, given what nobody has measured, and what to measure for less."""
-    heads = ("", "value", "low", "high", "one at a time", "unit", "measure first", "for half the width")
-    grid = _grid("What may be, over the ranges of what is not measured (95 %, all together)", heads, right=(1, 2, 3))
+    """What each headline and requirement may be, given what nobody has measured; what to measure first, and how many
+    values for half the width (results.json names them).
+    """
+    heads = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    grid = _grid("What may be, over the ranges of what is not measured (95 %, all together)", heads, right=(1, 2, 3, 7))
     for output, one in intervals.items():
         if one["low"] == one["high"]:
             continue
@@ -279,9 +281,10 @@ def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Consol
                 one["one_at_a_time"]["high"],
             )
         )
-        first = next((f"{name} {100.0 * share:.0f} %" for name, share in one["shares"].items()), "")
-        half = ", ".join(one["to_halve"][1:]) or ("enough" if one["to_halve"] else "many")
-        grid.add_row(output, value, low, high, f"{least} to {most}", one["unit"], first, half)
+        first = next(iter(one["shares"]), "")
+        share = f"{100.0 * one['shares'][first]:.0f} %" if first else ""
+        half = f"{len(one['to_halve'])}" if one["to_halve"] else "many"
+        grid.add_row(output, value, low, high, f"{least} to {most}", one["unit"], first, share, half)
     if grid.row_count:
         console.print(grid)
 
