@@ -48,8 +48,8 @@ class Category:
 
     The rows of `paired` tables belong together, first to first: there must be as many in each. A table of `instead` may
     stand in place of values or they in its place: each is the sum over the rows of the product of some columns, and
-    where a record has both they must agree to `AGREEMENT`. A value of `follows` may be left out where its law has what it
-    needs.
+    where a record has both they must agree to `AGREEMENT`. A value of `follows` may be left out where its law has what
+    it needs.
     """
 
     values: Mapping[str, str] = field(default_factory=dict)

@@ -9,9 +9,7 @@ from tvimdesign.catalog.categories import Category, PowerLaw
 from tvimdesign.catalog.record import Entry, RecordTable
 
 
-def following(
-    category: Category, entries: Mapping[str, Entry], tables: Mapping[str, RecordTable]
-) -> dict[str, Entry]:
+def following(category: Category, entries: Mapping[str, Entry], tables: Mapping[str, RecordTable]) -> dict[str, Entry]:
     """The entries that follow from what a record says, by name: none that it says itself."""
     found = {}
     for table, values in category.instead.items():

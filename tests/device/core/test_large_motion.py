@@ -17,7 +17,12 @@ ROWS = ["hot_stiffness_at_stroke", "hot_damping_at_stroke", "hot_damping_at_stro
         "melt_stress_safety", "edge_fracture_angle", "joint_stiffness@hot", "joint_damping@hot",
         "spring_stiffness", "storage_modulus@hot", "loss_modulus@hot", "structure_stiffness"]  # fmt: skip
 # The optimum of paper_shear as it stood at 2.8 kPa s: 413 % of strain at the rim at its stroke.
-OPTIMUM = {"pcl_outer_radius": 23.8434e-3, "pcl_inner_radius": 11.9293e-3, "pcl_thickness": 0.600000e-3, "stroke": 0.104}
+OPTIMUM = {
+    "pcl_outer_radius": 23.8434e-3,
+    "pcl_inner_radius": 11.9293e-3,
+    "pcl_thickness": 0.600000e-3,
+    "stroke": 0.104,
+}
 INNER = OPTIMUM["pcl_inner_radius"] / OPTIMUM["pcl_outer_radius"]
 
 

@@ -76,9 +76,7 @@ def hot_damping_at_stroke_least(
 
 
 @quantities.output("kPa", headline=True)
-def melt_stress(
-    largest_melt_strain: Scalar, storage_modulus_at_hot: Scalar, loss_modulus_at_hot: Scalar
-) -> Scalar:
+def melt_stress(largest_melt_strain: Scalar, storage_modulus_at_hot: Scalar, loss_modulus_at_hot: Scalar) -> Scalar:
     """Largest shear stress in the melt at full stroke and the hot point's frequency, softening by strain left out.
 
     So it is the most the melt can resist with.
