@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.trajectory import Trajectory
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
@@ -53,7 +52,7 @@ TOLERANCE = 2e-3  # share of a limit: the peaks of the equations are at their po
 
 @cache
 def solve(text: str) -> Solution:
-    return optimize(read_study_text(text, "a test"), Catalog(), TABLE)
+    return optimize(read_study_text(text, "a test"))
 
 
 def with_pieces(pieces: int, text: str = HEATING) -> str:
@@ -122,6 +121,7 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
     assert all(profile.steepest == pytest.approx(0.5, rel=1e-9) for profile in solution.current_profiles.values())
 
 
+@pytest.mark.slow
 def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
     solution = solve(CYCLE)
     again = Simulator(solution.model, tolerance=1e-9, steps=200).run(solution.inputs, solution.current_profiles)
@@ -157,6 +157,7 @@ def one(solution: Solution, name: str) -> ActiveConstraint:
     return held
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "name", "written", "step", "shares"),
     [

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import prod
 
+from tvimdesign.base.record import Entry, RecordTable
 from tvimdesign.catalog.categories import Category, PowerLaw
-from tvimdesign.catalog.record import Entry, RecordTable
 
 
 def following(category: Category, entries: Mapping[str, Entry], tables: Mapping[str, RecordTable]) -> dict[str, Entry]:

@@ -9,11 +9,9 @@ from typing import Any
 import pytest
 from support import ROOT
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.paper_claims import claims
-from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import Study, given, read_study, read_study_text
 
@@ -28,7 +26,7 @@ def shipped(mode: str) -> Study:
 
 
 def resolved(study: Study) -> dict[str, Any]:
-    return given(study, Catalog(), table_for(study.mode))
+    return given(study)
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -109,6 +107,7 @@ def test_what_has_no_range_hardly_moves_the_ratio() -> None:
         assert abs(compression - shear) < 0.05, name
 
 
+@pytest.mark.slow
 def test_the_ledger_says_that_it_validates_nothing() -> None:
     (row,) = (row for row in claims()["rows"] if row["row"] == "case")
     assert row["verdict"].startswith("consistent with, not validated by")

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel, assumed_inputs
 from tvimdesign.study import read_study_text
 

@@ -2,9 +2,27 @@
 
 from __future__ import annotations
 
-from tvimdesign.device import table_for
-from tvimdesign.report.run.record_checks import record_checks
-from tvimdesign.study import Study, catalog_of
+from collections.abc import Sequence
+from pathlib import Path
+
+from tvimdesign.study import Study, read_tree
+from tvimdesign.study.record_checks import record_checks
+from tvimdesign.study.tree import tree_of_file
+
+
+def check_study(path: Path, settings: Sequence[str] = (), *, deep: bool, as_json: bool) -> None:
+    """Print what a study asks, or what is wrong with it; with `deep` what its problem is like for the solver.
+
+    Raises StudyError with every mistake, and what `refuse_what_cannot_be` raises.
+    """
+    study = read_tree(tree_of_file(path, settings))
+    if deep:
+        from tvimdesign.report.run.diagnostics import check_deep
+
+        check_deep(study, as_json=as_json)
+        return
+    refuse_what_cannot_be(study)
+    print(study.model_dump_json(indent=2) if as_json else describe(study))
 
 
 def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
@@ -16,7 +34,7 @@ def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
     from tvimdesign.report.run.refusal import refuse_unfit
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
-    (refuse_unfit if proof else refuse_impossible)(study, catalog_of(study), table_for(study.mode))
+    (refuse_unfit if proof else refuse_impossible)(study)
     return study
 
 
@@ -24,4 +42,4 @@ def describe(study: Study) -> str:
     """One line on what a valid study asks, then one for each of its records that contradicts itself."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
     asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
-    return "\n".join([asked, *record_checks(study, catalog_of(study), table_for(study.mode))])
+    return "\n".join([asked, *record_checks(study)])
