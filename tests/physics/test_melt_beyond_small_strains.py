@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from tvimdesign.physics import large_strain, polymer
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 LIMIT = 0.3
 MELT = polymer.melt_spectrum(4200.0, 0.95e6, 6)

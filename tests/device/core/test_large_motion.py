@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.physics import large_strain, polymer
 from tvimdesign.study import given, read_study_text
@@ -27,7 +26,7 @@ INNER = OPTIMUM["pcl_inner_radius"] / OPTIMUM["pcl_outer_radius"]
 
 
 def module(mode: str = "shear", **changes: Any) -> dict[str, Any]:
-    found = {**given(read_study_text(f"mode: {mode}\n", "a test"), Catalog(), table_for(mode)), **changes}
+    found = {**given(read_study_text(f"mode: {mode}\n", "a test")), **changes}
     return {**found, **table_for(mode).evaluate(found, ROWS)}
 
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel, assumed_inputs
 from tvimdesign.study import read_study_text
 
@@ -21,7 +19,7 @@ solver: {cells: 8}
 
 @pytest.fixture(scope="module")
 def module() -> ResolvedModule:
-    return resolve_study(read_study_text(TEXT, "a test"), Catalog(), table_for("shear"))
+    return resolve_study(read_study_text(TEXT, "a test"))
 
 
 def test_half_time_and_slope_of_freezing_are_moved_and_what_is_one_fact_with_them_is_not(
