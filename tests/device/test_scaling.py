@@ -14,7 +14,8 @@ POWERS = {
     "Hz": -1, "N": 2,
 }  # fmt: skip
 # The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
-SWINGS = {"damping_ratio": -1, "critical_damping": 4}
+# Gravity does not grow with it: heads do, and melt runs the sooner.
+SWINGS = {"damping_ratio": -1, "critical_damping": 4, "melt_head": 1, "melt_loss": 1, "layer_drawing_time": -1}
 # Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, or lengths that are sold.
 FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit"}
 TABLES = {mode: table_for(mode) for mode in MODES}

@@ -1,8 +1,9 @@
 """Melt in a thin gap between two plates: what flows along it, what squeezes it out, what its surface holds back.
 
-Slow flow of a viscous liquid between plates that it does not slip on, in a gap much thinner than it is wide (Hele-Shaw).
-Sources: White, Viscous Fluid Flow, sec. 3-3 (flow between plates); Bird, Armstrong and Hassager, Dynamics of Polymeric
-Liquids, vol. 1, sec. 1.3 (squeeze film); de Gennes, Brochard-Wyart and Quere, Capillarity and Wetting Phenomena, ch. 1.
+Slow flow of a viscous liquid between plates that it does not slip on, in a gap much thinner than it is wide
+(Hele-Shaw). Sources: White, Viscous Fluid Flow, sec. 3-3 (flow between plates); Bird, Armstrong and Hassager,
+Dynamics of Polymeric Liquids, vol. 1, sec. 1.3 (squeeze film); de Gennes, Brochard-Wyart and Quere, Capillarity and
+Wetting Phenomena, ch. 1.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ def meniscus_pressure(surface_tension: Any, gap: Any) -> Any:
 
 
 def squeeze_time(force: Any, viscosity: Any, length: Any, width: Any, thin: Any, thick: Any) -> Any:
-    """Time [s] in which a force [N] takes a strip from one thickness to the other [m]: pressed thinner or pulled thicker.
+    """Time [s] in which a force [N] takes a strip from one thickness to another [m], pressed thinner or pulled thicker.
 
     t = eta L w^3/(2 F) (1/h_1^2 - 1/h_2^2), of a strip of the width w that is much narrower than its length L [m] and
     keeps its width.

@@ -1,4 +1,5 @@
-"""Solids of a module whose rotor follows the freezing layer: as large as their rows, in place, and put together in order."""
+"""Solids of a module whose rotor follows the freezing layer: as large as their rows, in place, and put together in
+order."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""What is bought for all modes: screws, ball bearings and a wave spring, drawn as simply as the table counts them, and placed."""
+"""What is bought for all modes: screws, ball bearings and a wave spring, drawn as simply as the table counts them,
+and placed."""
 
 from __future__ import annotations
 

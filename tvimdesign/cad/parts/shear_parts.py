@@ -12,8 +12,8 @@ from tvimdesign.cad.geometry.solids import cylinder, join, polar, ring, rounded,
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw", "adjuster_insert", "cover",
-    "cover_screw", "cover_insert",
+    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw", "adjuster_insert",
+    "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 
 
@@ -33,7 +33,9 @@ def housing(dims: Dimensions) -> cq.Shape:
 
 def rotor(dims: Dimensions) -> cq.Shape:
     """Rotor with pockets in its plate for the keys of the arcs, and lips beside them where it has these."""
-    return bare_rotor(dims, _melt_lips(dims), [turned(key, azimuth) for azimuth in _azimuths(dims) for key in _keys(dims)])
+    return bare_rotor(
+        dims, _melt_lips(dims), [turned(key, azimuth) for azimuth in _azimuths(dims) for key in _keys(dims)]
+    )
 
 
 def _melt_lips(dims: Dimensions) -> list[cq.Shape]:

@@ -16,6 +16,4 @@ from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
 ROOMS = (vane_layout, block_impedance, block_heat, block_volumes, vane_clearances)
-TABLE = Table(
-    gather([*BOOKS, *(room.quantities for room in ROOMS), *block_shrinkage.groups], "compression"), PHASES
-)
+TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *block_shrinkage.groups], "compression"), PHASES)

@@ -1,9 +1,10 @@
 """What the shrinking layer does to its bond, and to the joint where nothing holds the rotor on it.
 
-A rotor that is held, by the hub it stands on or by bearings, leaves a freezing layer two ways: plate and floor bend after
-it, and it pulls on its bond, most where it begins beside the hub. One that a wave spring carries comes down with it. All
-of the shrinkage is taken as that of the frozen solid at room temperature, so the traction is an upper bound: what shrinks
-while it is warm and soft, and what relaxes, is not taken off; the plates' arcs between the layer's are left to help.
+A rotor that is held, by the hub it stands on or by bearings, leaves a freezing layer two ways: plate and floor bend
+after it, and it pulls on its bond, most where it begins beside the hub. One that a wave spring carries comes down
+with it. All of the shrinkage is taken as that of the frozen solid at room temperature, so the traction is an upper
+bound: what shrinks while it is warm and soft, and what relaxes, is not taken off; the plates' arcs between the
+layer's are left to help.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Lips of the rotor plate along the molten layer's inner and outer edge: rings that reach down to a running clearance
 above the floor, or none.
 
-They turn in their own track, so nothing rubs on them. The melt's surface is held between a lip's edge and the floor, and
-what leaves must go through the narrow gap below it. The plate is printed with that face up, so the lips need no support.
+They turn in their own track, so nothing rubs on them. The melt's surface is held between a lip's edge and the floor,
+and what leaves must go through the narrow gap below it. The plate is printed with that face up, so the lips need no
+support.
 """
 
 from __future__ import annotations
@@ -17,8 +18,12 @@ from tvimdesign.physics.shapes import Section, ring
 
 NO_LIP = "none"
 WITH_LIP = (Feature("melt_lip", NO_LIP),)
+LEAST_LIP = 0.1 * MM
+"""Least height of a lip; assumed, 0.1 to 0.2 mm: a layer of a print."""
 places, weights, rules = QuantityGroup(layout.group), QuantityGroup(bodies.group), QuantityGroup(gaps.group, WITH_LIP)
-places.option("melt_lip", (NO_LIP, "rings"), "Whether rings of the rotor plate hold the melt at its inner and outer edge")
+places.option(
+    "melt_lip", (NO_LIP, "rings"), "Whether rings of the rotor plate hold the melt at its inner and outer edge"
+)
 groups = (places, weights, rules)
 
 
@@ -47,10 +52,10 @@ def melt_lip_moments(
     return inner.plus(outer).times(melt_lip_height)
 
 
-@rules.output("mm", at_least(0.1 * MM, "the layer is too thin for lips: a thicker one, less running_clearance, or none"))
+@rules.output("mm", at_least(0.0, "the layer is too thin for lips: a thicker one, less running_clearance, or none"))
 def melt_lip_margin(melt_lip_height: Scalar) -> Scalar:
-    """Height of the lips, held against the least that can be made."""
-    return melt_lip_height
+    """Height of the lips beyond the least that is worth while."""
+    return melt_lip_height - LEAST_LIP
 
 
 @rules.output("mm", at_least(0.0, "the inner lip must clear the hub: less rotor_rim, or a larger pcl_inner_radius"))

@@ -1,10 +1,10 @@
 """What creeps out of the molten layer in a hot hour, and how soon a rotor that hangs on it draws it thicker.
 
-The worst way up is taken: the axis level, so that gravity acts along the layer, across an arc's radial width; and for the
-rotor's weight, upside down. To and fro of the joint moves no melt on average, as slow flow can be reversed [1], and turns
-it outwards by w^2 r, a thousandth of gravity at 1 Hz; both are left out, and so are normal stresses of fast shear.
-The half-width of a meniscus holds the melt only where an edge holds the meniscus: at lips, not between flat faces.
-[1] Happel and Brenner, Low Reynolds Number Hydrodynamics, sec. 1-2.
+The worst way up is taken: the axis level, so that gravity acts along the layer, across an arc's radial width; and for
+the rotor's weight, upside down. To and fro of the joint moves no melt on average, as slow flow can be reversed [1],
+and turns it outwards by w^2 r, a thousandth of gravity at 1 Hz; both are left out, and so are normal stresses of fast
+shear. The half-width of a meniscus holds the melt only where an edge holds the meniscus: at lips, not between flat
+faces. [1] Happel and Brenner, Low Reynolds Number Hydrodynamics, sec. 1-2.
 """
 
 from __future__ import annotations
@@ -40,9 +40,7 @@ def melt_head(pcl_melt_density: Scalar, arc_width: Scalar) -> Scalar:
 
 
 @quantities.output("Pa")
-def melt_hold(
-    melt_lip: str, pcl_surface_tension: Scalar, running_clearance: Scalar, freezing_travel: Scalar
-) -> Scalar:
+def melt_hold(melt_lip: str, pcl_surface_tension: Scalar, running_clearance: Scalar, freezing_travel: Scalar) -> Scalar:
     """Pressure that the melt's surface holds below a lip; zero between flat faces, on which it may creep."""
     if melt_lip == NO_LIP:
         return 0.0 * pcl_surface_tension
