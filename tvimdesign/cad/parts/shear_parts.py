@@ -12,8 +12,8 @@ from tvimdesign.cad.geometry.solids import cylinder, join, polar, ring, rounded,
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw", "adjuster_insert",
-    "cover", "cover_screw", "cover_insert",
+    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw",
+    "adjuster_insert", "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 
 
