@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.study import given, read_study_text
 
@@ -19,7 +18,7 @@ G = 9.80665
 def values_of(rows: str, **module: Any) -> dict[str, float]:
     """Rows of the default shear module but for what is said."""
     lines = "\n".join(f"  {name}: {value}" for name, value in module.items())
-    known = given(read_study_text(f"mode: shear\nmodule:\n{lines or '  key_count: 0'}\n", "a test"), Catalog(), TABLE)
+    known = given(read_study_text(f"mode: shear\nmodule:\n{lines or '  key_count: 0'}\n", "a test"))
     found: dict[str, float] = TABLE.evaluate(known, rows.split())
     return found
 

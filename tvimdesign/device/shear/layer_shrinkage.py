@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.catalog import Record
+from tvimdesign.base.record import Record
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.shrinkage import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
