@@ -42,13 +42,21 @@ def decay_rate(foundation: Any, rigidity: Any) -> Any:
     return (foundation / (4.0 * rigidity)) ** 0.25
 
 
-def edge_traction(shortened: Any, foundation: Any, rigidity: Any, span: Any) -> Any:
+def shear_rigidity(shear_modulus: Any, thickness: Any) -> Any:
+    """Force per width that shears a plate by a unit angle [N/m], 5/6 G h; modulus [Pa], thickness [m]."""
+    return 5.0 / 6.0 * shear_modulus * thickness
+
+
+def edge_traction(shortened: Any, foundation: Any, rigidity: Any, shear: Any, span: Any) -> Any:
     """Traction [Pa] where a layer begins that would be `shortened` [m] and whose plates are clamped a `span` [m] away.
 
-    p = k delta (1 + lambda)/(1 + lambda + lambda^2 + lambda^3/3): all of k delta without a span, none far from the hub.
+    p = k delta (1 + lambda)/(1 + lambda (1 + k/(beta^2 S)) + lambda^2 + lambda^3/3): all of k delta without a span,
+    none far from the hub. S [N/m] is the plates' rigidity in shear over the span, in series.
     """
-    slack = decay_rate(foundation, rigidity) * span
-    return foundation * shortened * (1.0 + slack) / (1.0 + slack + slack**2 + slack**3 / 3.0)
+    rate = decay_rate(foundation, rigidity)
+    slack = rate * span
+    given_way = 1.0 + slack * (1.0 + foundation / (rate**2 * shear)) + slack**2 + slack**3 / 3.0
+    return foundation * shortened * (1.0 + slack) / given_way
 
 
 def edge_traction_of_force(line_force: Any, foundation: Any, rigidity: Any, span: Any) -> Any:

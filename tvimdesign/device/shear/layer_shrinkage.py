@@ -35,27 +35,34 @@ def layer_foundation(
     pcl_thickness: Scalar,
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
+    structure_youngs_modulus: Scalar,
+    rotor_thickness: Scalar,
+    floor_thickness: Scalar,
 ) -> Scalar:
-    """Tension of the frozen layer, with its pads, over how far its faces part [Pa/m]; a pad has E = 3 G as rubber."""
+    """Tension of the frozen layer over how far the middles of plate and floor part [Pa/m]; a pad has E = 3 G."""
     layer = shrinkage.confined_modulus(pcl_flexural_modulus, pcl_poissons_ratio) / pcl_thickness
-    return structure.series(layer, 3.0 * peltier_shear_modulus / peltier_thickness)
+    halves = 2.0 * structure_youngs_modulus / (rotor_thickness + floor_thickness)
+    return structure.series(layer, 3.0 * peltier_shear_modulus / peltier_thickness, halves)
 
 
 @quantities.helper()
 def plates_rigidity(
     structure_youngs_modulus: Scalar,
     structure_poissons_ratio: Scalar,
+    structure_shear_modulus: Scalar,
     rotor_thickness: Scalar,
     floor_thickness: Scalar,
     arc_count: Scalar,
     arc_span: Scalar,
-) -> Scalar:
-    """Flexural rigidity of plate and floor in series, of all the circumference over that of the arcs [N*m]."""
-    plate, floor = (
-        shrinkage.flexural_rigidity(structure_youngs_modulus, structure_poissons_ratio, thickness)
-        for thickness in (rotor_thickness, floor_thickness)
+) -> tuple[Scalar, Scalar]:
+    """Rigidity of plate and floor in series, of all the circumference over that of the arcs: bending [N*m], shear
+    [N/m]."""
+    both, share = (rotor_thickness, floor_thickness), arc_count * arc_span / (2.0 * np.pi)
+    bending = (
+        shrinkage.flexural_rigidity(structure_youngs_modulus, structure_poissons_ratio, thickness) for thickness in both
     )
-    return structure.series(plate, floor) * 2.0 * np.pi / (arc_count * arc_span)
+    shear = (shrinkage.shear_rigidity(structure_shear_modulus, thickness) for thickness in both)
+    return structure.series(*bending) / share, structure.series(*shear) / share
 
 
 @quantities.output("MPa")
@@ -64,7 +71,7 @@ def freezing_traction(
     freezing_shrinkage: Scalar,
     pcl_thickness: Scalar,
     layer_foundation: Scalar,
-    plates_rigidity: Scalar,
+    plates_rigidity: tuple[Scalar, Scalar],
     pcl_inner_radius: Scalar,
     hub_radius: Scalar,
     frozen_preload: Scalar,
@@ -79,10 +86,10 @@ def freezing_traction(
     span = pcl_inner_radius - hub_radius
     if isinstance(axial_preload, str):
         lost = freezing_shrinkage * pcl_thickness
-        held = shrinkage.edge_traction(lost, layer_foundation, plates_rigidity, span)
+        held = shrinkage.edge_traction(lost, layer_foundation, *plates_rigidity, span)
         return np.fmin(held, pcl_tensile_yield)
     edge = arc_count * arc_span * pcl_inner_radius
-    return shrinkage.edge_traction_of_force(frozen_preload / edge, layer_foundation, plates_rigidity, span)
+    return shrinkage.edge_traction_of_force(frozen_preload / edge, layer_foundation, plates_rigidity[0], span)
 
 
 _PARTS = "the freezing layer shrinks, the rotor cannot follow, and the bond may part at its inner edge"
