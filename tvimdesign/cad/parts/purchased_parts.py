@@ -43,7 +43,7 @@ def bearing_outer(dims: Dimensions) -> cq.Shape:
 def preload_spring(dims: Dimensions) -> cq.Shape:
     """The wave spring at its working height, as a plain ring."""
     top = dims.preload_spring_level
-    inner, outer = dims.preload_spring_inner_radius, dims.preload_spring_outer_radius
+    inner, outer = dims.preload_inner_radius, dims.preload_outer_radius
     return ring(inner, outer, top - dims.preload_height, top)
 
 
