@@ -18,6 +18,7 @@ ABOUT = {
     "Springs": "Rate, stress, safety and size of the torsion springs.",
     "Impedance": "Stiffness and damping at the operating points, and the torque that is held.",
     "Hold": "Creep under a load, the backlash it leaves, and what a quick turn loses.",
+    "Axial play": "What the PCL loses in volume, how the rotor follows, and what creeps out of the melt.",
     "Switch": "The thermal stack and its surroundings.",
     "Softening": "Heating until the joint is soft.",
     "Stiffening": "Cooling until the joint is stiff again.",

@@ -27,8 +27,10 @@ from tvimdesign.study import given, read_study
 
 ROOT = Path(__file__).resolve().parents[2]
 LABELS: dict[str, Any] = yaml.safe_load((Path(__file__).parent / "section_labels.yaml").read_text())
-SECTIONS = ("paper_shear", "paper_compression", "machined_shear", "driven_joint")
-"""Studies whose module is drawn, as each study starts: both modes, then bearings with adjusters, then a motor."""
+SECTIONS = ("paper_shear", "paper_compression", "machined_shear", "held_layer", "driven_joint")
+"""Modules that are drawn, as each study starts: both modes, then bearings with adjusters, a wave spring, a motor."""
+VARIANTS = {"held_layer": ("paper_shear", {"axial_preload": "wave_21x25", "melt_lip": "rings"})}
+"""Of those that no study holds: the study, and what its module has beside."""
 LENGTHS = re.compile(r"_(radius|level|height|thickness)$")
 _SIGN = {"left": -1.0, "right": 1.0}
 _SPACING = 3.2
@@ -38,7 +40,9 @@ _COLOURS = {"radii": "#1f4e9c", "levels": "#a3301f", "heights": "#2c6b2f"}
 
 def start(study: str) -> Dimensions:
     """Dimensions of a study's module as the study starts, in mm."""
-    read = read_study(ROOT / f"studies/{study}.yaml")
+    name, more = VARIANTS.get(study, (study, {}))
+    read = read_study(ROOT / f"studies/{name}.yaml")
+    read = read.model_copy(update={"module": {**read.module, **more}})
     table = table_for(read.mode)
     known = table.settled(given(read))
     scale = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
@@ -68,7 +72,8 @@ def _unused(dims: Dimensions) -> set[str]:
 def _lacks(dims: Dimensions, choice: str) -> bool:
     """Whether a module lacks what a choice would give it, by a dimension that is zero without it."""
     sign = {"motor": "drive_height", "cover": "cover_height", "preload_adjuster": "adjuster_radius",
-            "sensor_flange": "flange_outer_radius", "encoder": "encoder_board_radius"}  # fmt: skip
+            "sensor_flange": "flange_outer_radius", "encoder": "encoder_board_radius",
+            "axial_preload": "preload_height"}  # fmt: skip
     return dims.by_name.get(sign.get(choice, ""), 1.0) == 0.0
 
 

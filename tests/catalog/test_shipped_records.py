@@ -36,6 +36,7 @@ def test_every_shelf_has_its_records() -> None:
         "motors": 3,
         "encoders": 2,
         "wires": 2,
+        "wave_springs": 19,
     }
 
 

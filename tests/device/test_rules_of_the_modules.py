@@ -12,7 +12,7 @@ OTHERS: dict[str, set[tuple[str, float]]] = {
     "free_angle_over_preload": {("<=", 1.0)},
     "stiffening_over_freezing": {(">=", 1.0)},
     "insert_ground": {(">=", 1.0)},
-    "block_strain": {("<=", 0.5)},
+    "block_strain": {("<=", 0.5)}, "layer_play": {("<=", 0.1)}, "melt_loss": {("<=", 0.01)},
     # Least widths of what is made and of what air or a tool passes, and of what is left beyond zero.
     "leg_overhang_margin": {(">=", 0.5 * MM)}, "leg_reach_gap": {(">=", 1.0 * MM)}, "arc_gap": {(">=", 3.0 * MM)},
     "arc_width": {(">=", 5.0 * MM)}, "window_width": {(">=", 2.0 * MM)}, "link_screw_gap": {(">=", 0.3 * MM)},

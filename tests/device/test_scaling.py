@@ -15,7 +15,11 @@ POWERS = {
 }  # fmt: skip
 # The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
 # Surface tension holds the edge of a thin layer at a larger strain, with the root of its thickness.
-SWINGS = {"damping_ratio": -1, "critical_damping": 4, "edge_fracture_angle": -0.5}
+# Gravity does not grow with it: heads do, and melt runs the sooner.
+SWINGS = {
+    "damping_ratio": -1, "critical_damping": 4, "edge_fracture_angle": -0.5,
+    "melt_head": 1, "melt_loss": 1, "layer_drawing_time": -1,
+}  # fmt: skip
 # Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, or lengths that are sold.
 FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit"}
 TABLES = {mode: table_for(mode) for mode in MODES}

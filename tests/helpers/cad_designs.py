@@ -63,13 +63,24 @@ DRIVEN_BLOCKS = BLOCKS | {"motor": "frameless_85x13", "process": "machine_6061",
 # A torque sensor below the motor: its pattern is in the base of the motor's housing.
 ON_SENSOR = DRIVEN | {"sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": 13.0 * MM,
                       "flange_screw_reach": 10.5 * MM}  # fmt: skip
+# A wave spring around the core of a plain bore, with lips beside the layer, and one below a bearing.
+SPRUNG = {"axial_preload": "wave_21x25", "melt_lip": "rings"}
+SPRUNG_BEARINGS = BEARINGS | {
+    "bearing": "ball_6802",
+    "axial_preload": "wave_22_2x23_8",
+    "hub_depth": 8.0 * MM,
+    "foot_height": 14.0 * MM,
+}
+SPRUNG_BLOCKS = BLOCKS | {"axial_preload": "wave_17x21"}
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
     "odd blocks": ("compression", ODD_BLOCKS),
     "bearings": ("shear", BEARINGS), "bearings among blocks": ("compression", BEARING_BLOCKS),
     "flange": ("shear", FLANGE), "flange among blocks": ("compression", FLANGE_BLOCKS),
-    "driven": ("shear", DRIVEN), "driven blocks": ("compression", DRIVEN_BLOCKS),
+    "sprung": ("shear", SPRUNG), "sprung bearings": ("shear", SPRUNG_BEARINGS),
+    "sprung blocks": ("compression", SPRUNG_BLOCKS), "driven": ("shear", DRIVEN),
+    "driven blocks": ("compression", DRIVEN_BLOCKS),
 }  # fmt: skip
 
 

@@ -160,6 +160,19 @@ CATEGORIES: Mapping[str, Category] = {
         },
         rising=(("bore", "inner_shoulder", "outer_shoulder", "outer_diameter"),),
     ),
+    "wave_springs": Category(
+        values={
+            "inner_diameter": "mm",
+            "outer_diameter": "mm",
+            "thickness": "mm",
+            "waves": "1",
+            "free_height": "mm",
+            "work_height": "mm",
+            "youngs_modulus": "GPa",
+            "density": "kg/m^3",
+        },
+        rising=(("inner_diameter", "outer_diameter"), ("thickness", "work_height", "free_height")),
+    ),
     "sensor_flanges": Category(
         values={
             "pitch_diameter": "mm",
@@ -205,6 +218,8 @@ CATEGORIES: Mapping[str, Category] = {
     "polymers": Category(
         values={
             "density_solid": "kg/m^3",
+            "density_melt": "kg/m^3",
+            "surface_tension": "N/m",
             "specific_heat_solid": "J/kg/K",
             "specific_heat_melt": "J/kg/K",
             "conductivity_solid": "W/m/K",
@@ -256,6 +271,7 @@ CATEGORIES: Mapping[str, Category] = {
             )
         },
         rising=(
+            ("density_melt", "density_solid"),
             ("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),
             ("glass_transition", "crystallization_reference", "equilibrium_melting_temperature"),
             ("melting_start", "equilibrium_melting_temperature"),

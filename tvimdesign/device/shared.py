@@ -11,12 +11,13 @@ from tvimdesign.device.core import (
     mass_properties,
     materials,
     motor_choice,
+    shrinkage,
     softening,
     stiffening,
     thermal_stack,
     torsion_springs,
 )
-from tvimdesign.device.fixtures import bearing, cover, preload_adjuster, process, screws, sensor_flange
+from tvimdesign.device.fixtures import axial_preload, bearing, cover, preload_adjuster, process, screws, sensor_flange
 from tvimdesign.device.motor import driven_inertia, motor_clearances, motor_layout, motor_mass_properties
 
 ROOMS = (
@@ -31,6 +32,7 @@ ROOMS = (
     stiffening,
     mass_properties,
     clearances,
+    shrinkage,
     process,
 )
 BOOKS = (
@@ -39,6 +41,7 @@ BOOKS = (
     *(room.quantities for room in ROOMS[1:]),
     *screws.groups,
     *bearing.groups,
+    *axial_preload.groups,
     *preload_adjuster.groups,
     *cover.groups,
     *sensor_flange.groups,

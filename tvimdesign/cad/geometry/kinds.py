@@ -45,6 +45,7 @@ KINDS = {
     "retainer_insert": _kind(_BRASS, "retainer_insert", "retainer_insert_density", "retainer_insert_volume"),
     "bearing_inner": _kind((0.80, 0.80, 0.84), "bearing", "bearing_density", "bearing_inner_volume"),
     "bearing_outer": _kind((0.52, 0.54, 0.60), "bearing", "bearing_density", "bearing_outer_volume"),
+    "preload_spring": _kind((0.24, 0.42, 0.62), "axial_preload", "preload_spring_density", "preload_spring_volume"),
     "adjuster": _kind((0.78, 0.45, 0.58), *_STRUCTURE, "adjuster_volume"),
     "adjuster_screw": _kind(_STEEL, "adjuster_screw", "adjuster_screw_density", "adjuster_screw_volume"),
     "adjuster_insert": _kind(_BRASS, "adjuster_insert", "adjuster_insert_density", "adjuster_insert_volume"),

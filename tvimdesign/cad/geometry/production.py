@@ -48,6 +48,7 @@ PRODUCTION = {
     "cover_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the boss"),
     "bearing_inner": Production(down="bought", why="the half of a ball bearing of the catalogue that turns"),
     "bearing_outer": Production(down="bought", why="the half of a ball bearing of the catalogue that stands"),
+    "preload_spring": Production(down="bought", why="a wave spring of the catalogue, wound of flat wire to its sizes"),
     "motor_hub": Production(
         down="top", drawn=True, why="disc and spokes on the bed: barrel and journal grow upwards, no support",
     ),

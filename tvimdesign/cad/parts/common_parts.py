@@ -85,13 +85,17 @@ def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
 
 
 def bores(dims: Dimensions) -> list[cq.Shape]:
-    """What is cut from the hub: a plain bore, or a lip's bore with a seat for a bearing at either end."""
+    """What is cut from the hub: a plain bore, or a lip's bore with a seat for a bearing at either end.
+
+    A hub that ends below the floor's upper face, to make room for a wave spring, leaves a recess there.
+    """
     bottom, top = dims.hub_bottom_level, dims.hub_top_level
-    between = cylinder(dims.lip_radius, bottom, top)
+    between = cylinder(dims.lip_radius, bottom, max(top, 0.0))
+    recess = [cylinder(dims.hub_radius, top, 0.0)] if top < 0.0 else []
     if not dims.bearing_width:
-        return [between]
-    lower = cylinder(dims.seat_radius, bottom, bottom + dims.bearing_width)
-    return [between, lower, cylinder(dims.seat_radius, top - dims.bearing_width, top)]
+        return [between, *recess]
+    lower = cylinder(dims.seat_radius, bottom, bottom + dims.lower_seat_depth)
+    return [between, *recess, lower, cylinder(dims.seat_radius, top - dims.upper_seat_depth, top)]
 
 
 def spring_axes(dims: Dimensions) -> list[tuple[float, float]]:

@@ -16,8 +16,8 @@ from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "bearing_outer", "adjuster", "adjuster_screw", "adjuster_insert", "cover", "cover_screw",
-    "cover_insert",
+    "housing", "peltier_pad", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw", "adjuster_insert",
+    "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 """Not the blocks: they change their shape as the rotor turns, and each is held against all that stands and turns."""
 _SIDES = (1.0, -1.0)

@@ -1,4 +1,5 @@
-"""What is bought for all modes: screws and ball bearings, drawn as simply as the table counts them, and placed."""
+"""What is bought for all modes: screws, ball bearings and a wave spring, drawn as simply as the table counts them,
+and placed."""
 
 from __future__ import annotations
 
@@ -39,11 +40,20 @@ def bearing_outer(dims: Dimensions) -> cq.Shape:
     return ring(_middle(dims), dims.bearing_outer_radius, top - dims.bearing_width, top)
 
 
+def preload_spring(dims: Dimensions) -> cq.Shape:
+    """The wave spring at its working height, as a plain ring."""
+    top = dims.preload_spring_level
+    inner, outer = dims.preload_inner_radius, dims.preload_outer_radius
+    return ring(inner, outer, top - dims.preload_height, top)
+
+
 def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
     """How one of each kind is drawn, of what this module has."""
     found: dict[str, Callable[[Dimensions], cq.Shape]] = {"link_screw": link_screw, "retainer_screw": retainer_screw}
     if dims.bearing_width:
         found |= {"bearing_inner": bearing_inner, "bearing_outer": bearing_outer}
+    if dims.preload_height:
+        found["preload_spring"] = preload_spring
     return found
 
 
@@ -55,6 +65,8 @@ def stand(dims: Dimensions, solids: Mapping[str, cq.Solid], rotor_angle: float) 
         for index, azimuth in enumerate(LINK_SCREW_AZIMUTHS)
     }
     placed["retainer_screw"] = turned(solids["retainer_screw"], rotor_angle)
+    if dims.preload_height:
+        placed["preload_spring"] = turned(solids["preload_spring"], 0.0)
     if dims.bearing_width:
         down = cq.Location(cq.Vector(0, 0, dims.bearing_width - (dims.hub_top_level - dims.hub_bottom_level)))
         for kind, angle in (("bearing_inner", rotor_angle), ("bearing_outer", 0.0)):

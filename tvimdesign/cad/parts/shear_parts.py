@@ -8,12 +8,12 @@ from math import pi
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.solids import cylinder, join, polar, rounded, sector, turned
+from tvimdesign.cad.geometry.solids import cylinder, join, polar, ring, rounded, sector, turned
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "adjuster", "adjuster_screw", "adjuster_insert", "cover",
-    "cover_screw", "cover_insert",
+    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw",
+    "adjuster_insert", "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 
 
@@ -32,8 +32,19 @@ def housing(dims: Dimensions) -> cq.Shape:
 
 
 def rotor(dims: Dimensions) -> cq.Shape:
-    """Rotor with pockets in its plate for the keys of the arcs."""
-    return bare_rotor(dims, openings=[turned(key, azimuth) for azimuth in _azimuths(dims) for key in _keys(dims)])
+    """Rotor with pockets in its plate for the keys of the arcs, and lips beside them where it has these."""
+    return bare_rotor(
+        dims, _melt_lips(dims), [turned(key, azimuth) for azimuth in _azimuths(dims) for key in _keys(dims)]
+    )
+
+
+def _melt_lips(dims: Dimensions) -> list[cq.Shape]:
+    """The rings below the plate that hold the melt; none where it has none."""
+    if not dims.melt_lip_height:
+        return []
+    ends = (dims.rotor_bottom_level - dims.melt_lip_height, dims.rotor_bottom_level)
+    inner = ring(dims.melt_lip_inner_radius, dims.pcl_inner_radius, *ends)
+    return [inner, ring(dims.pcl_outer_radius, dims.rotor_radius, *ends)]
 
 
 def pcl_arc(dims: Dimensions, sheared: float = 0.0) -> cq.Shape:

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from tvimdesign.device.compression import block_heat, block_impedance, block_volumes, vane_clearances, vane_layout
+from tvimdesign.device.compression import (
+    block_heat,
+    block_impedance,
+    block_shrinkage,
+    block_volumes,
+    vane_clearances,
+    vane_layout,
+)
 from tvimdesign.device.shared import BOOKS
 from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
 ROOMS = (vane_layout, block_impedance, block_heat, block_volumes, vane_clearances)
-TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS)], "compression"), PHASES)
+TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *block_shrinkage.groups], "compression"), PHASES)

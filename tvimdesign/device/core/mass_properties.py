@@ -66,10 +66,11 @@ def hub_moments(
     hub_bottom_level: Scalar,
     seat_radius: Scalar,
     lip_radius: Scalar,
-    bearing_width: Scalar,
+    upper_seat_depth: Scalar,
+    lower_seat_depth: Scalar,
 ) -> Section:
     """Volume and its polar moment about the axis, of the hub from its lower to its upper end."""
-    seats = 2.0 * bearing_width
+    seats = upper_seat_depth + lower_seat_depth
     between = hub_top_level - hub_bottom_level - seats
     return stacked((ring(seat_radius, hub_radius), seats), (ring(lip_radius, hub_radius), between))
 
@@ -252,12 +253,14 @@ def module_mass(
     adjusters_mass: Scalar,
     cover_mass: Scalar,
     inserts_mass: Scalar,
+    preload_spring_mass: Scalar,
     drive_mass: Scalar,
 ) -> Scalar:
     """Mass of the module with its motor, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + cover_mass + pcl_mass
     fasteners = screws_mass + inserts_mass
-    return made + springs_mass + peltier_mass + fasteners + bearings_mass + adjusters_mass + drive_mass
+    bought = springs_mass + peltier_mass + fasteners + bearings_mass + preload_spring_mass
+    return made + bought + adjusters_mass + drive_mass
 
 
 @quantities.output("kg*mm^2")

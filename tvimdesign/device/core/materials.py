@@ -45,6 +45,7 @@ for name, unit, field, description in (
 
 for name, unit, field, description in (
     ("pcl_density", "kg/m^3", "density_solid", "Density of the frozen PCL"),
+    ("pcl_melt_density", "kg/m^3", "density_melt", "Density of the molten PCL"),
     ("pcl_specific_heat_solid", "J/kg/K", "specific_heat_solid", "Specific heat of the frozen PCL"),
     ("pcl_specific_heat_melt", "J/kg/K", "specific_heat_melt", "Specific heat of the molten PCL"),
     ("pcl_conductivity_solid", "W/m/K", "conductivity_solid", "Thermal conductivity of the frozen PCL"),
@@ -86,6 +87,7 @@ for name, unit, field, description in (
 
 for name, unit, field, description in (
     ("pcl_bond_strength", "MPa", "bond_strength", "Traction the bond of layer and faces bears"),
+    ("pcl_surface_tension", "N/m", "surface_tension", "Surface tension of the molten PCL"),
     ("pcl_melt_strain_limit", "1", "melt_strain_limit", "Shear strain the molten layer bears without tearing"),
 ):
     quantities.property(name, unit, ("pcl_grade", field), description, mode="shear")

@@ -91,6 +91,6 @@ def housing_volume(housing_moments: Section) -> Scalar:
 
 
 @quantities.helper()
-def rotor_moments(bare_rotor_moments: Section, key_moments: Section) -> Section:
-    """Volume and its polar moment about the axis, of the rotor less the pockets for the keys."""
-    return bare_rotor_moments - key_moments
+def rotor_moments(bare_rotor_moments: Section, key_moments: Section, melt_lip_moments: Section) -> Section:
+    """Volume and its polar moment about the axis, of the rotor with its lips, less the pockets for the keys."""
+    return bare_rotor_moments.plus(melt_lip_moments) - key_moments

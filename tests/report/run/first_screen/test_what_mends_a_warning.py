@@ -49,11 +49,13 @@ def _published(extra: str = "") -> StudyResult:
 def test_the_line_that_is_proposed_mends() -> None:
     found, table = _published(), table_for("shear")
     proposed = {check.output: mending(check, found, table) for check in found.warnings}
-    for output in ("stiffening_structure_margin", "free_angle_over_preload"):
+    for output in ("stiffening_structure_margin", "free_angle_over_preload", "layer_play", "melt_loss"):
         assert proposed[output].startswith("module: {")
         words = yaml.safe_load(proposed[output])["module"]
         again = _published("".join(f"  {name}: {word}\n" for name, word in words.items()))
         assert output not in {check.output for check in again.warnings}
+    # Of all wave springs the one that goes around the core of 10 mm and lies on the hub of 13.4.
+    assert proposed["layer_play"] == "module: {axial_preload: wave_21x25}"
     # No material of the list bears the pads' 127 degC, and a study that varies nothing cannot be asked to.
     assert proposed["structure_temperature_margin"] == (
         'vary the current or a size, and write require: {structure_temperature_margin: ">= 0 K"}'

@@ -18,6 +18,8 @@ from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study import Study, given
 
 _PLACE = re.compile(r"<(\w+)>")
+RULE_TOLERANCE = 1e-9
+"""By how much, in SI, a rule may seem broken by rounding."""
 VARY = "vary the current or a size, and write "
 """What a study that varies nothing is told first, where a requirement is what mends."""
 
@@ -64,6 +66,21 @@ def _mends(check: ConstraintCheck, words: Mapping[str, str], answer: StudyResult
         values |= {name: design.values[name] for name in study.vary if name in design.values}
         values |= {row.name: design.values[row.name] for row in table.supplied}
         value = table.evaluate(values, [check.output])[check.output]
+        if not _fits(words, values, table):
+            return False
     except TvimError:
         return False
     return all(limit.residual(value) <= CYCLE_TOLERANCE for limit in advice_of(table) if limit.output == check.output)
+
+
+def _fits(words: Mapping[str, str], values: Mapping[str, Any], table: Table) -> bool:
+    """Whether what the words bring into the module keeps the rules of its own rows: a spring must fit its hub."""
+    brought = [
+        (row.name, rule)
+        for row in table.outputs
+        if any(feature.choice in words for feature in row.requires)
+        for rule in row.rules
+    ]
+    found = table.evaluate(values, list(dict.fromkeys(name for name, _ in brought)))
+    return all((found[name] - rule.value) * (1.0 if rule.sense == ">=" else -1.0) >= -RULE_TOLERANCE
+               for name, rule in brought)  # fmt: skip

@@ -1,0 +1,137 @@
+"""What shrinks, floats and creeps in a shear module, against values computed here from the drawn sizes."""
+
+from __future__ import annotations
+
+from math import pi, radians
+from typing import Any
+
+import pytest
+
+from tvimdesign.device import table_for
+from tvimdesign.study import given, read_study_text
+
+TABLE = table_for("shear")
+STEEL_RATE = 6.75e3  # N/m of 21 x 25 x 0.2 mm with three waves, by hand from the makers' formula
+G = 9.80665
+
+
+def values_of(rows: str, **module: Any) -> dict[str, float]:
+    """Rows of the default shear module but for what is said."""
+    lines = "\n".join(f"  {name}: {value}" for name, value in module.items())
+    known = given(read_study_text(f"mode: shear\nmodule:\n{lines or '  key_count: 0'}\n", "a test"))
+    found: dict[str, float] = TABLE.evaluate(known, rows.split())
+    return found
+
+
+def advised(row: str, value: float) -> bool:
+    """Whether an advice on a row is followed."""
+    (rule,) = TABLE.output(row).advice
+    return value >= rule.value if rule.sense == ">=" else value <= rule.value
+
+
+def test_the_layer_loses_about_seven_per_cent_of_its_volume() -> None:
+    found = values_of("freezing_shrinkage freezing_volume freezing_travel", key_count=0)
+    # 1040 to 1100 of 1145 kg/m3: 4 to 9 %.
+    assert 0.04 < found["freezing_shrinkage"] < 0.092
+    assert found["freezing_shrinkage"] == pytest.approx(1.0 - 1070.0 / 1145.0)
+    assert found["freezing_volume"] == pytest.approx(1579.2e-9 * (1145.0 / 1070.0 - 1.0), rel=1e-4)
+    assert found["freezing_travel"] == pytest.approx(70.1e-6, rel=1e-3)
+
+
+def test_nothing_holds_the_rotor_of_a_plain_bore_on_a_thin_layer() -> None:
+    bare = values_of("axial_play layer_play", pcl_thickness="0.6 mm")
+    assert bare["axial_play"] == pytest.approx(0.4e-3)  # the running clearance of a print, below the hub
+    assert bare["layer_play"] == pytest.approx(0.4 / 0.6)
+    assert not advised("layer_play", bare["layer_play"])
+    for held in ({"axial_preload": "wave_21x25"}, {"bearing": "ball_6802"}):
+        assert values_of("layer_play", pcl_thickness="0.6 mm", **held)["layer_play"] == 0.0
+
+
+def test_a_held_layer_pulls_on_its_bond_and_one_that_is_followed_does_not() -> None:
+    rows = "freezing_traction freezing_safety"
+    printed, milled = (values_of(rows, process=word, key_count=0) for word in ("print_petg", "machine_6061"))
+    # By hand: layer 411 MPa, nu 0.45 -> 1559 MPa over 1 mm; pad 300 MPa over 1.5 mm; k in series. Plates of 4 mm.
+    youngs, poisson, share = 2.1e9, 0.37, 4.0 * radians(48.962) / (2.0 * pi)
+    rigidity = youngs * 4e-3**3 / (12.0 * (1.0 - poisson**2)) / 2.0 / share
+    shear = 5.0 / 6.0 * youngs / (2.0 * (1.0 + poisson)) * 4e-3 / 2.0 / share
+    foundation = 1.0 / (1e-3 / 1.5590e9 + 1.5e-3 / 300e6 + 4e-3 / youngs)
+    rate = (foundation / (4.0 * rigidity)) ** 0.25
+    slack = (foundation / (4.0 * rigidity)) ** 0.25 * (26.0 - 13.4) * 1e-3
+    by_hand = foundation * 65.5e-6 * (1.0 + slack)
+    by_hand /= 1.0 + slack * (1.0 + foundation / (rate**2 * shear)) + slack**2 + slack**3 / 3.0
+    assert printed["freezing_traction"] == pytest.approx(by_hand, rel=0.02)
+    assert milled["freezing_traction"] > 2.5 * printed["freezing_traction"]
+    assert not advised("freezing_safety", milled["freezing_safety"])
+    followed = values_of(rows, process="machine_6061", axial_preload="wave_21x25")
+    assert followed["freezing_traction"] < 0.02 * milled["freezing_traction"]
+    assert advised("freezing_safety", followed["freezing_safety"])
+
+
+def test_the_traction_ends_where_the_pcl_yields() -> None:
+    thick = {"rotor_thickness": "20 mm", "floor_thickness": "20 mm", "peltier_shear_modulus": "1 GPa"}
+    stiff = values_of("freezing_traction", process="machine_7075", **thick)
+    assert stiff["freezing_traction"] == pytest.approx(16e6)
+
+
+def test_the_spring_holds_some_times_the_weight_and_rubs_little() -> None:
+    rows = ("preload_rate frozen_preload molten_preload stop_force_margin turning_mass preload_friction_torque "
+            "preload_dead_band spring_stiffness preload_spring_mass preload_spring_stress stop_play")  # fmt: skip
+    found = values_of(rows, axial_preload="wave_21x25", key_count=0)
+    assert found["preload_rate"] == pytest.approx(STEEL_RATE, rel=0.005)
+    assert found["frozen_preload"] == pytest.approx(STEEL_RATE * 0.6e-3, rel=0.005)
+    assert found["molten_preload"] == pytest.approx(STEEL_RATE * (0.6e-3 - 70.1e-6), rel=0.005)
+    assert found["stop_force_margin"] == pytest.approx(found["molten_preload"] - 2.0 * G * found["turning_mass"])
+    assert advised("stop_force_margin", found["stop_force_margin"])
+    # At 11.5 mm on the spring and 11.8 mm on the retainer, friction 0.2: two faces rub.
+    torque = 0.2 * found["molten_preload"] * (11.5e-3 + 11.75e-3)
+    assert found["preload_friction_torque"] == pytest.approx(torque, rel=0.01)
+    assert found["preload_dead_band"] == pytest.approx(torque / found["spring_stiffness"], rel=0.01)
+    assert found["preload_spring_mass"] == pytest.approx(pi / 4.0 * (25.0**2 - 21.0**2) * 0.2 * 7.85e-6, rel=1e-6)
+    assert found["preload_spring_stress"] < 0.5 * 1500e6  # of spring-steel strip
+
+
+def test_without_a_spring_all_its_rows_are_zero() -> None:
+    rows = (
+        "preload_rate frozen_preload molten_preload stop_force_margin preload_spring_mass stop_play preload_dead_band"
+    )
+    assert set(values_of(rows).values()) == {0.0}
+
+
+def test_a_hot_hour_moves_melt_out_of_open_edges_and_not_past_lips() -> None:
+    rows = "melt_loss melt_head melt_hold pcl_viscosity@hot"
+    bare = values_of(rows)
+    # 14 mm of melt stand on the lower edge, nothing holds it: the layer slides at h^2 rho g/(12 eta).
+    speed = 1.0701e-3**2 * 1070.0 * G / (12.0 * bare["pcl_viscosity@hot"])
+    assert bare["melt_head"] == pytest.approx(1070.0 * G * 14e-3)
+    assert bare["melt_loss"] == pytest.approx(3600.0 * speed / 14e-3, rel=1e-3)
+    assert not advised("melt_loss", bare["melt_loss"])
+    lipped = values_of(rows, melt_lip="rings")
+    # 36 mN/m between lip and floor, 0.47 mm apart, hold 153 Pa of the 147.
+    assert lipped["melt_hold"] == pytest.approx(2.0 * 0.036 / 0.4701e-3, rel=1e-3)
+    assert lipped["melt_loss"] == 0.0
+    wide = values_of(rows, melt_lip="rings", pcl_inner_radius="22 mm")
+    excess, length = 1070.0 * G * 18e-3 - wide["melt_hold"], 18e-3 + 1.5e-3 * (1.0701 / 0.4701) ** 3
+    slow = 1.0701e-3**2 * excess / length / (12.0 * wide["pcl_viscosity@hot"])
+    assert wide["melt_loss"] == pytest.approx(3600.0 * slow / 18e-3, rel=1e-3)
+
+
+def test_the_viscosity_is_that_of_the_record_at_its_temperature() -> None:
+    assert values_of("pcl_viscosity@hot")["pcl_viscosity@hot"] == pytest.approx(2824.889, rel=2e-3)
+
+
+def test_a_rotor_that_hangs_on_the_melt_draws_it_thicker_in_minutes() -> None:
+    found = values_of("layer_drawing_time turning_mass pcl_viscosity@hot")
+    length = 4.0 * radians(48.962) * 33e-3
+    force = G * found["turning_mass"]
+    steps, time = 2000, 0.0
+    for i in range(steps):  # h' = F h^3/(eta L w^3), by the midpoint rule in thickness
+        h = 1e-3 * (1.0 + 0.1 * (i + 0.5) / steps)
+        time += (0.1e-3 / steps) * found["pcl_viscosity@hot"] * length * 14e-3**3 / (force * h**3)
+    assert found["layer_drawing_time"] == pytest.approx(time, rel=1e-4)
+    assert 60.0 < found["layer_drawing_time"] < 600.0
+
+
+def test_a_thin_layer_has_no_room_for_lips() -> None:
+    found = values_of("melt_lip_margin melt_lip_hub_gap", melt_lip="rings", pcl_thickness="0.45 mm")
+    assert found["melt_lip_margin"] == pytest.approx(-0.05e-3)  # 0.05 mm high
+    assert found["melt_lip_hub_gap"] == pytest.approx((26.0 - 1.5 - 13.4 - 0.4) * 1e-3)

@@ -1,0 +1,86 @@
+"""What creeps out of the molten layer in a hot hour, and how soon a rotor that hangs on it draws it thicker.
+
+The worst way up is taken: the axis level, so that gravity acts along the layer, across an arc's radial width; and for
+the rotor's weight, upside down. To and fro of the joint moves no melt on average, as slow flow can be reversed [1],
+and turns it outwards by w^2 r, a thousandth of gravity at 1 Hz; both are left out, and so are normal stresses of fast
+shear. The half-width of a meniscus holds the melt only where an edge holds the meniscus: at lips, not between flat
+faces. [1] Happel and Brenner, Low Reynolds Number Hydrodynamics, sec. 1-2.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.joint_impedance import quantities as impedance
+from tvimdesign.device.core.shrinkage import quantities as shared
+from tvimdesign.device.fixtures.axial_preload import GRAVITY
+from tvimdesign.device.shear.melt_lip import NO_LIP
+from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics import melt_flow, polymer, viscoelasticity
+
+rheology, quantities = QuantityGroup(impedance.group), QuantityGroup(shared.group)
+groups = (rheology, quantities)
+HOUR = 3600.0
+"""Seconds."""
+DRAWN = 1.1
+"""Thickness over that at the start up to which the time is told."""
+
+
+@rheology.output("Pa*s", per_point=True)
+def pcl_viscosity(temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology) -> Scalar:
+    """Viscosity of the PCL in slow steady flow."""
+    return viscoelasticity.zero_shear_viscosity(polymer.spectrum(temperature, solid_fraction, pcl_rheology))
+
+
+@quantities.output("Pa")
+def melt_head(pcl_melt_density: Scalar, arc_width: Scalar) -> Scalar:
+    """Pressure of the melt over the radial width of an arc that stands upright."""
+    return pcl_melt_density * GRAVITY * arc_width
+
+
+@quantities.output("Pa")
+def melt_hold(melt_lip: str, pcl_surface_tension: Scalar, running_clearance: Scalar, freezing_travel: Scalar) -> Scalar:
+    """Pressure that the melt's surface holds below a lip; zero between flat faces, on which it may creep."""
+    if melt_lip == NO_LIP:
+        return 0.0 * pcl_surface_tension
+    return melt_flow.meniscus_pressure(pcl_surface_tension, running_clearance + freezing_travel)
+
+
+_CREEPS = "so much of the molten layer creeps out in an hour with the axis level (assumed, 0.5 to 5 %)"
+
+
+@quantities.output("%", advice=(Rule(sense="<=", value=0.01, reason=_CREEPS),))
+def melt_loss(
+    melt_lip: str,
+    melt_head: Scalar,
+    melt_hold: Scalar,
+    pcl_thickness: Scalar,
+    freezing_travel: Scalar,
+    running_clearance: Scalar,
+    rotor_rim: Scalar,
+    arc_width: Scalar,
+    pcl_viscosity_at_hot: Scalar,
+) -> Scalar:
+    """Share of the layer that gravity moves out past an edge in an hour at the hot point, the axis level."""
+    gap, length = pcl_thickness + freezing_travel, arc_width
+    if melt_lip != NO_LIP:
+        length = melt_flow.gaps_in_series(arc_width, gap, rotor_rim, running_clearance + freezing_travel)
+    head = np.fmax(melt_head - melt_hold, 0.0)
+    return HOUR * melt_flow.gap_speed(head / length, gap, pcl_viscosity_at_hot) / arc_width
+
+
+@quantities.output("s")
+def layer_drawing_time(
+    turning_mass: Scalar,
+    pcl_viscosity_at_hot: Scalar,
+    arc_count: Scalar,
+    arc_span: Scalar,
+    pcl_mean_radius: Scalar,
+    arc_width: Scalar,
+    pcl_thickness: Scalar,
+) -> Scalar:
+    """Time in which rotor, link and retainer, hanging on the molten layer alone, draw it a tenth thicker."""
+    length, weight = arc_count * arc_span * pcl_mean_radius, GRAVITY * turning_mass
+    ends = (pcl_thickness, DRAWN * pcl_thickness)
+    return melt_flow.squeeze_time(weight, pcl_viscosity_at_hot, length, arc_width, *ends)
