@@ -17,6 +17,7 @@ ABOUT = {
     "Layout": "Radii, levels, thicknesses, screws and the fixtures a study may add.",
     "Springs": "Rate, stress, safety and size of the torsion springs.",
     "Impedance": "Stiffness and damping at the operating points, and the torque that is held.",
+    "Lost motion": "How far the link moves before the joint takes notice, by source.",
     "Hold": "Creep under a load, the backlash it leaves, and what a quick turn loses.",
     "Switch": "The thermal stack and its surroundings.",
     "Softening": "Heating until the joint is soft.",

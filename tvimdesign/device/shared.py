@@ -7,6 +7,7 @@ from tvimdesign.device.core import (
     creep_under_hold,
     joint_impedance,
     layout,
+    lost_motion,
     mass_properties,
     materials,
     motor_choice,
@@ -15,7 +16,7 @@ from tvimdesign.device.core import (
     thermal_stack,
     torsion_springs,
 )
-from tvimdesign.device.fixtures import bearing, cover, preload_adjuster, process, screws, sensor_flange
+from tvimdesign.device.fixtures import bearing, cover, dowels, preload_adjuster, process, screws, sensor_flange, tang
 from tvimdesign.device.motor import driven_inertia, motor_clearances, motor_layout, motor_mass_properties
 
 ROOMS = (
@@ -23,6 +24,7 @@ ROOMS = (
     layout,
     torsion_springs,
     joint_impedance,
+    lost_motion,
     creep_under_hold,
     thermal_stack,
     softening,
@@ -36,6 +38,8 @@ BOOKS = (
     process.limits,
     *(room.quantities for room in ROOMS[1:]),
     *screws.groups,
+    *tang.groups,
+    *dowels.groups,
     *bearing.groups,
     *preload_adjuster.groups,
     *cover.groups,
