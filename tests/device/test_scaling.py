@@ -16,7 +16,8 @@ POWERS = {
 # The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
 SWINGS = {"damping_ratio": -1, "critical_damping": 4}
 # Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, or lengths that are sold.
-FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit"}
+FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit",
+         "dowel_length_misfit"}  # fmt: skip
 TABLES = {mode: table_for(mode) for mode in MODES}
 
 

@@ -71,7 +71,9 @@ def test_what_is_of_an_extra_is_refused_in_a_study_of_a_module_without_it() -> N
         value = Catalog().names(row.category)[0] if isinstance(row, Choice) and row.category else row.default
         lacking = row.requires[0]
         with pytest.raises(InputError, match=f"{name}: no effect, as {lacking.choice} is {lacking.without}"):
-            refuse_impossible(study.model_copy(update={"module": {name: value}}), Catalog(), TABLE)
+            refuse_impossible(
+                study.model_copy(update={"module": {lacking.choice: lacking.without, name: value}}), Catalog(), TABLE
+            )
 
     of_every(OF_EXTRAS, check)
 

@@ -14,7 +14,7 @@ from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
-from tvimdesign.device.fixtures.tang import BONDED, tang_bond_mass
+from tvimdesign.device.fixtures.tang import BONDED
 from tvimdesign.study.design import Design
 
 
@@ -54,8 +54,7 @@ def consumables(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """What is bought and used up, and drawn in no file: the adhesive of the tangs, all of it as one."""
     if design.choices.get("tang_hold") != BONDED:
         return []
-    names = ("spring_count", "wire_diameter", "tang_clearance", "tang_length", "adhesive_density")
-    mass = 1e3 * tang_bond_mass(*(design.value(name) for name in names))
+    mass = 1e3 * design.value("tang_adhesive_mass")
     record = str(design.choices["tang_adhesive"])
     return [Item("tang_adhesive", 1, False, record, titles.get("tang_adhesive", record), mass, ())]
 
