@@ -32,7 +32,8 @@ def part(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, An
         *(f"{name}_length" for name in ("leg", "tang", "link")),
         *(f"{name}_level" for name in ("coil_end", "pin_top", "rotor_top", "link_bottom")),
         *(f"{name}_radius" for name in ("housing_outer", "housing_inner", "hub", "post", "rotor", "pin")),
-        "module_mass", "dowels_mass", "dowels_inertia", "link_dowel_depth", "link_screw_depth", "retainer_screw_depth", "screws_inertia", "pcl_area", "spring_count",
+        "module_mass", "dowels_mass", "dowels_inertia", "link_dowel_depth", "link_screw_depth",
+        "retainer_screw_depth", "screws_inertia", "pcl_area", "spring_count",
         "link_bolt_circle_radius", "link_half_width",
     ]  # fmt: skip
     return {**given, **table.evaluate(given, wanted)}

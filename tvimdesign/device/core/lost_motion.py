@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.catalog import Record
+from tvimdesign.base.record import Record
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.friction import sliding_torque
