@@ -240,7 +240,7 @@ def _findings(resolved: ResolvedModule, found: Sequence[Released]) -> list[Findi
              [one.frequency for one in here]),
             ("ringing_damping_ratio", "1", "Damping ratio of that swing; 1 where it creeps back",
              [one.damping_ratio for one in here]),
-            ("settling_time", "s", f"Time until the link stays within {100 * SETTLED:g} % of its angle of where it rests",
+            ("settling_time", "s", f"Time until the link is within {100 * SETTLED:g} % of its angle from its rest",
              [one.settling for one in here]),
             ("rest_angle", "rad", "Angle at which friction holds the link in the end, or at which its curve ends",
              [abs(float(one.motion.angle[-1])) for one in here]),

@@ -25,6 +25,8 @@ SEARCHED = 1e-13
 """Share of a step to which an event is located."""
 NUDGE = 2.0**-10
 """Share of a step taken where a block is grazed, before it is asked again whether it touches."""
+RESTING = 1e-12
+"""Share of the largest speed up to which a link rests."""
 TURNS_OF_A_SWING = 2
 
 
@@ -70,7 +72,8 @@ class OneSided:
 
 def turns_of(speed: Array) -> NDArray[np.int64]:
     """Samples just after a link that started at rest has turned round."""
-    moving = np.flatnonzero(speed)
+    # At rest, at the start or where friction stops it, a link has the speed of rounding.
+    moving = np.flatnonzero(np.abs(speed[1:]) > RESTING * np.max(np.abs(speed))) + 1
     return moving[1:][speed[moving[1:]] * speed[moving[:-1]] < 0.0]
 
 
