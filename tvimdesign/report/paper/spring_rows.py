@@ -73,7 +73,8 @@ def _modulus() -> str:
 
 def _inch_sizes() -> str:
     diameter, coil = from_paper("wire_diameter"), from_paper("coil_diameter")
-    sizes = [row["wire_diameter"] for row in published_module().study.catalog.record("wires", "music_wire_gauge").table("sizes")]
+    gauges = published_module().study.catalog.record("wires", "music_wire_gauge")
+    sizes = [row["wire_diameter"] for row in gauges.table("sizes")]
     nearest = min(sizes, key=lambda size: abs(size - diameter))
     inches = [from_si(length, "in") for length in (diameter, coil, coil + diameter)]
     return (
