@@ -17,6 +17,7 @@ ABOUT = {
     "Layout": "Radii, levels, thicknesses, screws and the fixtures a study may add.",
     "Springs": "Rate, stress, safety and size of the torsion springs.",
     "Impedance": "Stiffness and damping at the operating points, and the torque that is held.",
+    "Lost motion": "How far the link moves before the joint takes notice, by source.",
     "Hold": "Creep under a load, the backlash it leaves, and what a quick turn loses.",
     "Axial play": "What the PCL loses in volume, how the rotor follows, and what creeps out of the melt.",
     "Switch": "The thermal stack and its surroundings.",

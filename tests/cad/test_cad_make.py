@@ -43,7 +43,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
                 "views/section.png", "springs/spring.pdf", "springs/spring.csv"}  # fmt: skip
     for kind in MODULES[design.mode].kinds(dimensions(design)):
         expected.add(f"step/{kind}.step")
-        bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "retainer_screw"}
+        bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw"}
         expected |= {f"mesh/{kind}.stl"} if bought else {f"print/{kind}.stl", f"print/{kind}.3mf"}
     for kind in ("housing", "rotor", "link", "retainer"):
         expected |= {f"drawings/{kind}.dxf", f"drawings/{kind}.pdf"}
@@ -65,7 +65,7 @@ def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made
 
 def test_step_and_mesh_read_back_as_the_parts(made: Made) -> None:
     for kind in MODULES[made.design.mode].kinds(dimensions(made.design)):
-        copies = {"link_screw": 4}.get(kind, 1)
+        copies = {"link_screw": 4, "link_dowel": 2}.get(kind, 1)
         if kind in ("pcl_arc", "pcl_block", "peltier_pad"):
             copies = COPIES[made.design.mode]
         expected = 1e9 * made.design.values[KINDS[kind].volume] / copies
@@ -82,7 +82,9 @@ def test_step_and_mesh_read_back_as_the_parts(made: Made) -> None:
 def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
     path = made.report.folder / "assembly.step"
     parts = {name: (shape, colour) for shape, name, _, colour in cq.Assembly.importStep(str(path))}
-    assert len(parts) == 13 + 2 * COPIES[made.design.mode]  # four of the kinds made once, springs, five screws
+    assert (
+        len(parts) == 15 + 2 * COPIES[made.design.mode]
+    )  # four of the kinds made once, springs, five screws, two pins
     for name, (shape, colour) in parts.items():
         kind = name.split("/")[-1].rstrip("_0123456789")
         assert isinstance(shape, cq.Solid)

@@ -29,6 +29,8 @@ def test_every_shelf_has_its_records() -> None:
         "processes": 5,
         "screws": 8,
         "inserts": 4,
+        "dowel_pins": 7,
+        "adhesives": 1,
         "bearings": 18,
         "polymers": 2,
         "peltiers": 4,

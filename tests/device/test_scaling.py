@@ -21,7 +21,8 @@ SWINGS = {
     "melt_head": 1, "melt_loss": 1, "layer_drawing_time": -1,
 }  # fmt: skip
 # Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, or lengths that are sold.
-FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit"}
+FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit",
+         "dowel_length_misfit"}  # fmt: skip
 TABLES = {mode: table_for(mode) for mode in MODES}
 
 

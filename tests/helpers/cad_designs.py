@@ -25,6 +25,7 @@ WRIST = {
     # Half the size takes smaller screws: M2 in the core.
     "link_screw": "iso_4762_m2", "link_screw_length": 8.0 * MM, "retainer_screw": "iso_7380_m3",
     "retainer_screw_length": 8.0 * MM, "notch_width": 8.0 * MM,
+    "link_dowel": "iso_8734_1", "link_dowel_length": 8.0 * MM,
 }  # fmt: skip
 ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_angle": 0.21}
 BLOCKS = {
@@ -44,7 +45,7 @@ ODD_BLOCKS = WRIST_BLOCKS | {"spring_pairs": 3, "vane_count": 3, "coil_count": 6
 BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 * MM, "core_radius": 7.5 * MM,
             "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate", "thread_insert": "heat_set",
             "link_screw": "iso_4762_m2", "link_screw_length": 10.0 * MM, "link_bolt_ratio": 0.58,
-            "retainer_screw": "iso_7380_m3"}  # fmt: skip
+            "retainer_screw": "iso_7380_m3", "link_dowel": "iso_8734_1_5"}  # fmt: skip
 BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "corner_radius": 0.5 * MM,
                            "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "pcl_inner_radius": 17.0 * MM,
                            "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 4.3 * MM,

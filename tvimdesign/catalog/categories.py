@@ -107,6 +107,7 @@ CATEGORIES: Mapping[str, Category] = {
             "corner_depth_ratio": "1",
             "pocket_depth_ratio": "1",
             "thread_engagement": "1",
+            "clamp_stress": "MPa",
             "thinnest_wall": "mm",
             "overhang_angle": "deg",
             "bridge_span": "mm",
@@ -136,6 +137,13 @@ CATEGORIES: Mapping[str, Category] = {
         tables={"lengths": Columns({"length": "mm"})},
         words={"insert": ()},
         rising=(("tap_drill", "nominal_diameter", "clearance_hole", "head_diameter"),),
+    ),
+    "dowel_pins": Category(
+        values={"diameter": "mm", "shear_strength": "MPa", "density": "kg/m^3"},
+        tables={"lengths": Columns({"length": "mm"})},
+    ),
+    "adhesives": Category(
+        values={"shear_strength": "MPa", "service_temperature": "degC", "gap_fill": "mm", "density": "kg/m^3"}
     ),
     "inserts": Category(
         values={

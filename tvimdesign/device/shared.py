@@ -8,6 +8,7 @@ from tvimdesign.device.core import (
     joint_impedance,
     large_motion,
     layout,
+    lost_motion,
     mass_properties,
     materials,
     motor_choice,
@@ -17,7 +18,17 @@ from tvimdesign.device.core import (
     thermal_stack,
     torsion_springs,
 )
-from tvimdesign.device.fixtures import axial_preload, bearing, cover, preload_adjuster, process, screws, sensor_flange
+from tvimdesign.device.fixtures import (
+    axial_preload,
+    bearing,
+    cover,
+    dowels,
+    preload_adjuster,
+    process,
+    screws,
+    sensor_flange,
+    tang,
+)
 from tvimdesign.device.motor import driven_inertia, motor_clearances, motor_layout, motor_mass_properties
 
 ROOMS = (
@@ -25,6 +36,7 @@ ROOMS = (
     layout,
     torsion_springs,
     joint_impedance,
+    lost_motion,
     large_motion,
     creep_under_hold,
     thermal_stack,
@@ -40,6 +52,8 @@ BOOKS = (
     process.limits,
     *(room.quantities for room in ROOMS[1:]),
     *screws.groups,
+    *tang.groups,
+    *dowels.groups,
     *bearing.groups,
     *axial_preload.groups,
     *preload_adjuster.groups,

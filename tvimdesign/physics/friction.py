@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 
 def disc_torque(friction: Any, force: Any, inner_radius: Any, outer_radius: Any) -> Any:
     """Torque [N*m] at which a clamped ring slips, evenly pressed: 2/3 mu F (R^3 - r^3)/(R^2 - r^2).
@@ -12,3 +14,25 @@ def disc_torque(friction: Any, force: Any, inner_radius: Any, outer_radius: Any)
     """
     lever = (outer_radius**3 - inner_radius**3) / (outer_radius**2 - inner_radius**2)
     return 2.0 / 3.0 * friction * force * lever
+
+
+def sliding_torque(friction: Any, force: Any, slip: Any) -> Any:
+    """Torque [N*m] by which a sliding contact resists a rotation, mu F |ds/dtheta|.
+
+    `force` [N] presses the contact together, `slip` [m/rad] is how far it slides for each radian. Virtual work: what
+    the torque does is what the friction takes.
+    """
+    return friction * force * slip
+
+
+def bolted_torque(friction: Any, force: Any, count: Any, radius: Any) -> Any:
+    """Torque [N*m] at which a flange slips under its screws, n mu F r; each clamps with `force` [N] at `radius` [m].
+
+    Shigley, Mechanical Engineering Design, section 8-12: a joint that holds by friction.
+    """
+    return count * friction * force * radius
+
+
+def tightened_force(stress: Any, diameter: Any) -> Any:
+    """Force [N] of a screw tightened to a stress [Pa] over its nominal section, sigma pi d^2/4."""
+    return stress * 0.25 * np.pi * diameter**2

@@ -21,3 +21,11 @@ def bearing_force(pressure: Any, diameter: Any, depth: Any) -> Any:
     Shigley, Mechanical Engineering Design, section 8-12, bearing of members.
     """
     return pressure * diameter * depth
+
+
+def twist_torque(shear_strength: Any, diameter: Any, depth: Any) -> Any:
+    """Torque [N*m] about its own axis at which a bonded peg turns in its hole: T = tau pi d^2 h/2.
+
+    Shear stress [Pa] evenly over the peg's surface (textbook; as a shaft's bonded sleeve in Shigley, section 9-9).
+    """
+    return shear_strength * 0.5 * np.pi * diameter**2 * depth

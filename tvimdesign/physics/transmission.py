@@ -53,6 +53,16 @@ def leg_curvature(pin_radius: Any, placement_radius: Any, azimuth: Any, offset: 
     return bearing - hand * e * p * r * turn
 
 
+def pin_slip(pin_radius: Any, placement_radius: Any, offset: Any, pin_diameter: Any) -> Any:
+    """How far a leg slides on its pin for each radian of the rotor, at rest [m]: d_p/2 (1 - w'), w' = -p/(r - p).
+
+    There the pin's middle neither nears nor leaves the coil along the leg, as its distance from the coil is least. What
+    slides is the surface: the pin turns with the rotor, and the leg the other way by w'. The same is h_O - w' h_C, the
+    distances of the line of sliding from rotor axis and coil axis.
+    """
+    return 0.5 * pin_diameter * (1.0 - leg_ratio(pin_radius, placement_radius, 0.0, offset))
+
+
 def output_stiffness(count: Any, spring_rate: Any, preload: Any, ratio: Any, curvature: Any) -> Any:
     """Stiffness of `count` springs about the rotor axis [N*m/rad], K_s = N k (w'^2 + a_pre w'').
 

@@ -85,7 +85,7 @@ def test_a_printed_module_has_no_fits_and_its_screws_cut_their_threads() -> None
     mode, overrides = CASES["paper"]
     design = design_of("paper", overrides, mode)
     asked = drawing_requirements("rotor", dimensions(design), design.choices)
-    assert not asked.seats
+    assert [(one.about, one.fit) for one in asked.seats] == [("dowel pins", "H7")]  # reamed, in a print too
     assert [(one.screw, one.made) for one in asked.threads] == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
 
 

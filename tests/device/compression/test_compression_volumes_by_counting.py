@@ -25,7 +25,7 @@ WANTED = [
     "link_mass", "retainer_mass", "springs_mass", "rotor_bottom_level", "rotor_top_level", "pin_top_level",
     "link_bottom_level", "coil_end_level", "rotor_radius", "pin_radius", "hub_radius", "post_radius", "spring_count",
     "housing_inner_radius", "housing_outer_radius", "link_bolt_circle_radius", "link_screw_depth",
-    "retainer_screw_depth", "screws_mass",
+    "retainer_screw_depth", "screws_mass", "dowels_mass", "link_dowel_depth",
 ]  # fmt: skip
 
 
@@ -146,6 +146,7 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
         (p["link_bottom_level"] - p["pin_top_level"], core),
         (-p["link_screw_depth"], lambda x, y: near(x, y, 0.5 * p["link_screw_pilot"], p["link_bolt_circle_radius"], 4)),
         (-p["retainer_screw_depth"], lambda x, y: np.hypot(x, y) < 0.5 * p["retainer_screw_pilot"]),
+        (-p["link_dowel_depth"], lambda x, y: near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 2)),
     ]
     volume, polar = stack_up(slabs, p["rotor_radius"], [0.5 * p["retainer_screw_pilot"], *rims(p)])
     assert p["rotor_volume"] == pytest.approx(volume, rel=3e-3)
@@ -155,5 +156,5 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
 
 
 def test_masses_add_up(part: dict[str, Any]) -> None:
-    names = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws")
+    names = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws", "dowels")
     assert part["module_mass"] == pytest.approx(sum(part[f"{name}_mass"] for name in names), rel=1e-12)

@@ -88,7 +88,9 @@ def test_tang_keeps_the_play_that_the_growing_coil_leaves(bent: dict[str, Any]) 
     turns = max(bent["spring_winding"] - bent["preload_angle"], bent["spring_unwinding"]) / (2.0 * np.pi)
     radius = 0.5 * bent["coil_diameter"]
     change = radius - radius * bent["coil_count"] / (bent["coil_count"] + turns)
-    assert bent["tang_margin"] == pytest.approx(bent["tang_clearance"] - change, abs=0.02 * change)
+    loose = {name: value for name, value in bent.items() if name not in ROWS} | {"tang_hold": "hole"}
+    left = TABLE.evaluate(loose, ["tang_margin"])["tang_margin"]
+    assert left == pytest.approx(bent["tang_clearance"] - change, abs=0.02 * change)
 
 
 def test_pins_bend_under_the_leg_like_a_round_cantilever(bent: dict[str, Any]) -> None:

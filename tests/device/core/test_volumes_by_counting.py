@@ -32,7 +32,8 @@ def part(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, An
         *(f"{name}_length" for name in ("leg", "tang", "link")),
         *(f"{name}_level" for name in ("coil_end", "pin_top", "rotor_top", "link_bottom")),
         *(f"{name}_radius" for name in ("housing_outer", "housing_inner", "hub", "post", "rotor", "pin")),
-        "module_mass", "link_screw_depth", "retainer_screw_depth", "screws_inertia", "pcl_area", "spring_count",
+        "module_mass", "dowels_mass", "dowels_inertia", "link_dowel_depth", "link_screw_depth",
+        "retainer_screw_depth", "screws_inertia", "pcl_area", "spring_count",
         "link_bolt_circle_radius", "link_half_width",
     ]  # fmt: skip
     return {**given, **table.evaluate(given, wanted)}
@@ -131,6 +132,9 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
     def retainer_screw(x: Array, y: Array) -> NDArray[np.bool_]:
         return np.hypot(x, y) < 0.5 * p["retainer_screw_pilot"]
 
+    def dowels(x: Array, y: Array) -> NDArray[np.bool_]:
+        return near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 2)
+
     low = p["floor_thickness"] + p["running_clearance"]  # the core's end below the floor's upper face
     slabs = [
         (low + p["pcl_thickness"], core),
@@ -140,6 +144,7 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
         (p["link_bottom_level"] - p["pin_top_level"], core),
         (-p["link_screw_depth"], screws),
         (-p["retainer_screw_depth"], retainer_screw),
+        (-p["link_dowel_depth"], dowels),
     ]
     volume, polar = stack_up(slabs, p["rotor_radius"], [0.5 * p["retainer_screw_pilot"], p["core_radius"]])
     assert part["rotor_volume"] == pytest.approx(volume, rel=3e-3)
@@ -154,7 +159,7 @@ def test_link_and_retainer_have_the_volume_and_inertia_of_their_outlines(part: d
         bar = np.hypot(x - along, y) < p["link_half_width"]
         screws = near(x, y, 0.5 * p["link_screw_clearance"], p["link_bolt_circle_radius"], 4)
         tool = np.hypot(x - p["link_length"], y) < 0.5 * p["link_tool_hole"]
-        return bar & ~screws & ~tool
+        return bar & ~screws & ~tool & ~near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 2)
 
     def retainer(x: Array, y: Array) -> NDArray[np.bool_]:
         r = np.hypot(x, y)
@@ -166,7 +171,7 @@ def test_link_and_retainer_have_the_volume_and_inertia_of_their_outlines(part: d
     area, disc = count(retainer, 0.03, [0.5 * p["retainer_screw_clearance"], p["core_radius"] + p["retainer_lip"]])
     assert part["retainer_volume"] == pytest.approx(area * p["retainer_thickness"], rel=3e-3)
     rest = (polar * p["link_thickness"] + disc * p["retainer_thickness"]) * p["structure_density"]
-    bought = part["screws_inertia"]
+    bought = part["screws_inertia"] + part["dowels_inertia"]
     assert part["parts_inertia"] - part["rotor_inertia"] - bought == pytest.approx(rest, rel=3e-3)
 
 
@@ -194,5 +199,5 @@ def test_masses_are_volumes_times_densities_and_add_up(part: dict[str, Any]) -> 
     assert p["pcl_mass"] == pytest.approx(1145.0 * p["pcl_volume"], rel=1e-9)
     # The pads are cut from modules of 1600 mm^2 and 6 g; their corners of 0.2 mm take a ten-thousandth.
     assert p["peltier_mass"] == pytest.approx(6e-3 * p["pcl_area"] / 1600e-6, rel=1.5e-4)
-    parts = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws")
+    parts = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws", "dowels")
     assert p["module_mass"] == pytest.approx(sum(p[f"{name}_mass"] for name in parts), rel=1e-12)

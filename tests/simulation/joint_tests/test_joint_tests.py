@@ -22,7 +22,9 @@ POINTS = ("cold", "melting", "hot")
 
 @pytest.fixture(scope="module")
 def resolved() -> ResolvedModule:
-    return resolve_study(read_study(STUDY))
+    # Without friction, as the textbook has it; what friction does is in test_link_with_dry_friction.py.
+    study = read_study(STUDY)
+    return resolve_study(study.model_copy(update={"module": {**study.module, "pin_friction": 0.0}}))
 
 
 @pytest.fixture(scope="module")

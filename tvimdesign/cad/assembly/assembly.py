@@ -18,6 +18,7 @@ from tvimdesign.cad.parts import (
     adjuster_parts,
     common_parts,
     cover_parts,
+    dowel_parts,
     insert_parts,
     motor_parts,
     purchased_parts,
@@ -95,6 +96,7 @@ def place(
     if dims.cover_height:
         placed |= cover_parts.stand(dims, drawn)
     placed |= insert_parts.stand(dims, drawn, rotor_angle)
+    placed |= dowel_parts.stand(dims, drawn, rotor_angle)
     placed |= motor_parts.stand(dims, drawn)
     placed |= MODULES[dims.mode].stand(dims, drawn, rotor_angle)
     return placed | installed_springs(dims, rotor_angle, progress)

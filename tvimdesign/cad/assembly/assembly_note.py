@@ -20,8 +20,8 @@ from tvimdesign.study.design import Design
 _STEPS = Path(__file__).with_name("assembly_steps.yaml")
 
 
-def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item]) -> bytes:
-    """Write the note as Markdown."""
+def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra: Sequence[Item] = ()) -> bytes:
+    """Write the note as Markdown; `extra` is what is used up beside the parts."""
     lines = [
         f"# Putting together: {design.name}",
         "",
@@ -35,6 +35,8 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item]) -> by
         lines.append(f"| {number} | {_words(one.kind)} | {one.quantity} | {of} | {each} |")
     total = sum(one.mass * one.quantity for one in items)
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{file_names.BILL_OF_MATERIALS}`.", ""]
+    lines += [f"Beside them: {_words(one.kind)}, {one.title}, about {one.mass:.2f} g." for one in extra]
+    lines += [""] if extra else []
     lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
     lines += [f"{number}. {text}" for number, text in enumerate(_steps(design, dims, items), start=1)]
     lines += ["", f"![Cut through the axis]({file_names.SECTION})", ""]
@@ -50,7 +52,8 @@ def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]
         listed = ", ".join(map(_words, milled)).capitalize()
         lines += ["## Machining", "", f"{listed}: from `step/` by the sheets in `drawings/`, which carry the fits.", ""]
     lines += ["## Printing", "", *(_printing(kind) for kind in kinds if kind not in milled), ""]
-    wider = f", with upright holes {dims.hole_compensation:g} mm wider" if dims.hole_compensation else ""
+    but = ", those of dowel pins not: they are reamed" if dims.dowels_fitted else ""
+    wider = f", with upright holes {dims.hole_compensation:g} mm wider{but}" if dims.hole_compensation else ""
     return [*lines, f"The files in `print/` lie so{wider}.", ""]
 
 

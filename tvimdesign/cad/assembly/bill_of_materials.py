@@ -14,6 +14,7 @@ from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.device.fixtures.tang import BONDED
 from tvimdesign.study.design import Design
 
 
@@ -47,6 +48,15 @@ def bill(design: Design, titles: Mapping[str, str], placed: Mapping[str, cq.Soli
         made = PRODUCTION[kind].down != "bought"
         items.append(Item(kind, len(solids), made, what.material, title, mass, _papers(kind)))
     return items
+
+
+def consumables(design: Design, titles: Mapping[str, str]) -> list[Item]:
+    """What is bought and used up, and drawn in no file: the adhesive of the tangs, all of it as one."""
+    if design.choices.get("tang_hold") != BONDED:
+        return []
+    mass = 1e3 * design.value("tang_adhesive_mass")
+    record = str(design.choices["tang_adhesive"])
+    return [Item("tang_adhesive", 1, False, record, titles.get("tang_adhesive", record), mass, ())]
 
 
 def _papers(kind: str) -> tuple[str, ...]:

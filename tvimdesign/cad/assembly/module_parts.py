@@ -13,6 +13,7 @@ from tvimdesign.cad.parts import (
     adjuster_parts,
     compression_parts,
     cover_parts,
+    dowel_parts,
     insert_parts,
     motor_parts,
     purchased_parts,
@@ -40,6 +41,7 @@ class ModuleParts:
             **(adjusters if dims.adjuster_radius else {}),
             **(cover_parts.DRAWN if dims.cover_height else {}),
             **insert_parts.drawn(dims),
+            **dowel_parts.drawn(dims),
             **motor_parts.drawn(dims),
         }
 

@@ -14,7 +14,7 @@ from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.assembly import drawn_part, free_spring, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
-from tvimdesign.cad.assembly.bill_of_materials import bill, bill_csv
+from tvimdesign.cad.assembly.bill_of_materials import bill, bill_csv, consumables
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import glb_bytes, instances, product
 from tvimdesign.cad.build.worker import Job, Work
@@ -31,6 +31,7 @@ from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.cad.geometry.spring_solids import free_coil
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
+from tvimdesign.cad.parts import dowel_parts
 
 PICTURES = "pictures"
 """The work without which a module can still be made: a machine may not be able to render."""
@@ -109,7 +110,7 @@ def _print(job: Job, kind: str, solid: cq.Solid, what: Product) -> SolidCheck:
     """Write what a printer gets. A mesh that does not close is a check that fails, and its files are left out."""
     name = file_names.print_stl(kind)
     try:
-        lying = as_printed(solid, PRODUCTION[kind], job.dims.hole_compensation)
+        lying = as_printed(solid, PRODUCTION[kind], job.dims.hole_compensation, dowel_parts.places(job.dims))
         body, distance = printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))
@@ -163,8 +164,9 @@ def _spring_sheet(job: Job) -> list[SolidCheck]:
 def _bill_and_note(job: Job) -> list[SolidCheck]:
     """What there is of each part, and how they go together."""
     items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)))
-    _write(job.folder, file_names.BILL_OF_MATERIALS, bill_csv(items))
-    _write(job.folder, file_names.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items))
+    extra = consumables(job.design, job.titles)
+    _write(job.folder, file_names.BILL_OF_MATERIALS, bill_csv([*items, *extra]))
+    _write(job.folder, file_names.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items, extra))
     return []
 
 

@@ -76,9 +76,9 @@ def _said_of(group: Sequence[Cylinder], bottom: float, top: float, asked: Drawin
 def sized(one: Cylinder, asked: DrawingRequirements) -> str:
     """A diameter with its fit or its thread."""
     seat, thread = asked.seat(2.0 * one.radius), asked.thread(one)
-    if seat and seat.fit:
-        return f"⌀{figure(seat.size)} {seat.fit}"
-    return f"{thread.screw} ⌀{figure(thread.hole)}" if thread else f"⌀{figure(2.0 * one.radius)}"
+    if thread:  # told by its depth, too: a tapped hole may be as wide as one for a dowel pin
+        return f"{thread.screw} ⌀{figure(thread.hole)}"
+    return f"⌀{figure(seat.size)} {seat.fit}" if seat and seat.fit else f"⌀{figure(2.0 * one.radius)}"
 
 
 def _is_corner(one: Cylinder) -> bool:

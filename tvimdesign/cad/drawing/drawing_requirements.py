@@ -85,17 +85,34 @@ class DrawingRequirements:
 def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> DrawingRequirements:
     """What the drawing of a kind of part asks for, by the module's process."""
     reported, method = _told(), choices["making_method"]
-    seats = [one for one in reported["seats"].get(kind, ()) if _is_there(one, dims)] if method == "milled" else []
+    seats = [
+        one for one in reported["seats"].get(kind, ())
+        if _is_there(one, dims) and (method == "milled" or one.get("printed"))
+    ]  # fmt: skip
     threads = [one for one in reported["threads"].get(kind, ()) if _is_there(one, dims)]
     general = reported["general"][method]
     return DrawingRequirements(
         tolerances=general["tolerances"],
         surface=general["surface"],
-        notes=[general["edges"], *([_BEARINGS] if any("bearing" in one for one in seats) else [])],
+        notes=[
+            general["edges"],
+            *([_BEARINGS] if any("bearing" in one for one in seats) else []),
+            *_remarks(kind, dims, choices),
+        ],
         printed=method == "printed",
-        seats=[_seat(one, dims, "" if index else DATUM) for index, one in enumerate(seats)],
+        seats=[_seat(one, dims, DATUM if index == 0 and "radius" in one else "") for index, one in enumerate(seats)],
         threads=[_thread(one, dims, method) for one in threads],
     )
+
+
+def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[str]:
+    """What else is said of a kind of part, for the choices of its design."""
+    tang_hole = dims.wire_diameter + 2.0 * dims.tang_clearance
+    written = _told()["remarks"].get(kind, ())
+    return [
+        one["text"].format(tang_hole=tang_hole) for one in written
+        if all(choices.get(name) == word for name, word in one["choices"].items())
+    ]  # fmt: skip
 
 
 def _is_there(reported: Mapping[str, Any], dims: Dimensions) -> bool:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import zipfile
+from collections.abc import Sequence
+from math import hypot
 from xml.sax.saxutils import escape, quoteattr
 
 import cadquery as cq
@@ -22,6 +24,8 @@ from tvimdesign.cad.geometry.production import Production
 _DIGITS = (6, 5, 7)
 """Decimals of a millimetre to which a mesh's vertices are merged. A coordinate can lie where one rounding splits it
 from its neighbour of the next face; not where three do."""
+_SAME = 1e-4
+"""Axes [mm] that are nearer than that are one."""
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 _RELATIONS = "http://schemas.openxmlformats.org/package/2006/relationships"
 _TYPES = "http://schemas.openxmlformats.org/package/2006/content-types"
@@ -29,8 +33,12 @@ _EPOCH = (1980, 1, 1, 0, 0, 0)
 """The time of every entry of a 3MF archive, so that the same part gives the same file."""
 
 
-def as_printed(solid: cq.Solid, making: Production, hole_compensation: float) -> cq.Solid:
+def as_printed(
+    solid: cq.Solid, making: Production, hole_compensation: float, reamed: Sequence[tuple[float, float]] = ()
+) -> cq.Solid:
     """Return the part with its upright holes wider by `hole_compensation` [mm on the diameter], lying on its side.
+
+    Holes whose axes are `reamed` stay as they are: they come out small, and a reamer brings them to their size.
 
     What lies on the bed is at z = 0, the part's own axis at x = y = 0.
     """
@@ -42,6 +50,7 @@ def as_printed(solid: cq.Solid, making: Production, hole_compensation: float) ->
                 cq.Vector(0, 0, 1),
             )
             for one in holes(solid)
+            if not any(hypot(one.x - x, one.y - y) < _SAME for x, y in reamed)
         ]  # fmt: skip
         wider = _one_solid(solid.cut(*tools)) if tools else solid
     lying = wider.rotate(cq.Vector(), cq.Vector(1, 0, 0), 180.0) if making.down == "top" else wider

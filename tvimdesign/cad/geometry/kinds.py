@@ -41,6 +41,7 @@ KINDS = {
     "peltier_pad": _kind((0.72, 0.20, 0.18), "peltier_module", "peltier_density", "peltier_volume"),
     "link_screw": _kind(_STEEL, "link_screw", "link_screw_density", "link_screw_volume"),
     "link_insert": _kind(_BRASS, "link_insert", "link_insert_density", "link_insert_volume"),
+    "link_dowel": _kind((0.72, 0.74, 0.78), "link_dowel", "link_dowel_density", "link_dowel_volume"),
     "retainer_screw": _kind(_STEEL, "retainer_screw", "retainer_screw_density", "retainer_screw_volume"),
     "retainer_insert": _kind(_BRASS, "retainer_insert", "retainer_insert_density", "retainer_insert_volume"),
     "bearing_inner": _kind((0.80, 0.80, 0.84), "bearing", "bearing_density", "bearing_inner_volume"),
@@ -68,6 +69,7 @@ KINDS = {
 """Of all modes, by name; a placed part is named after its kind, with a number where there are several."""
 TURNING = (
     "rotor", "link", "retainer", "link_screw", "retainer_screw", "link_insert", "retainer_insert", "bearing_inner",
+    "link_dowel",
 )  # fmt: skip
 """The kinds that turn together."""
 MADE_TURNING = TURNING[:3]

@@ -40,6 +40,7 @@ PRODUCTION = {
     "cover": Production(down="bottom", drawn=True, why="flat: no support"),
     "link_screw": Production(down="bought", why="a screw of the catalogue"),
     "link_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the core"),
+    "link_dowel": Production(down="bought", why="a dowel pin of the catalogue"),
     "retainer_screw": Production(down="bought", why="a screw of the catalogue"),
     "retainer_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the core"),
     "adjuster_screw": Production(down="bought", why="a screw of the catalogue"),

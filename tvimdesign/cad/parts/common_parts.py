@@ -10,6 +10,7 @@ import cadquery as cq
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import block, bossed_ring, cylinder, join, polar, ring, slot, turned
 from tvimdesign.cad.geometry.spring_solids import installed_coil
+from tvimdesign.cad.parts import dowel_parts
 
 LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
 
@@ -138,7 +139,7 @@ def notches(dims: Dimensions) -> list[cq.Shape]:
 def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Iterable[cq.Shape] = ()) -> cq.Shape:
     """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds.
 
-    Less the screws' holes and the mode's openings.
+    Less the holes for screws and dowel pins and the mode's openings.
     """
     core_bottom = dims.core_bottom_level
     plate = cylinder(dims.rotor_radius, dims.rotor_bottom_level, dims.rotor_top_level)
@@ -156,15 +157,17 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
     pilot_bottom = core_top - dims.link_screw_depth
     pilots = [cylinder(0.5 * dims.link_screw_hole, pilot_bottom, core_top, at) for at in link_screws(dims)]
     retainer_pilot = cylinder(0.5 * dims.retainer_screw_hole, core_bottom, core_bottom + dims.retainer_screw_depth)
-    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots, *openings)
+    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots, *dowel_parts.holes_in_core(dims), *openings)
 
 
 def link(dims: Dimensions) -> cq.Shape:
-    """Output link: an obround from the core to the housing's edge, with its screw holes and the hole for a tool."""
+    """Output link: an obround from the core to the housing's edge, with its holes for screws, dowel pins and a tool."""
     bottom, top = dims.link_bottom_level, dims.link_bottom_level + dims.link_thickness
     holes = [cylinder(0.5 * dims.link_screw_clearance, bottom, top, at) for at in link_screws(dims)]
     tool_hole = cylinder(0.5 * dims.link_tool_hole, bottom, top, (dims.link_length, 0.0))
-    return slot(dims.link_half_width, dims.link_length, bottom, top).cut(tool_hole, *holes)
+    return slot(dims.link_half_width, dims.link_length, bottom, top).cut(
+        tool_hole, *holes, *dowel_parts.holes_in_link(dims)
+    )
 
 
 def retainer(dims: Dimensions) -> cq.Shape:

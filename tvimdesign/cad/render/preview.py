@@ -17,7 +17,7 @@ from tvimdesign.cad.render.render import actors, legend, legend_height, lit, wri
 
 _SIZE = (1800, 800)
 _CUT = ("housing", "rotor")
-_HIDDEN = ("link", "cover", "cover_screw")
+_HIDDEN = ("link", "link_dowel", "cover", "cover_screw")
 
 
 def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, Instance]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.transmission import leg_direction, pin_distance
 
@@ -73,7 +73,11 @@ def leg_overhang_margin(
     return leg_overhang + leg_arm - np.sqrt(pin_distance(pin_radius, placement_radius, stroke) ** 2 - leg_offset**2)
 
 
-@quantities.output("mm", at_least(0.0, "the tang would press on its hole as the coil winds and unwinds"))
+@quantities.output(
+    "mm",
+    at_least(0.0, "the tang would press on its hole as the coil winds and unwinds"),
+    requires=(Feature("tang_hold", "bonded"),),
+)
 def tang_margin(
     tang_clearance: Scalar,
     coil_diameter: Scalar,
@@ -82,7 +86,7 @@ def tang_margin(
     preload_angle: Scalar,
     spring_unwinding: Scalar,
 ) -> Scalar:
-    """Play of the tang in its hole that the changing coil diameter leaves."""
+    """Play of the tang in its hole that the changing coil diameter leaves; zero where the tang is bonded."""
     turned = np.fmax(spring_winding - preload_angle, spring_unwinding)
     return tang_clearance - coil_diameter * turned / (4.0 * np.pi * coil_count)
 

@@ -141,8 +141,10 @@ def bare_rotor_moments(
     link_bolt_circle_radius: Scalar,
     retainer_screw_hole: Scalar,
     retainer_screw_depth: Scalar,
+    link_dowel_section: Section,
+    link_dowel_depth: Scalar,
 ) -> Section:
-    """Volume and its polar moment about the axis, of plate, core and pins less the screw holes."""
+    """Volume and its polar moment about the axis, of plate, core and pins less screw and dowel holes."""
     return stacked(
         (ring(core_radius, rotor_radius), rotor_thickness),
         (ring(0.0, core_radius), link_bottom_level - rotor_bottom_level),
@@ -151,6 +153,7 @@ def bare_rotor_moments(
         (disc_at(0.5 * pin_diameter, pin_radius).times(spring_count), pin_top_level - rotor_top_level),
         (disc_at(0.5 * link_screw_hole, link_bolt_circle_radius).times(LINK_SCREWS), -link_screw_depth),
         (ring(0.0, 0.5 * retainer_screw_hole), -retainer_screw_depth),
+        (link_dowel_section, -link_dowel_depth),
     )
 
 
@@ -161,10 +164,12 @@ def link_section(
     link_screw_clearance: Scalar,
     link_bolt_circle_radius: Scalar,
     link_tool_hole: Scalar,
+    link_dowel_section: Section,
 ) -> Section:
     """Plan view of the output link: an obround from the core to the housing's edge, less its holes."""
     screws = disc_at(0.5 * link_screw_clearance, link_bolt_circle_radius).times(LINK_SCREWS)
-    return slot(link_half_width, link_length) - screws - disc_at(0.5 * link_tool_hole, link_length)
+    tool = disc_at(0.5 * link_tool_hole, link_length)
+    return slot(link_half_width, link_length) - screws - tool - link_dowel_section
 
 
 @quantities.helper()
@@ -254,11 +259,12 @@ def module_mass(
     cover_mass: Scalar,
     inserts_mass: Scalar,
     preload_spring_mass: Scalar,
+    dowels_mass: Scalar,
     drive_mass: Scalar,
 ) -> Scalar:
     """Mass of the module with its motor, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + cover_mass + pcl_mass
-    fasteners = screws_mass + inserts_mass
+    fasteners = screws_mass + inserts_mass + dowels_mass
     bought = springs_mass + peltier_mass + fasteners + bearings_mass + preload_spring_mass
     return made + bought + adjusters_mass + drive_mass
 
@@ -285,7 +291,9 @@ def parts_inertia(
     screws_inertia: Scalar,
     inserts_inertia: Scalar,
     bearings_inertia: Scalar,
+    dowels_inertia: Scalar,
 ) -> Scalar:
-    """Moment of inertia of all that turns in the module: rotor, link, retainer, screws, inserts and inner rings."""
+    """Moment of inertia of all that turns in the module: rotor, link, retainer, fasteners and inner rings."""
     retainer = retainer_section.polar * retainer_thickness * structure_density
-    return rotor_inertia + link_inertia + retainer + screws_inertia + inserts_inertia + bearings_inertia
+    fasteners = screws_inertia + inserts_inertia + dowels_inertia
+    return rotor_inertia + link_inertia + retainer + fasteners + bearings_inertia

@@ -165,9 +165,9 @@ def spring_unwinding(
 @quantities.output(
     "rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act")
 )
-def preload_margin(preload_angle: Scalar, spring_unwinding: Scalar) -> Scalar:
-    """Preload that is left at the end of the stroke of the opposing springs."""
-    return preload_angle - spring_unwinding
+def preload_margin(preload_angle: Scalar, spring_unwinding: Scalar, spring_play: Scalar) -> Scalar:
+    """Preload that is left at the end of the stroke of the opposing springs, less what a loose tang's play takes."""
+    return preload_angle - spring_unwinding - spring_play
 
 
 @quantities.helper()

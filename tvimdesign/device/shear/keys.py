@@ -13,19 +13,22 @@ import numpy as np
 from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.joint_impedance import quantities as impedance
 from tvimdesign.device.core.layout import quantities as layout
+from tvimdesign.device.core.lost_motion import quantities as lost_motion
 from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import peg, structure
+from tvimdesign.physics.rigid_play import joint_play
 from tvimdesign.physics.shapes import Section, disc_at
 
-places, strengths, weights, rules = (
+places, strengths, play, weights, rules = (
     QuantityGroup(layout.group),
     QuantityGroup(impedance.group),
+    QuantityGroup(lost_motion.group),
     QuantityGroup(bodies.group),
     QuantityGroup(gaps.group),
 )
-groups = (places, strengths, weights, rules)
+groups = (places, strengths, play, weights, rules)
 
 
 @places.helper()
@@ -85,6 +88,15 @@ def key_safety(key_holding_torque: Scalar, layer_torque_at_cold: Scalar) -> Scal
     Of no other point: the strength is that of frozen PCL at room temperature.
     """
     return key_holding_torque / layer_torque_at_cold
+
+
+@play.output("rad")
+def key_play(key_shrinkage: Scalar, key_diameter: Scalar, key_circle_radius: Scalar, has_keys: Scalar) -> Scalar:
+    """Angle the frozen keys turn in their pockets, from which they shrink, once the bond is gone; zero without keys.
+
+    No part of `lost_motion`: as long as the bond holds, it takes the torque.
+    """
+    return has_keys * joint_play(0.5 * key_shrinkage * key_diameter, key_circle_radius)
 
 
 # --- rules -----------------------------------------------------------------------------------------------------------

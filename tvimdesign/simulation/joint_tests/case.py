@@ -55,6 +55,8 @@ class Case:
     one_sided: bool
     """Whether the polymer only pushes: blocks against either sense, of `modes` each."""
     modes: motion.Modes
+    friction: float = 0.0
+    """Torque by which the legs' friction on their pins resists the link [N*m]."""
 
     @property
     def name(self) -> str:
@@ -107,11 +109,12 @@ def histories_at(resolved: ResolvedModule, temperature: float) -> tuple[History,
 def cases(resolved: ResolvedModule) -> list[Case]:
     """The joint at every operating point, once for each history that matters there, the nominal one first."""
     joint, one_sided = joint_of(resolved), float(resolved.quantity("parting_share")) > 0.0
+    friction = float(resolved.quantity("pin_friction_torque"))
     found = []
     for point in resolved.points:
         temperature = float(resolved.quantity(f"temperature@{point}"))
         for history in histories_at(resolved, temperature):
-            case = Case(point, temperature, history, joint, one_sided, ())
+            case = Case(point, temperature, history, joint, one_sided, (), friction)
             modes = case.rows(resolved, ("pcl_modes",))["pcl_modes"]
             found.append(replace(case, modes=[(float(time), float(k)) for time, k in modes]))
     return found

@@ -9,7 +9,7 @@ import numpy as np
 from tvimdesign.physics import one_sided
 from tvimdesign.physics.one_sided import Blocks
 from tvimdesign.simulation.joint_tests.case import Case
-from tvimdesign.simulation.link_motion import contact, link
+from tvimdesign.simulation.link_motion import contact, dry_friction, link
 from tvimdesign.simulation.link_motion.contact_simulation import OneSided
 from tvimdesign.simulation.link_motion.linear_system import Stretch
 from tvimdesign.simulation.link_motion.link import Array, Motion
@@ -34,7 +34,10 @@ def gap(case: Case, internal: Array) -> float:
 
 
 def released(case: Case, angle: float, internal: Array, turns: float = np.inf) -> OneSided:
-    """Let go of a link at rest; with `turns` not to its end, but until it has turned round so often."""
+    """Let go of a link at rest against its friction; with `turns` only until it has turned round so often."""
+    if case.friction > 0.0:
+        plant = dry_friction.Plant(case.joint, case.modes, case.one_sided)
+        return dry_friction.released(plant, case.friction, angle, internal, turns)
     if case.one_sided:
         return contact.released(case.joint, blocks_of(case), angle, internal, turns)
     return _bonded(link.released(case.joint, case.modes, angle, internal))

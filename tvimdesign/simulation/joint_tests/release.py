@@ -93,12 +93,25 @@ def release(
         notes=(
             f"The PCL was free of strain, was turned to {angle:g} rad at once and held there for {hold:g} s: of a hold "
             "of seconds the melt keeps nothing, frozen PCL nearly all.",
-            "Torque is that of the module on the link.",
+            "Torque is that of the module on the link, friction of the springs' legs on their pins counted.",
+            *_friction_note(found),
             *notes_for([one.case for one in found]),
             *overload_notes(resolved, [(one.case, float(abs(one.motion.torque[0]))) for one in found]),
             *_unsettled(found),
         ),
     )  # fmt: skip
+
+
+def _friction_note(found: Sequence[Released]) -> tuple[str, ...]:
+    """What friction does to the curves; nothing where there is none."""
+    friction = max(one.case.friction for one in found)
+    if not friction:
+        return ()
+    band = friction / found[0].case.joint.spring_stiffness
+    return (
+        f"Friction of {1e3 * friction:.3g} mN.m is a constant torque against the motion: the loop is twice that wide, "
+        f"and the springs alone leave the link up to {1e3 * band:.3g} mrad off its rest.",
+    )
 
 
 def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
@@ -136,7 +149,8 @@ def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, k
     internal = joint_motion.held(case, angle, hold)
     found = joint_motion.released(case, angle, internal)
     moved, gap = found.motion, joint_motion.gap(case, internal)
-    settling = link.settling_time(moved.times, moved.angle, SETTLED)
+    # Friction holds the link off its old rest: it settles where it stays.
+    settling = link.settling_time(moved.times, moved.angle - (found.rest or 0.0), SETTLED)
     if case.one_sided:
         return Released(case, found, gap, *_first_ringing(found), settling, None)
     swings = link.swings(case.joint, case.modes, angle, internal)
@@ -226,9 +240,11 @@ def _findings(resolved: ResolvedModule, found: Sequence[Released]) -> list[Findi
              [one.frequency for one in here]),
             ("ringing_damping_ratio", "1", "Damping ratio of that swing; 1 where it creeps back",
              [one.damping_ratio for one in here]),
-            ("settling_time", "s", f"Time until the link stays within {100 * SETTLED:g} % of its angle",
+            ("settling_time", "s", f"Time until the link is within {100 * SETTLED:g} % of its angle from its rest",
              [one.settling for one in here]),
-            ("energy_dissipated", "J", "Energy the layer turned into heat over the motion shown",
+            ("rest_angle", "rad", "Angle at which friction holds the link in the end, or at which its curve ends",
+             [abs(float(one.motion.angle[-1])) for one in here]),
+            ("energy_dissipated", "J", "Energy that PCL and friction turned into heat over the motion shown",
              [float(energy[0] - energy[-1]) for energy in energies]),
             ("energy_gain", "1", "Largest growth of the stored energy over its start; rounding",
              [max(0.0, float(np.max(np.diff(energy)) / energy[0])) for energy in energies]),

@@ -6,7 +6,7 @@ through for the moment at which a block's pull passes zero, and goes on from the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -25,6 +25,8 @@ SEARCHED = 1e-13
 """Share of a step to which an event is located."""
 NUDGE = 2.0**-10
 """Share of a step taken where a block is grazed, before it is asked again whether it touches."""
+RESTING = 1e-12
+"""Share of the largest speed up to which a link rests."""
 TURNS_OF_A_SWING = 2
 
 
@@ -49,6 +51,8 @@ class OneSided:
     touching: NDArray[np.bool_]
     """Whether each block touches from a sample to the next; one row a block."""
     events: tuple[ContactEvent, ...]
+    rest: float | None = None
+    """Angle at which friction holds the link for good [rad]; None where it is free, or still moves."""
 
     def lost_share(self, start: float, end: float) -> float:
         """Share of the time between two moments [s] in which no block touches."""
@@ -68,14 +72,16 @@ class OneSided:
 
 def turns_of(speed: Array) -> NDArray[np.int64]:
     """Samples just after a link that started at rest has turned round."""
-    return np.flatnonzero(speed[1:-1] * speed[2:] < 0.0) + 2
+    # At rest, at the start or where friction stops it, a link has the speed of rounding.
+    moving = np.flatnonzero(np.abs(speed[1:]) > RESTING * np.max(np.abs(speed))) + 1
+    return moving[1:][speed[moving[1:]] * speed[moving[:-1]] < 0.0]
 
 
 class Regime:
     """The linear motion while the same blocks touch, in coordinates whose square is the energy when both do."""
 
-    def __init__(self, touching: Touching, matrix: Array, pulls: Array) -> None:
-        """Take x' = matrix x and the blocks' pulls as rows that take x."""
+    def __init__(self, touching: Sequence[float], matrix: Array, pulls: Array) -> None:
+        """Take x' = matrix x and the blocks' pulls as rows that take x; those that touch stay above zero."""
         self.touching, self.matrix, self.pulls = touching, matrix, pulls
         self.slopes = pulls @ matrix
         self._known: dict[float, Array] = {}
@@ -92,6 +98,12 @@ class Regime:
         if step not in self._known:
             self._known[step] = expm(self.matrix * step)
         return np.asarray(self._known[step] @ state)
+
+    def later(self, state: Array, time: float) -> Array:
+        """State any time later."""
+        from scipy.linalg import expm
+
+        return np.asarray(expm(self.matrix * time) @ state)
 
     def leaving(self, side: int, state: Array, end: Array, step: float) -> float | None:
         """First time [s] in a step at which a block's pull gets the wrong sign, or None; `end` is the step's.
@@ -154,7 +166,7 @@ class Course:
         left = step
         while left > SEARCHED * step:
             state = self.columns[-1]
-            end = self.regime.after(state, left) if left == step else self._later(state, left)
+            end = self.regime.after(state, left) if left == step else self.regime.later(state, left)
             found = [
                 (time, side) for side in (0, 1) if (time := self.regime.leaving(side, state, end, left)) is not None
             ]
@@ -164,10 +176,10 @@ class Course:
             time, side = min(found)
             if time <= SEARCHED * step and side in self._switched:
                 time = min(NUDGE * step, left)
-                self._go(time, self._later(state, time))
+                self._go(time, self.regime.later(state, time))
             else:
                 if time > 0.0:
-                    self._go(time, self._later(state, time))
+                    self._go(time, self.regime.later(state, time))
                 self._switch(side)
             left -= time
 
@@ -182,12 +194,12 @@ class Course:
     def energy(self) -> float:
         """Energy where it is now [J]."""
         angle, speed, *internal = self._from_energy @ self.columns[-1]
-        touching = self.regime.touching
+        touching = Touching(*self.regime.touching)
         return float(one_sided.stored_energy(angle, speed, internal, touching, self._joint, self._blocks))
 
     def found(self) -> OneSided:
         """All it has come through."""
-        states, stretches = self.states(), _stretches(self.durations)
+        states, stretches = self.states(), stretches_of(self.durations)
         touching = np.array([regime.touching for regime in self.regimes]).T
         given = (states[0], list(states[2:]), Touching(*touching), self._joint, self._blocks)
         motion = Motion(
@@ -200,11 +212,6 @@ class Course:
             stretches=stretches,
         )
         return OneSided(motion, touching > 0.0, tuple(self.events))
-
-    def _later(self, state: Array, time: float) -> Array:
-        from scipy.linalg import expm
-
-        return np.asarray(expm(self.regime.matrix * time) @ state)
 
     def _go(self, time: float, state: Array) -> None:
         self.columns.append(state)
@@ -229,7 +236,7 @@ class Course:
         return self._regimes[touching]
 
 
-def _stretches(durations: Iterable[float]) -> tuple[Stretch, ...]:
+def stretches_of(durations: Iterable[float]) -> tuple[Stretch, ...]:
     """Steps of the same length, one after the other, as stretches."""
     found: list[Stretch] = []
     for step in durations:
