@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from tvimdesign.device import table_for
-from tvimdesign.report.run.record_checks import record_checks
-from tvimdesign.study import Study, catalog_of
+from tvimdesign.study import Study
+from tvimdesign.study.record_checks import record_checks
 
 
 def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
@@ -16,7 +15,7 @@ def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
     from tvimdesign.report.run.refusal import refuse_unfit
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
-    (refuse_unfit if proof else refuse_impossible)(study, catalog_of(study), table_for(study.mode))
+    (refuse_unfit if proof else refuse_impossible)(study)
     return study
 
 
@@ -24,4 +23,4 @@ def describe(study: Study) -> str:
     """One line on what a valid study asks, then one for each of its records that contradicts itself."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
     asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
-    return "\n".join([asked, *record_checks(study, catalog_of(study), table_for(study.mode))])
+    return "\n".join([asked, *record_checks(study)])

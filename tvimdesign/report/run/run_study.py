@@ -65,7 +65,7 @@ def run_study(
     else:
         show(look_first(folder, str(folder.path), wide_console().width), wide_console())
     if not found.found:
-        raise InfeasibleError(complaint(found, answered.table))
+        raise InfeasibleError(complaint(found, answered.study.table))
     if failures:
         raise done_in_part(failures)
 

@@ -8,7 +8,6 @@ import pytest
 import yaml
 from support import ROOT
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.first_screen.mending import filled, hints, mending
 from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_of
@@ -44,7 +43,7 @@ def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path: Path, mode:
 def _published(extra: str = "") -> StudyResult:
     text = (ROOT / "studies/paper_as_published.yaml").read_text()
     study = read_study_text(text.replace("module:\n", f"module:\n{extra}", 1), "a test")
-    return answer(study, Catalog(), table_for(study.mode))
+    return answer(study)
 
 
 def test_the_line_that_is_proposed_mends() -> None:
