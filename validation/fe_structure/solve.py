@@ -8,6 +8,7 @@ What carries no torque (journal, hub above the floor, pins, posts) is cut away: 
 from __future__ import annotations
 
 import json
+import os
 import sys
 import time
 from pathlib import Path
@@ -37,13 +38,20 @@ def parts(folder: Path, mm: dict[str, float]) -> list:
 
     far = 500.0
     bottom, top = mm["rotor_bottom_level"], mm["rotor_top_level"]
-    rotor = read("rotor") - tube(0, far, -far, bottom) - tube(mm["pin_radius"] - mm["pin_diameter"], far, top, far)
-    wall = tube(mm["housing_inner_radius"], mm["housing_outer_radius"], 0.0, mm["rim_level"])
-    housing = (read("housing") - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
+    blocks = mm.get("vane_count", 0.0) > 0.0
+    journal = mm["pcl_inner_radius"] - 0.3 if blocks else far
+    rotor = read("rotor") - tube(0, journal, -far, bottom) - tube(mm["pin_radius"] - mm["pin_diameter"], far, top, far)
+    if blocks:
+        inside = 0.5 * (mm["hub_radius"] + mm["pcl_inner_radius"])
+        housing = read("housing") - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    else:
+        wall = tube(mm["housing_inner_radius"], mm["housing_outer_radius"], 0.0, mm["rim_level"])
+        housing = (read("housing") - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
     found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
     for path in sorted(folder.glob("*.step")):
-        for kind, label in (("pcl", "pcl"), ("peltier_pad", "pad")):
-            if path.stem.startswith(kind):
+        number = int(path.stem.split("_")[-1]) if path.stem[-1].isdigit() else 0
+        for kind, label, parity in (("pcl", "pcl", 1), ("peltier_pad", "pad", 0)):
+            if path.stem.startswith(kind) and (not blocks or number % 2 == parity):  # blocks of one sense are pressed
                 found.append((read(path.stem), label, SIZES["layer"]))
     for shape, label, size in found:
         for solid in shape.solids:
@@ -51,7 +59,7 @@ def parts(folder: Path, mm: dict[str, float]) -> list:
     return [shape for shape, _, _ in found]
 
 
-SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
+SIZES = {"plate": 6.0, "housing": 12.0, "layer": float(os.environ.get("LAYER", "5"))}  # mm
 
 
 def solve(folder: Path, order: int = 2) -> dict[str, float]:
@@ -108,8 +116,15 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
         core = IfPos(mm["core_radius"] + 0.01 - sqrt(x * x + y * y), 1, 0)
         total = Integrate(density, mesh)
         shares = {name: Integrate(density, mesh, definedon=mesh.Materials(name)) for name in ("pcl", "pad", "housing")}
+        if mm.get("vane_count"):
+            stands = IfPos(z, 1, 0)
+            hangs = IfPos(mm["rotor_bottom_level"] - z, 1, 0)
+            shares["housing_vanes"] = Integrate(stands * density, mesh, definedon=mesh.Materials("housing"))
+            shares["housing"] -= shares["housing_vanes"]
+            shares["rotor_vanes"] = Integrate(hangs * density, mesh, definedon=mesh.Materials("rotor"))
         shares["core"] = Integrate(core * density, mesh, definedon=mesh.Materials("rotor"))
         shares["plate"] = Integrate((1 - core) * density, mesh, definedon=mesh.Materials("rotor"))
+        shares["plate"] -= shares.get("rotor_vanes", 0.0)
     torque = total  # N*mm at one radian
     result = {"elements": mesh.ne, "unknowns": space.ndof, "hub": total * 1e-3}
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}

@@ -141,8 +141,14 @@ def structure_stiffness(
 
 @quantities.helper()
 def elastic_support(structure_stiffness: Scalar, volume_stiffness: Scalar) -> Scalar:
-    """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure, and the blocks' volume."""
+    """Stiffness in series with the PCL's shear modes [N*m/rad]: the structure, and the blocks' volume."""
     return structure.series(structure_stiffness, volume_stiffness)
+
+
+@quantities.helper()
+def support_loss(structure_stiffness: Scalar, structure_loss: Scalar, volume_stiffness: Scalar) -> Scalar:
+    """Imaginary stiffness in series with the PCL's shear modes [N*m/rad]; the blocks' volume is lossless."""
+    return layer.series_stiffness(structure_stiffness, structure_loss, volume_stiffness)[1]
 
 
 _SQUEEZED = (

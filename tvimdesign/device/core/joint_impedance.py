@@ -171,12 +171,19 @@ def plate_stiffness(
     return structure.ring_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_mean_radius)
 
 
+@quantities.helper()
+def structure_loss(structure_stiffness: Scalar, structure_loss_factor: Scalar, clamped_loss_factor: Scalar) -> Scalar:
+    """Imaginary stiffness of the structure [N*m/rad]: loss of its material, and of the joints it is clamped with."""
+    return structure.loss_stiffness(structure_stiffness, structure_loss_factor + clamped_loss_factor)
+
+
 @quantities.helper(per_point=True)
 def branch_stiffness(
-    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, structure_stiffness: Scalar
+    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, structure_stiffness: Scalar, structure_loss: Scalar
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
-    return layer.series_stiffness(pcl_stiffness, 2.0 * np.pi * frequency * pcl_damping, structure_stiffness)
+    loss = 2.0 * np.pi * frequency * pcl_damping
+    return layer.series_stiffness(pcl_stiffness, loss, structure_stiffness, structure_loss)
 
 
 @quantities.output("N*m/rad", per_point=True)
@@ -193,7 +200,7 @@ def joint_stiffness(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Sc
 
 @quantities.output("N*m*s/rad", per_point=True, headline=True)
 def joint_damping(branch_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
-    """Damping of the joint: layer in series with the structure."""
+    """Damping of the joint: the losses of layer and structure in series."""
     return branch_stiffness[1] / (2.0 * np.pi * frequency)
 
 

@@ -61,8 +61,14 @@ def pcl_moment(layer_polar_moment: Scalar) -> Scalar:
 
 @quantities.helper()
 def elastic_support(structure_stiffness: Scalar) -> Scalar:
-    """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure."""
+    """Stiffness in series with the PCL's shear modes [N*m/rad]: the structure."""
     return structure_stiffness
+
+
+@quantities.helper()
+def support_loss(structure_loss: Scalar) -> Scalar:
+    """Imaginary stiffness in series with the PCL's shear modes [N*m/rad]: the structure's."""
+    return structure_loss
 
 
 @quantities.output("1", headline=True)
