@@ -13,6 +13,7 @@ from tvimdesign.device.core import (
     softening,
     spring_as_drawn,
     stiffening,
+    structure_stiffness,
     thermal_stack,
     torsion_springs,
 )
@@ -25,6 +26,7 @@ ROOMS = (
     torsion_springs,
     spring_as_drawn,
     joint_impedance,
+    structure_stiffness,
     creep_under_hold,
     thermal_stack,
     softening,
