@@ -114,8 +114,8 @@ def _tilt(spring: DrawnSpring, poissons_ratio: Any) -> Any:
 def _bend(spring: DrawnSpring, poissons_ratio: Any) -> Any:
     """Integral over the quarter bend of radius d, from the coil's tangent down into the tang [m^3].
 
-    The moment about the axis and the tilting moment along the tangent each bend half of it and twist the other half; the
-    tilting moment across bends it in its plane all the way.
+    The moment about the axis and the tilting moment along the tangent each bend half of it and twist the other half;
+    the tilting moment across bends it in its plane all the way.
     """
     lever = spring.arm + 0.5 * spring.coil_diameter * np.sin(spring.wound)
     height = _height(spring)

@@ -1,8 +1,10 @@
-"""Friction between clamped faces."""
+"""Friction between clamped faces, and in bearings."""
 
 from __future__ import annotations
 
 from typing import Any
+
+import numpy as np
 
 
 def disc_torque(friction: Any, force: Any, inner_radius: Any, outer_radius: Any) -> Any:
@@ -12,3 +14,20 @@ def disc_torque(friction: Any, force: Any, inner_radius: Any, outer_radius: Any)
     """
     lever = (outer_radius**3 - inner_radius**3) / (outer_radius**2 - inner_radius**2)
     return 2.0 / 3.0 * friction * force * lever
+
+
+def journal_torque(friction: Any, force: Any, diameter: Any) -> Any:
+    """Torque [N*m] with which a loaded bearing or bore resists turning, 0.5 mu F d.
+
+    `friction` [1], `force` [N], `diameter` of the bearing's bore [m]. SKF, Rolling bearings (catalogue), friction: the
+    estimate with a constant coefficient; for a plain bore Coulomb's law.
+    """
+    return 0.5 * friction * force * diameter
+
+
+def equivalent_damping(torque: Any, angular_frequency: Any, amplitude: Any) -> Any:
+    """Viscous damping that loses as much in a cycle as a friction torque, 4 T/(pi omega theta) [N*m*s/rad].
+
+    Den Hartog, Mechanical Vibrations, section 8-9; `angular_frequency` [rad/s], `amplitude` [rad].
+    """
+    return 4.0 * torque / (np.pi * angular_frequency * amplitude)

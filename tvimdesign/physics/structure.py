@@ -41,7 +41,7 @@ def hole_weakening(hole_radius: Any, circle_radius: Any, count: Any, shaft_radiu
 
 
 SHAFT_ENTRY = 0.07
-"""Length over radius by which the torque's way into the plate lengthens a core; calibrated to validation/fe_structure."""
+"""Length over radius by which the way into the plate lengthens a core; calibrated to validation/fe_structure."""
 
 
 def bored_shaft_stiffness(modulus: Any, radius: Any, length: Any, weakening: Any, bored_length: Any) -> Any:
@@ -93,9 +93,7 @@ def foot_stiffness(youngs_modulus: Any, shear_modulus: Any, radius: Any, bore_ra
     return 1.0 / (height**3 / (12.0 * youngs_modulus * inertia) + height / (0.9 * shear_modulus * area))
 
 
-def footed_floor_stiffness(
-    ring: Any, foot: Any, count: Any, foot_radius: Any
-) -> Any:
+def footed_floor_stiffness(ring: Any, foot: Any, count: Any, foot_radius: Any) -> Any:
     """Floor with feet on a circle [N*m/rad]: 1/K = 1.5/K_ring + 1.76/(n k r^2).
 
     `ring` is the floor's stiffness from the PCL's rim to the feet, `foot` that of one foot sideways [N/m].

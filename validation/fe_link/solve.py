@@ -12,8 +12,21 @@ from pathlib import Path
 import yaml
 from netgen.occ import Cylinder, Dir, Glue, OCCGeometry, Pnt
 from ngsolve import (
-    CF, BilinearForm, Grad, GridFunction, Id, InnerProduct, Integrate, LinearForm, Mesh, Sym, TaskManager, Trace,
-    VectorH1, dx, ds,
+    CF,
+    BilinearForm,
+    Grad,
+    GridFunction,
+    Id,
+    InnerProduct,
+    Integrate,
+    LinearForm,
+    Mesh,
+    Sym,
+    TaskManager,
+    Trace,
+    VectorH1,
+    ds,
+    dx,
 )  # fmt: skip
 
 
@@ -30,10 +43,8 @@ def solve(folder: Path, size: float) -> dict[str, float]:
         near = ((centre.x - mm["link_length"]) ** 2 + centre.y**2) ** 0.5 < 0.1
         face.name = "tool" if upright and near else "free"
     mesh = Mesh(OCCGeometry(shape).GenerateMesh(maxh=size * mm["link_thickness"])).Curve(2)
-    lame, shear = (lambda e, n: (e * n / (1 + n) / (1 - 2 * n), e / 2 / (1 + n)))(
-        values["structure_youngs_modulus"] * 1e-6, values["structure_poissons_ratio"]
-    )
-    space = VectorH1(mesh, order=2, definedon=mesh.Materials("link"))
+    youngs, poisson = values["structure_youngs_modulus"] * 1e-6, values["structure_poissons_ratio"]
+    lame, shear = youngs * poisson / (1 + poisson) / (1 - 2 * poisson), youngs / 2 / (1 + poisson)
     interface = mesh.Materials("link").Boundaries() * mesh.Materials("core").Boundaries()
     space = VectorH1(mesh, order=2, definedon=mesh.Materials("link"), dirichlet=interface)
     u, v = space.TnT()
@@ -55,4 +66,5 @@ def solve(folder: Path, size: float) -> dict[str, float]:
 if __name__ == "__main__":
     for name in sys.argv[1:]:
         runs = [solve(Path(name), size) for size in (1.0, 0.6)]
-        print(yaml.safe_dump({Path(name).name: [{k: float(f"{v:.4g}") for k, v in run.items()} for run in runs]}), flush=True)
+        rows = [{k: float(f"{v:.4g}") for k, v in run.items()} for run in runs]
+        print(yaml.safe_dump({Path(name).name: rows}), flush=True)

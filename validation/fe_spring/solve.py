@@ -14,8 +14,27 @@ import numpy as np
 import yaml
 from netgen.occ import OCCGeometry
 from ngsolve import (
-    CF, TET, VOL, BilinearForm, Grad, GridFunction, Id, InnerProduct, Integrate, IntegrationRule, LinearForm, Mesh, Sym,
-    TaskManager, Trace, VectorH1, dx, exp, x, y, z,
+    CF,
+    TET,
+    VOL,
+    BilinearForm,
+    Grad,
+    GridFunction,
+    Id,
+    InnerProduct,
+    Integrate,
+    IntegrationRule,
+    LinearForm,
+    Mesh,
+    Sym,
+    TaskManager,
+    Trace,
+    VectorH1,
+    dx,
+    exp,
+    x,
+    y,
+    z,
 )  # fmt: skip
 
 POISSON = 0.3
@@ -35,7 +54,7 @@ def solve(folder: Path, size: float, order: int) -> dict[str, float]:
     offset = 0.5 * (coil["diameter"] + wire + mm["pin_diameter"])
     arm = sqrt((mm["placement_radius"] - mm["pin_radius"]) ** 2 - offset**2)
     azimuth = coil["leg_azimuth"]
-    along, out = CF((cos(azimuth), sin(azimuth), 0)), CF((sin(azimuth), -cos(azimuth), 0))
+    out = CF((sin(azimuth), -cos(azimuth), 0))
     start = (sin(azimuth) * radius, -cos(azimuth) * radius)
     way = (x - start[0]) * cos(azimuth) + (y - start[1]) * sin(azimuth)
     rise = mm["coil_pitch"] / (pi * coil["diameter"])
@@ -93,8 +112,8 @@ def _fibre(mesh, tensor, inputs, radius, wire, arm) -> dict[str, float]:
     def smooth(values: list[float]) -> float:
         return float((shapes @ np.linalg.lstsq(shapes, np.array(values), rcond=None)[0]).max()) * scale
 
-    return {"bend_mises": bend * scale, "coil_mises": whole * scale, "fibre_max": smooth(fibre), "mises_max": smooth(von),
-            "fibre_mean": float(np.mean(fibre)) * scale}  # fmt: skip
+    return {"bend_mises": bend * scale, "coil_mises": whole * scale, "fibre_max": smooth(fibre),
+            "mises_max": smooth(von), "fibre_mean": float(np.mean(fibre)) * scale}  # fmt: skip
 
 
 def _waves(angles):
@@ -113,7 +132,8 @@ def main(folders: list[str]) -> None:
     """Solve each on two meshes and print what was found."""
     for name in folders:
         runs = [solve(Path(name), 0.9, order) for order in ORDERS]
-        print(yaml.safe_dump({Path(name).name: [{k: float(f"{v:.5g}") for k, v in run.items()} for run in runs]}), flush=True)
+        rows = [{k: float(f"{v:.5g}") for k, v in run.items()} for run in runs]
+        print(yaml.safe_dump({Path(name).name: rows}), flush=True)
 
 
 if __name__ == "__main__":

@@ -15,10 +15,31 @@ from pathlib import Path
 
 import numpy as np
 import yaml
-from netgen.occ import Axis, Cylinder, Dir, Glue, OCCGeometry, Pnt
+from netgen.occ import Cylinder, Dir, Glue, OCCGeometry, Pnt
 from ngsolve import (
-    CF, TET, VOL, BilinearForm, CGSolver, Grad, GridFunction, Id, InnerProduct, Integrate, IntegrationRule, Mesh,
-    Preconditioner, Sym, TaskManager, Trace, VectorH1, dx, x, y, z, sqrt, IfPos,
+    CF,
+    TET,
+    VOL,
+    BilinearForm,
+    CGSolver,
+    Grad,
+    GridFunction,
+    Id,
+    IfPos,
+    InnerProduct,
+    Integrate,
+    IntegrationRule,
+    Mesh,
+    Preconditioner,
+    Sym,
+    TaskManager,
+    Trace,
+    VectorH1,
+    dx,
+    sqrt,
+    x,
+    y,
+    z,
 )  # fmt: skip
 
 RUBBERLIKE = 0.45  # Poisson's ratio of pads
@@ -26,13 +47,13 @@ RUBBERLIKE = 0.45  # Poisson's ratio of pads
 
 def tube(inner: float, outer: float, bottom: float, top: float):
     """Ring about the axis [mm]."""
-    axis = Axis(Pnt(0, 0, bottom), Dir(0, 0, 1))
     whole = Cylinder(Pnt(0, 0, bottom), Dir(0, 0, 1), r=outer, h=top - bottom)
     return whole - Cylinder(Pnt(0, 0, bottom - 1), Dir(0, 0, 1), r=inner, h=top - bottom + 2) if inner else whole
 
 
 def parts(folder: Path, mm: dict[str, float]) -> list:
     """Solids that carry the torque, named."""
+
     def read(name: str):
         return OCCGeometry(str(folder / f"{name}.step")).shape
 
@@ -73,16 +94,18 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
     for face in whole.faces:
         centre, low, high = face.center, face.bounding_box[0].z, face.bounding_box[1].z
         flat, wide = high - low < 1e-4, face.bounding_box[1].x - face.bounding_box[0].x
-        reach = (centre.x**2 + centre.y**2) ** 0.5
+        beside = abs((centre.x**2 + centre.y**2) ** 0.5 - mm["placement_radius"]) < 0.2
         if flat and abs(low - top) < 1e-3:
             face.name = "turned"
-        elif flat and abs(low - ground) < 1e-3 and abs(reach - mm["placement_radius"]) < 0.2 and wide < 3 * mm["mount_boss_radius"]:
+        elif flat and abs(low - ground) < 1e-3 and beside and wide < 3 * mm["mount_boss_radius"]:  # not the skirt
             face.name = "fixed"
         else:
             face.name = "free"
     named = [face.name for face in whole.faces]
     print(folder.name, "feet", named.count("fixed"), "tops", named.count("turned"), file=sys.stderr, flush=True)
-    mesh = Mesh(OCCGeometry(whole).GenerateMesh(maxh=12.0, grading=0.6, curvaturesafety=1.0, segmentsperedge=0.5)).Curve(order)
+    mesh = Mesh(
+        OCCGeometry(whole).GenerateMesh(maxh=12.0, grading=0.6, curvaturesafety=1.0, segmentsperedge=0.5)
+    ).Curve(order)
     youngs = values["structure_youngs_modulus"] * 1e-6
     shear = {"pcl": values["storage_modulus@cold"] * 1e-6, "pad": values["peltier_shear_modulus"] * 1e-6}
     poisson = {"pcl": values["pcl_poissons_ratio"], "pad": RUBBERLIKE}
@@ -140,7 +163,7 @@ def _stresses(mesh, tensor, mm, torque) -> dict[str, float]:
     deviator = tensor - Trace(tensor) / 3 * Id(3)
     mises = np.asarray(sqrt(1.5 * InnerProduct(deviator, deviator))(points)).ravel() * 1e3 / torque
     sliding = np.asarray(sqrt(tensor[0, 2] ** 2 + tensor[1, 2] ** 2)(points)).ravel() * 1e3 / torque
-    level, reach = np.asarray(z(points)).ravel(), np.asarray(sqrt(x * x + y * y)(points)).ravel()
+    level = np.asarray(z(points)).ravel()
     layer = sliding[names == "pcl"]
     shaft = (names == "rotor") & (level > mm["rotor_top_level"] + 1.0) & (level < mm["link_bottom_level"] - 1.0)
     plain = shaft & (level < mm["link_bottom_level"] - mm["link_screw_depth"] - 1.0)
