@@ -48,7 +48,7 @@ def test_the_highest_stress_is_that_of_fe(name: str) -> None:
     assert fibre == pytest.approx(case["fibre"], rel=0.03)
     if "coil" in case:
         assert straight * coil_stress_factor(shape, factor) == pytest.approx(case["coil"], rel=0.05)
-    assert straight * bend_stress_factor(shape) == pytest.approx(case["bend"], rel=0.12)
+    assert straight * bend_stress_factor(shape) == pytest.approx(case["bend"], rel=0.13)
 
 
 def along_the_wire(shape: DrawnSpring, poisson: float) -> float:
