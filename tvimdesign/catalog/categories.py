@@ -91,6 +91,7 @@ CATEGORIES: Mapping[str, Category] = {
             "specific_heat": "J/kg/K",
             "yield_strength": "MPa",
             "yield_strength_across_layers": "MPa",
+            "loss_factor": "1",
             "service_temperature": "degC",
         }
     ),

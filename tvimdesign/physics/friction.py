@@ -1,4 +1,4 @@
-"""Friction between clamped faces."""
+"""Friction between clamped faces, and in bearings."""
 
 from __future__ import annotations
 
@@ -36,3 +36,20 @@ def bolted_torque(friction: Any, force: Any, count: Any, radius: Any) -> Any:
 def tightened_force(stress: Any, diameter: Any) -> Any:
     """Force [N] of a screw tightened to a stress [Pa] over its nominal section, sigma pi d^2/4."""
     return stress * 0.25 * np.pi * diameter**2
+
+
+def journal_torque(friction: Any, force: Any, diameter: Any) -> Any:
+    """Torque [N*m] with which a loaded bearing or bore resists turning, 0.5 mu F d.
+
+    `friction` [1], `force` [N], `diameter` of the bearing's bore [m]. SKF, Rolling bearings (catalogue), friction: the
+    estimate with a constant coefficient; for a plain bore Coulomb's law.
+    """
+    return 0.5 * friction * force * diameter
+
+
+def equivalent_damping(torque: Any, angular_frequency: Any, amplitude: Any) -> Any:
+    """Viscous damping that loses as much in a cycle as a friction torque, 4 T/(pi omega theta) [N*m*s/rad].
+
+    Den Hartog, Mechanical Vibrations, section 8-9; `angular_frequency` [rad/s], `amplitude` [rad].
+    """
+    return 4.0 * torque / (np.pi * angular_frequency * amplitude)

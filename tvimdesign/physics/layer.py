@@ -21,16 +21,19 @@ def series_modulus(storage: Any, loss: Any) -> tuple[Any, Any]:
     return real / square, imaginary / square
 
 
-def series_stiffness(stiffness: Any, loss_stiffness: Any, support: Any) -> tuple[Any, Any]:
-    """Real and imaginary part [N*m/rad] of K* = stiffness + i loss_stiffness behind a lossless support stiffness.
+def series_stiffness(stiffness: Any, loss_stiffness: Any, support: Any, support_loss: Any = 0.0) -> tuple[Any, Any]:
+    """Real and imaginary part [N*m/rad] of K* = stiffness + i loss_stiffness behind a support S* of its own loss.
 
-    K = K* S/(K* + S) with S the support.
+    1/K = 1/K* + 1/S*, S* = support + i support_loss; each part in proportion to the other's square, so that neither
+    difference of large numbers nor complex arithmetic is needed.
     """
-    real, imaginary = stiffness + support, loss_stiffness
-    square = real**2 + imaginary**2
+    square = stiffness**2 + loss_stiffness**2
+    support_square = support**2 + support_loss**2
+    real, imaginary = stiffness + support, loss_stiffness + support_loss
+    whole = real**2 + imaginary**2
     return (
-        support * (stiffness * real + loss_stiffness * imaginary) / square,
-        support * (loss_stiffness * real - stiffness * imaginary) / square,
+        (support * square + stiffness * support_square) / whole,
+        (support_loss * square + loss_stiffness * support_square) / whole,
     )
 
 

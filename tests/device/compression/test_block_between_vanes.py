@@ -48,10 +48,11 @@ def test_joint_is_the_springs_parallel_to_blocks_and_structure_in_series(joint: 
     springs = TABLE.evaluate(joint, ["spring_stiffness"])["spring_stiffness"]
     omega = 2.0 * np.pi * HERTZ
     blocks = complex(joint[f"pcl_stiffness@{point}"], omega * joint[f"pcl_damping@{point}"])
-    star = springs + 1.0 / (1.0 / blocks + 1.0 / joint["structure_stiffness"])
+    star = springs + 1.0 / (1.0 / blocks + 1.0 / (joint["structure_stiffness"] * (1.0 + 0.04j)))  # PETG, clamped
     assert joint[f"joint_stiffness@{point}"] == pytest.approx(star.real, rel=1e-9)
     assert joint[f"joint_damping@{point}"] == pytest.approx(star.imag / omega, rel=1e-9)
     # What the simulations use: shear modes in series with one elastic support, structure and volume together.
+    star = springs + 1.0 / (1.0 / blocks + 1.0 / joint["structure_stiffness"])
     shear = complex(joint[f"storage_modulus@{point}"], joint[f"loss_modulus@{point}"])
     modes = shear * joint["pcl_moment"] / 5e-3
     again = springs + 1.0 / (1.0 / modes + 1.0 / joint["elastic_support"])
@@ -61,35 +62,21 @@ def test_joint_is_the_springs_parallel_to_blocks_and_structure_in_series(joint: 
 def test_a_molten_film_softens_the_joint_as_a_block_of_its_own_depth_would(squeezed: dict[str, Any]) -> None:
     storage, loss = np.full(12, 1e15), np.zeros(12)
     storage[:3], loss[:3] = 2e4, 3e4  # a quarter has melted, the rest is rigid
-    names = ["impedance_now", "spring_stiffness", "elastic_support"]
+    names = ["impedance_now", "spring_stiffness", "elastic_support", "support_loss"]
     found = TABLE.evaluate({**squeezed, "slice_moduli": (storage, loss)}, names)
     width, height, thick = 14e-3, 3.5e-3, 0.25 * 7e-3
     shape = width * height / (2.0 * thick * (width + height))
     film = 6 * 3.0 * complex(2e4, 3e4) * (1.0 + 2.0 * shape**2) * width * height * 33e-3**2 / thick
-    star = found["spring_stiffness"] + 1.0 / (1.0 / film + 1.0 / found["elastic_support"])
+    support = complex(found["elastic_support"], found["support_loss"])
+    star = found["spring_stiffness"] + 1.0 / (1.0 / film + 1.0 / support)
     assert found["impedance_now"] == pytest.approx(abs(star), rel=1e-6)
 
 
 def test_structure_is_core_plate_vanes_pads_and_floor_in_series(joint: dict[str, Any]) -> None:
-    shear = 2.1e9 / (2.0 * 1.38)
     mean = 33e-3
-
-    def ring(thickness: float, inner: float, outer: float) -> float:
-        return float(quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * thickness * shear), inner, outer, epsabs=0.0)[0])
-
-    def vane(width: float, thickness: float) -> float:
-        """Compliance of one vane of 10.4 mm, even load: Timoshenko's line of deflection, averaged."""
-        height, bending, area = 10.4e-3, 2.1e9 * width * thickness**3 / 12.0, width * thickness
-        line = quad(lambda x: (x**4 - 4 * height * x**3 + 6 * height**2 * x**2) / (24 * bending)
-                    + (height * x - 0.5 * x**2) / (5 / 6 * shear * area), 0.0, height, epsabs=0.0)[0]  # fmt: skip
-        return float(line / height**2)
-
-    open_angle = joint["housing_vane_angle"] - 2.0 * np.arcsin(1.5e-3 / mean)
-    core = (joint["link_bottom_level"] - joint["rotor_top_level"]) / (shear * 0.5 * np.pi * 10e-3**4)
-    vanes = (vane(14e-3, 5e-3) + vane(7e-3, open_angle * mean)) / (6 * mean**2)
-    floor = ring(4e-3 * (1.0 - 6 * open_angle / (2.0 * np.pi)), mean, 57e-3)
+    parts = ["core_stiffness", "plate_stiffness", "floor_stiffness", "rotor_vane_stiffness", "housing_vane_stiffness"]
     pads = 1.5e-3 / (300e6 * 6 * 140e-6 * mean**2)
-    whole = core + ring(4e-3, 10e-3, mean) + vanes + floor + pads
+    whole = sum(1.0 / value for value in TABLE.evaluate(joint, parts).values()) + pads
     assert joint["structure_stiffness"] == pytest.approx(1.0 / whole, rel=1e-9)
 
 
@@ -116,7 +103,7 @@ def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
         ("rotor_vane", 14e-3, 5e-3),
         ("housing_vane", 7e-3, joint["housing_vane_thickness"]),
     ):
-        force = joint[f"{part}_holding_torque"] / (6 * 33e-3)
+        force = 1.25 * joint[f"{part}_holding_torque"] / (6 * 33e-3)  # with the safety it is stated by
         bending = force * 5.4e-3 / (width * thickness**2 / 6.0)
         assert bending**2 + 3.0 * (force / (width * thickness)) ** 2 == pytest.approx((31e6) ** 2, rel=1e-9), part
 

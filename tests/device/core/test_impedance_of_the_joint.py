@@ -42,7 +42,8 @@ def star(joint: dict[str, Any], point: str) -> complex:
     span = joint["arc_count"] * joint["arc_span"]
     polar, _ = quad(lambda r: span * r**3, joint["pcl_inner_radius"], joint["pcl_outer_radius"], epsabs=0.0)
     layer = modulus * polar / joint["pcl_thickness"]
-    branch = 1.0 / (1.0 / layer + 1.0 / joint["structure_stiffness"])
+    # PETG loses 3 % of what it stores in radians, its clamped joints one more.
+    branch = 1.0 / (1.0 / layer + 1.0 / (joint["structure_stiffness"] * (1.0 + 0.04j)))
     return branch + complex(joint["spring_stiffness"])
 
 
@@ -85,20 +86,20 @@ def test_structure_is_softer_than_the_frozen_layer_and_stiffer_than_the_springs(
     assert joint["spring_stiffness"] < joint["structure_stiffness"] < joint["pcl_stiffness@cold"]
 
 
-def test_structure_is_core_rotor_and_floor_in_series(joint: dict[str, Any]) -> None:
-    shear = joint["structure_youngs_modulus"] / (2.0 * (1.0 + joint["structure_poissons_ratio"]))
-    middle = 0.5 * (joint["pcl_inner_radius"] + joint["pcl_outer_radius"])
-
-    def plate(thickness: float, inner: float, outer: float) -> float:
-        return float(quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * thickness * shear), inner, outer, epsabs=0.0)[0])
-
-    core = (joint["link_bottom_level"] - joint["rotor_top_level"]) / (shear * 0.5 * np.pi * joint["core_radius"] ** 4)
-    rotor = plate(joint["rotor_thickness"], joint["core_radius"], middle)
-    floor = plate(joint["floor_thickness"] - joint["peltier_thickness"], middle, joint["placement_radius"])
+def test_structure_is_core_rotor_pads_and_floor_in_series(joint: dict[str, Any]) -> None:
     # A sheet of 100 MPa and 1.5 mm under the arcs, as the catalogue assumes the flexible Peltier module to be.
     span, outer, inner = (joint[name] for name in ("arc_span", "pcl_outer_radius", "pcl_inner_radius"))
     sheet, _ = quad(lambda r: joint["arc_count"] * span * r**3 * 100e6 / 1.5e-3, inner, outer, epsabs=0.0)
-    assert joint["structure_stiffness"] == pytest.approx(1.0 / (core + rotor + floor + 1.0 / sheet), rel=1e-9)
+    parts = ["core_stiffness", "plate_stiffness", "floor_stiffness"]
+    whole = sum(1.0 / value for value in TABLE.evaluate(joint, parts).values()) + 1.0 / sheet
+    assert joint["structure_stiffness"] == pytest.approx(1.0 / whole, rel=1e-9)
+
+
+def test_frozen_damping_is_the_structures(joint: dict[str, Any]) -> None:
+    # An independent estimate for tan(delta) 0.02 to 0.04 of PETG alone: 3 to 6 N*m*s/rad at 1 Hz for some 920 N*m/rad;
+    # without the structure's loss it came to 0.03.
+    loss = 2.0 * np.pi * HERTZ * joint["joint_damping@cold"] / joint["joint_stiffness@cold"]
+    assert 0.02 < loss < 0.06
 
 
 def test_ranges_are_cold_over_hot(joint: dict[str, Any]) -> None:
@@ -113,16 +114,18 @@ def test_frozen_layer_holds_until_its_outer_rim_slips(joint: dict[str, Any]) -> 
     assert joint["layer_holding_torque"] == pytest.approx(torque, rel=1e-9)
 
 
-def test_core_holds_until_its_surface_yields_in_shear(joint: dict[str, Any]) -> None:
-    # Shear stress grows with the radius up to the yield of the print across its layers, 31 MPa/sqrt(3), at the surface.
-    radius = joint["core_radius"]
-    torque, _ = quad(lambda r: 31e6 / np.sqrt(3.0) * r / radius * 2.0 * np.pi * r**2, 0.0, radius, epsabs=0.0)
-    assert joint["core_holding_torque"] == pytest.approx(torque, rel=1e-9)
+def test_core_holds_until_the_wall_of_a_screw_hole_yields_in_shear(joint: dict[str, Any]) -> None:
+    # The yield of the print across its layers, 31 MPa/sqrt(3). Four holes of 2.5 mm on 6.5 mm take twice their own
+    # polar moment of a core of 10 mm; beside a hole the shear is twice that of the whole core there. Safety 1.25.
+    assert joint["core_radius"] == 10e-3
+    left = 0.5 * np.pi * 10.0**4 - 4 * 2 * np.pi * 1.25**2 * 6.5**2  # mm^4
+    torque = 31.0 / np.sqrt(3.0) * left / (2.0 * 6.5) * 1e-3
+    assert joint["core_holding_torque"] == pytest.approx(torque / 1.25, rel=1e-9)
 
 
 def test_screws_hold_until_they_press_into_the_link(joint: dict[str, Any]) -> None:
     # Four screws on 6.5 mm, each 2.5 mm wide at the root in a link of 4 mm of a plastic that yields at 47.5 MPa.
-    assert joint["link_holding_torque"] == pytest.approx(4.0 * 6.5e-3 * 2.5e-3 * 4e-3 * 47.5e6, rel=1e-9)
+    assert joint["link_holding_torque"] == pytest.approx(4.0 * 6.5e-3 * 2.5e-3 * 4e-3 * 47.5e6 / 1.25, rel=1e-9)
 
 
 def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:

@@ -22,9 +22,11 @@ POINTS = ("cold", "melting", "hot")
 
 @pytest.fixture(scope="module")
 def resolved() -> ResolvedModule:
-    # Without friction, as the textbook has it; what friction does is in test_link_with_dry_friction.py.
+    # Without friction, as the textbook has it (what it does is in test_link_with_dry_friction.py), and without the
+    # structure's loss, which motions in time leave out.
     study = read_study(STUDY)
-    return resolve_study(study.model_copy(update={"module": {**study.module, "pin_friction": 0.0}}))
+    textbook = {"pin_friction": 0.0, "structure_loss_factor": 0.0, "clamped_loss_factor": 0.0}
+    return resolve_study(study.model_copy(update={"module": {**study.module, **textbook}}))
 
 
 @pytest.fixture(scope="module")

@@ -81,8 +81,9 @@ def rotor_vane_stiffness(
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
 ) -> Scalar:
-    """Stiffness of the rotor's vanes about the axis [N*m/rad], pressed over their whole height."""
-    one = vane.stiffness(structure_youngs_modulus, structure_shear_modulus, block_width, vane_thickness, vane_height)
+    """Stiffness of the rotor's vanes about the axis [N*m/rad], and of the plate under their roots."""
+    one = vane.stiffness(structure_youngs_modulus, structure_shear_modulus, block_width, vane_thickness, vane_height,
+                         vane.ON_PLATE)  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
 
 
@@ -102,10 +103,14 @@ def housing_vane_stiffness(
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
 ) -> Scalar:
-    """Stiffness of the housing's vanes about the axis [N*m/rad]: of what stands on either side of their slots."""
+    """Stiffness of the housing's vanes about the axis [N*m/rad], and of the floor under them.
+
+    Of the vanes what stands on either side of their slots.
+    """
     one = vane.stiffness(
-        structure_youngs_modulus, structure_shear_modulus, 2.0 * slot_web, housing_vane_thickness, vane_height
-    )
+        structure_youngs_modulus, structure_shear_modulus, 2.0 * slot_web, housing_vane_thickness, vane_height,
+        vane.ON_FLOOR,
+    )  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
 
 
@@ -115,34 +120,44 @@ def structure_stiffness(
     plate_stiffness: Scalar,
     rotor_vane_stiffness: Scalar,
     housing_vane_stiffness: Scalar,
-    structure_shear_modulus: Scalar,
+    floor_stiffness: Scalar,
     pcl_mean_radius: Scalar,
-    floor_span: tuple[Scalar, Scalar],
-    floor_thickness: Scalar,
     vane_count: Scalar,
-    slot_angle: Scalar,
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     block_area: Scalar,
 ) -> Scalar:
     """Stiffness in series with the blocks: core, plate, vanes of both, pads, and floor up to its feet or its flange."""
-    # The floor is weakest where slots cut it: what is left of its circumference there counts.
-    whole = floor_thickness * (1.0 - vane_count * slot_angle / (2.0 * np.pi))
     return structure.series(
         core_stiffness,
         plate_stiffness,
         rotor_vane_stiffness,
         housing_vane_stiffness,
-        structure.ring_stiffness(structure_shear_modulus, whole, *floor_span),
+        floor_stiffness,
         # A sheet pressed through its thickness, E = 3 G as of rubber, its pellets' share not counted on top.
         block.stiffness(3.0 * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness),
     )
 
 
 @quantities.helper()
+def floor_ring(floor_thickness: Scalar, vane_count: Scalar, slot_angle: Scalar) -> Scalar:
+    """Thickness of the floor within the PCL's outer radius, as if spread evenly [m].
+
+    The floor is weakest where slots cut it: what is left of its circumference there counts.
+    """
+    return floor_thickness * (1.0 - vane_count * slot_angle / (2.0 * np.pi))
+
+
+@quantities.helper()
 def elastic_support(structure_stiffness: Scalar, volume_stiffness: Scalar) -> Scalar:
-    """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure, and the blocks' volume."""
+    """Stiffness in series with the PCL's shear modes [N*m/rad]: the structure, and the blocks' volume."""
     return structure.series(structure_stiffness, volume_stiffness)
+
+
+@quantities.helper()
+def support_loss(structure_stiffness: Scalar, structure_loss: Scalar, volume_stiffness: Scalar) -> Scalar:
+    """Imaginary stiffness in series with the PCL's shear modes [N*m/rad]; the blocks' volume is lossless."""
+    return layer.series_stiffness(structure_stiffness, structure_loss, volume_stiffness)[1]
 
 
 _SQUEEZED = (
@@ -195,10 +210,11 @@ def rotor_vane_holding_torque(
     vane_arm: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
+    holding_safety: Scalar,
 ) -> Scalar:
-    """Torque at which the roots of the rotor's vanes yield in bending and shear, cold."""
+    """Torque at which the roots of the rotor's vanes yield in bending and shear, cold, over `holding_safety`."""
     force = vane.force_at_yield(structure_layer_strength, block_width, vane_thickness, vane_arm)
-    return vane_count * force * pcl_mean_radius
+    return vane_count * force * pcl_mean_radius / holding_safety
 
 
 @quantities.output("N*m")
@@ -209,10 +225,11 @@ def housing_vane_holding_torque(
     vane_arm: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
+    holding_safety: Scalar,
 ) -> Scalar:
-    """Torque at which the roots of the housing's vanes yield in bending and shear, cold."""
+    """Torque at which the roots of the housing's vanes yield in bending and shear, cold, over `holding_safety`."""
     force = vane.force_at_yield(structure_layer_strength, 2.0 * slot_web, housing_vane_thickness, vane_arm)
-    return vane_count * force * pcl_mean_radius
+    return vane_count * force * pcl_mean_radius / holding_safety
 
 
 _PARTS = (

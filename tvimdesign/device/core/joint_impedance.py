@@ -165,27 +165,18 @@ def pcl_mean_radius(pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scala
 
 
 @quantities.helper()
-def core_stiffness(
-    structure_shear_modulus: Scalar, core_radius: Scalar, link_bottom_level: Scalar, rotor_top_level: Scalar
-) -> Scalar:
-    """Torsional stiffness of the core between rotor plate and output link [N*m/rad]."""
-    return structure.shaft_stiffness(structure_shear_modulus, core_radius, link_bottom_level - rotor_top_level)
-
-
-@quantities.helper()
-def plate_stiffness(
-    structure_shear_modulus: Scalar, rotor_thickness: Scalar, core_radius: Scalar, pcl_mean_radius: Scalar
-) -> Scalar:
-    """Torsional stiffness of the rotor plate between the core and the middle of the PCL [N*m/rad]."""
-    return structure.ring_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_mean_radius)
+def structure_loss(structure_stiffness: Scalar, structure_loss_factor: Scalar, clamped_loss_factor: Scalar) -> Scalar:
+    """Imaginary stiffness of the structure [N*m/rad]: loss of its material, and of the joints it is clamped with."""
+    return structure.loss_stiffness(structure_stiffness, structure_loss_factor + clamped_loss_factor)
 
 
 @quantities.helper(per_point=True)
 def branch_stiffness(
-    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, structure_stiffness: Scalar
+    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, structure_stiffness: Scalar, structure_loss: Scalar
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
-    return layer.series_stiffness(pcl_stiffness, 2.0 * np.pi * frequency * pcl_damping, structure_stiffness)
+    loss = 2.0 * np.pi * frequency * pcl_damping
+    return layer.series_stiffness(pcl_stiffness, loss, structure_stiffness, structure_loss)
 
 
 @quantities.output("N*m/rad", per_point=True)
@@ -202,7 +193,7 @@ def joint_stiffness(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Sc
 
 @quantities.output("N*m*s/rad", per_point=True, headline=True)
 def joint_damping(branch_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
-    """Damping of the joint: layer in series with the structure."""
+    """Damping of the joint: the losses of layer and structure in series."""
     return branch_stiffness[1] / (2.0 * np.pi * frequency)
 
 
@@ -243,18 +234,16 @@ def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -
 
 
 @quantities.output("N*m")
-def core_holding_torque(structure_layer_strength: Scalar, core_radius: Scalar) -> Scalar:
-    """Torque at which the core yields in torsion, its screw holes not counted."""
-    return structure.shaft_torque(structure.shear_yield(structure_layer_strength), core_radius)
-
-
-@quantities.output("N*m")
 def link_holding_torque(
-    structure_strength: Scalar, link_screw_pilot: Scalar, link_thickness: Scalar, link_bolt_circle_radius: Scalar
+    structure_strength: Scalar,
+    link_screw_pilot: Scalar,
+    link_thickness: Scalar,
+    link_bolt_circle_radius: Scalar,
+    holding_safety: Scalar,
 ) -> Scalar:
-    """Torque at which the four screws of the output link start to press into it, friction not counted."""
+    """Torque of the four link screws by `holding_safety` below pressing into the link; friction is not counted."""
     bearing = peg.bearing_force(structure_strength, link_screw_pilot, link_thickness)
-    return LINK_SCREWS * bearing * link_bolt_circle_radius
+    return LINK_SCREWS * bearing * link_bolt_circle_radius / holding_safety
 
 
 @quantities.output(

@@ -39,6 +39,7 @@ for name, unit, field, description in (
     ("structure_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the structure"),
     ("structure_strength", "MPa", "yield_strength", "Yield strength of the structure"),
     ("structure_layer_strength", "MPa", "yield_strength_across_layers", "Yield strength across the layers of a print"),
+    ("structure_loss_factor", "1", "loss_factor", "Loss factor of the structure at the pace of a limb, tan(delta)"),
     ("structure_service_temperature", "degC", "service_temperature", "Highest continuous temperature of the structure"),
 ):
     quantities.property(name, unit, ("structure_material", field), description)

@@ -204,11 +204,15 @@ def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
 
 @quantities.helper(instant=True)
 def branch_now(
-    layer_moduli: tuple[Scalar, Scalar], moment_now: Scalar, pcl_depth: Scalar, elastic_support: Scalar
+    layer_moduli: tuple[Scalar, Scalar],
+    moment_now: Scalar,
+    pcl_depth: Scalar,
+    elastic_support: Scalar,
+    support_loss: Scalar,
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
     storage, loss = (modulus * moment_now / pcl_depth for modulus in layer_moduli)
-    return layer.series_stiffness(storage, loss, elastic_support)
+    return layer.series_stiffness(storage, loss, elastic_support, support_loss)
 
 
 @quantities.output("N*m/rad", instant=True)

@@ -22,19 +22,12 @@ quantities.option(
 quantities.option(
     "stress_factor", ("shigley", "en_13906"), "Rise of the stress at the inner fibre by the coil's curvature"
 )
-quantities.option("leg_model", ("bending", "ignored"), "Whether the rotor-side leg bends with the coils")
+quantities.option("leg_model", ("bending", "ignored"), "Whether leg and tang bend with the coils")
 quantities.option(
     "transmission",
     ("unity", "geometry"),
     "Winding of a spring per angle of the rotor: the paper's ratio of one, or the leg on its pin",
 )
-
-
-@quantities.output("1")
-def active_coils(coil_count: Scalar, coil_diameter: Scalar, leg_arm: Scalar, leg_model: str) -> Scalar:
-    """Coils that bend, the rotor-side leg included."""
-    # The tang on the other side is held by the floor right where it leaves the coil.
-    return spring.active_coils(coil_count, coil_diameter, leg_arm if leg_model == "bending" else 0.0)
 
 
 @quantities.output("N*m/rad", headline=True)
@@ -170,16 +163,9 @@ def preload_margin(preload_angle: Scalar, spring_unwinding: Scalar, spring_play:
     return preload_angle - spring_unwinding - spring_play
 
 
-@quantities.helper()
-def stress_per_angle(spring_rate: Scalar, wire_diameter: Scalar, spring_index: Scalar, stress_factor: str) -> Scalar:
-    """Stress at the inner fibre per radian of winding [Pa]."""
-    factor = {"shigley": spring.inner_fibre_factor, "en_13906": spring.inner_fibre_factor_en}[stress_factor]
-    return spring.bending_stress(spring_rate, wire_diameter, factor(spring_index))
-
-
 @quantities.output("MPa")
 def spring_stress(stress_per_angle: Scalar, spring_winding: Scalar) -> Scalar:
-    """Largest stress in the springs, at the inner fibre at full winding."""
+    """Largest stress in the springs at full winding."""
     return stress_per_angle * spring_winding
 
 

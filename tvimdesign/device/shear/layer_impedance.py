@@ -36,9 +36,7 @@ def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness:
 def structure_stiffness(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
-    structure_shear_modulus: Scalar,
-    floor_span: tuple[Scalar, Scalar],
-    floor_web: Scalar,
+    floor_stiffness: Scalar,
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     layer_polar_moment: Scalar,
@@ -47,10 +45,15 @@ def structure_stiffness(
     return structure.series(
         core_stiffness,
         plate_stiffness,
-        # The floor is weakest where pockets and windows thin it; its web counts.
-        structure.ring_stiffness(structure_shear_modulus, floor_web, *floor_span),
+        floor_stiffness,
         peltier_shear_modulus * layer_polar_moment / peltier_thickness,
     )
+
+
+@quantities.helper()
+def floor_ring(floor_web: Scalar) -> Scalar:
+    """Thickness of the floor within the PCL's outer radius [m]: its web, where pockets and windows thin it."""
+    return floor_web
 
 
 @quantities.helper()
@@ -61,8 +64,14 @@ def pcl_moment(layer_polar_moment: Scalar) -> Scalar:
 
 @quantities.helper()
 def elastic_support(structure_stiffness: Scalar) -> Scalar:
-    """Lossless stiffness in series with the PCL's shear modes [N*m/rad]: the structure."""
+    """Stiffness in series with the PCL's shear modes [N*m/rad]: the structure."""
     return structure_stiffness
+
+
+@quantities.helper()
+def support_loss(structure_loss: Scalar) -> Scalar:
+    """Imaginary stiffness in series with the PCL's shear modes [N*m/rad]: the structure's."""
+    return structure_loss
 
 
 @quantities.output("1", headline=True)

@@ -1,0 +1,126 @@
+"""What carries the PCL's torque out to the link: stiffness of core, plate, floor and link, and when the core yields.
+
+Pilot holes count as empty. The link stands in series beyond the core's top: `joint_stiffness` is told there, at the
+hub, and `joint_stiffness_at_link` at the link's tool hole.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.core.mass_properties import LINK_SCREWS
+from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics import structure
+from tvimdesign.physics.layer import series_stiffness
+
+quantities = QuantityGroup(shared.group)
+
+
+@quantities.helper()
+def core_weakening(link_screw_hole: Scalar, link_bolt_circle_radius: Scalar, core_radius: Scalar) -> Scalar:
+    """Share of the core's torsional stiffness that the holes of the link screws cost [1]."""
+    return structure.hole_weakening(0.5 * link_screw_hole, link_bolt_circle_radius, LINK_SCREWS, core_radius)
+
+
+@quantities.output("N*m/rad")
+def core_stiffness(
+    structure_shear_modulus: Scalar,
+    core_radius: Scalar,
+    link_bottom_level: Scalar,
+    rotor_top_level: Scalar,
+    link_screw_depth: Scalar,
+    core_weakening: Scalar,
+) -> Scalar:
+    """Torsional stiffness of the core between rotor plate and output link."""
+    length = link_bottom_level - rotor_top_level
+    bored = np.fmin(link_screw_depth, length)
+    return structure.bored_shaft_stiffness(structure_shear_modulus, core_radius, length, core_weakening, bored)
+
+
+@quantities.output("N*m/rad")
+def plate_stiffness(
+    structure_shear_modulus: Scalar, rotor_thickness: Scalar, core_radius: Scalar, pcl_mean_radius: Scalar
+) -> Scalar:
+    """Torsional stiffness of the rotor plate between the core and the middle of the PCL."""
+    return structure.plate_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_mean_radius)
+
+
+@quantities.output("N*m/rad")
+def floor_stiffness(
+    structure_youngs_modulus: Scalar,
+    structure_shear_modulus: Scalar,
+    floor_flange: tuple[Scalar, Scalar] | None,
+    floor_ring: Scalar,
+    floor_thickness: Scalar,
+    pcl_outer_radius: Scalar,
+    placement_radius: Scalar,
+    spring_count: Scalar,
+    mount_boss_radius: Scalar,
+    mount_hole: Scalar,
+    foot_height: Scalar,
+) -> Scalar:
+    """Stiffness of the floor from the PCL out to the ground under its feet, or in to its flange.
+
+    Feet are screwed down between the springs; the skirt only stands on the ground. The torque leaves the PCL at its
+    outer rim, where the floor is whole.
+    """
+    if floor_flange is not None:
+        return structure.ring_stiffness(structure_shear_modulus, floor_ring, *floor_flange)
+    ring = structure.ring_stiffness(structure_shear_modulus, floor_thickness, pcl_outer_radius, placement_radius)
+    foot = structure.foot_stiffness(structure_youngs_modulus, structure_shear_modulus, mount_boss_radius,
+                                    0.5 * mount_hole, foot_height)  # fmt: skip
+    return structure.footed_floor_stiffness(ring, foot, spring_count, placement_radius)
+
+
+@quantities.output("N*m/rad")
+def link_stiffness(
+    structure_youngs_modulus: Scalar,
+    structure_shear_modulus: Scalar,
+    link_half_width: Scalar,
+    link_thickness: Scalar,
+    link_length: Scalar,
+    core_radius: Scalar,
+) -> Scalar:
+    """Stiffness of the output link between the core and a force in its tool hole."""
+    return structure.lever_stiffness(structure_youngs_modulus, structure_shear_modulus, 2.0 * link_half_width,
+                                     link_thickness, link_length, core_radius)  # fmt: skip
+
+
+@quantities.helper(per_point=True)
+def stiffness_beyond_link(
+    spring_stiffness: Scalar,
+    branch_stiffness: tuple[Scalar, Scalar],
+    link_stiffness: Scalar,
+    structure_loss_factor: Scalar,
+) -> tuple[Scalar, Scalar]:
+    """Real and imaginary stiffness of the joint with its link [N*m/rad]."""
+    link_loss = structure.loss_stiffness(link_stiffness, structure_loss_factor)
+    return series_stiffness(spring_stiffness + branch_stiffness[0], branch_stiffness[1], link_stiffness, link_loss)
+
+
+@quantities.output("N*m/rad", per_point=True, headline=True)
+def joint_stiffness_at_link(stiffness_beyond_link: tuple[Scalar, Scalar]) -> Scalar:
+    """Stiffness a force in the link's tool hole meets: the joint's at the hub in series with the link."""
+    return stiffness_beyond_link[0]
+
+
+@quantities.output("N*m*s/rad", per_point=True)
+def joint_damping_at_link(stiffness_beyond_link: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
+    """Damping a force in the link's tool hole meets."""
+    return stiffness_beyond_link[1] / (2.0 * np.pi * frequency)
+
+
+@quantities.output("N*m")
+def core_holding_torque(
+    structure_layer_strength: Scalar,
+    core_radius: Scalar,
+    core_weakening: Scalar,
+    link_bolt_circle_radius: Scalar,
+    holding_safety: Scalar,
+) -> Scalar:
+    """Torque the core bears in torsion, beside its screw holes too, by `holding_safety` below yield."""
+    shear = structure.shear_yield(structure_layer_strength)
+    borne = structure.bored_shaft_torque(shear, core_radius, core_weakening, link_bolt_circle_radius)
+    return borne / holding_safety

@@ -1,0 +1,39 @@
+"""Write the parts of a design as STEP, in place, with the dimensions FE needs: python export_parts.py DESIGN OUT.
+
+Run it where CadQuery is installed; the FE scripts run elsewhere, since both kernels cannot share a process.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import cadquery as cq
+
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.spring_solids import installed_coil, spring_solid
+from tvimdesign.study.design import Design
+
+
+def main(source: str, out: str) -> None:
+    """Write housing, rotor, link, all pads and PCL where they stand, one spring in its own frame, and inputs.json."""
+    design, folder = Design.model_validate_json(Path(source).read_text()), Path(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    dims, module = dimensions(design), MODULES[design.mode]
+    drawn = {kind: draw(dims) for kind, draw in module.made.items()}
+    shapes = {kind: drawn[kind] for kind in ("housing", "rotor", "link")}
+    shapes |= module.stand(dims, drawn, 0.0)
+    shapes["spring"] = spring_solid(installed_coil(dims))
+    for name, shape in shapes.items():
+        cq.exporters.export(cq.Workplane(shape), str(folder / f"{name}.step"))
+    coil = installed_coil(dims)
+    numbers = {"mode": design.mode, "name": design.name, "values": design.values, "mm": dict(dims.by_name),
+               "coil": {"turns": coil.turns, "diameter": coil.diameter, "leg_azimuth": coil.leg_azimuth,
+                        "end_level": coil.end_level, "start_level": coil.start_level}}  # fmt: skip
+    (folder / "inputs.json").write_text(json.dumps(numbers, indent=1))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,178 @@
+"""FE of the frozen joint as drawn: housing on its feet, pads, PCL, rotor, all tied; the core's top turns as one.
+
+python solve.py PARTS [...]: each a folder written by export_parts.py. Prints the joint's stiffness and each part's
+share of the compliance as 1/C_i with C_i = 2 U_i/T^2 [N*m/rad], U_i its strain energy: the C_i add up to the whole.
+What carries no torque (journal, hub above the floor, pins, posts) is cut away: it would touch its neighbour.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import yaml
+from netgen.occ import Cylinder, Dir, Glue, OCCGeometry, Pnt
+from ngsolve import (
+    CF,
+    TET,
+    VOL,
+    BilinearForm,
+    CGSolver,
+    Grad,
+    GridFunction,
+    Id,
+    IfPos,
+    InnerProduct,
+    Integrate,
+    IntegrationRule,
+    Mesh,
+    Preconditioner,
+    Sym,
+    TaskManager,
+    Trace,
+    VectorH1,
+    dx,
+    sqrt,
+    x,
+    y,
+    z,
+)  # fmt: skip
+
+RUBBERLIKE = 0.45  # Poisson's ratio of pads
+
+
+def tube(inner: float, outer: float, bottom: float, top: float):
+    """Ring about the axis [mm]."""
+    whole = Cylinder(Pnt(0, 0, bottom), Dir(0, 0, 1), r=outer, h=top - bottom)
+    return whole - Cylinder(Pnt(0, 0, bottom - 1), Dir(0, 0, 1), r=inner, h=top - bottom + 2) if inner else whole
+
+
+def parts(folder: Path, mm: dict[str, float]) -> list:
+    """Solids that carry the torque, named."""
+
+    def read(name: str):
+        return OCCGeometry(str(folder / f"{name}.step")).shape
+
+    far = 500.0
+    bottom, top = mm["rotor_bottom_level"], mm["rotor_top_level"]
+    blocks = mm.get("vane_count", 0.0) > 0.0
+    journal = mm["pcl_inner_radius"] - 0.3 if blocks else far
+    rotor = read("rotor") - tube(0, journal, -far, bottom) - tube(mm["pin_radius"] - mm["pin_diameter"], far, top, far)
+    if blocks:
+        inside = 0.5 * (mm["hub_radius"] + mm["pcl_inner_radius"])
+        housing = read("housing") - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    else:
+        wall = tube(mm["housing_inner_radius"], mm["housing_outer_radius"], 0.0, mm["rim_level"])
+        housing = (read("housing") - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
+    found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
+    for path in sorted(folder.glob("*.step")):
+        number = int(path.stem.split("_")[-1]) if path.stem[-1].isdigit() else 0
+        for kind, label, parity in (("pcl", "pcl", 1), ("peltier_pad", "pad", 0)):
+            if path.stem.startswith(kind) and (not blocks or number % 2 == parity):  # blocks of one sense are pressed
+                found.append((read(path.stem), label, SIZES["layer"]))
+    for shape, label, size in found:
+        for solid in shape.solids:
+            solid.name, solid.maxh = label, size
+    return [shape for shape, _, _ in found]
+
+
+SIZES = {"plate": 6.0, "housing": 12.0, "layer": float(os.environ.get("LAYER", "5"))}  # mm
+
+
+def solve(folder: Path, order: int = 2) -> dict[str, float]:
+    """Stiffness of the joint at the core's top and of each part [N*m/rad]; stresses at 1 N*m [MPa]."""
+    began = time.time()
+    inputs = json.loads((folder / "inputs.json").read_text())
+    mm, values = inputs["mm"], inputs["values"]
+    whole = Glue(parts(folder, mm))
+    ground = -mm["floor_thickness"] - mm["foot_height"]
+    top = mm["link_bottom_level"]
+    for face in whole.faces:
+        centre, low, high = face.center, face.bounding_box[0].z, face.bounding_box[1].z
+        flat, wide = high - low < 1e-4, face.bounding_box[1].x - face.bounding_box[0].x
+        beside = abs((centre.x**2 + centre.y**2) ** 0.5 - mm["placement_radius"]) < 0.2
+        if flat and abs(low - top) < 1e-3:
+            face.name = "turned"
+        elif flat and abs(low - ground) < 1e-3 and beside and wide < 3 * mm["mount_boss_radius"]:  # not the skirt
+            face.name = "fixed"
+        else:
+            face.name = "free"
+    named = [face.name for face in whole.faces]
+    print(folder.name, "feet", named.count("fixed"), "tops", named.count("turned"), file=sys.stderr, flush=True)
+    mesh = Mesh(
+        OCCGeometry(whole).GenerateMesh(maxh=12.0, grading=0.6, curvaturesafety=1.0, segmentsperedge=0.5)
+    ).Curve(order)
+    youngs = values["structure_youngs_modulus"] * 1e-6
+    shear = {"pcl": values["storage_modulus@cold"] * 1e-6, "pad": values["peltier_shear_modulus"] * 1e-6}
+    poisson = {"pcl": values["pcl_poissons_ratio"], "pad": RUBBERLIKE}
+    own = values["structure_poissons_ratio"]
+    mu = mesh.MaterialCF({**shear, "rotor": youngs / 2 / (1 + own), "housing": youngs / 2 / (1 + own)})
+    nu = mesh.MaterialCF({**poisson, "rotor": own, "housing": own})
+    lame = 2 * mu * nu / (1 - 2 * nu)
+    space = VectorH1(mesh, order=order, dirichlet="turned|fixed")
+    u, v = space.TnT()
+
+    def stress(strain):
+        return 2 * mu * strain + lame * Trace(strain) * Id(3)
+
+    with TaskManager():
+        form = BilinearForm(InnerProduct(stress(Sym(Grad(u))), Sym(Grad(v))) * dx, symmetric=True, condense=True)
+        pre = Preconditioner(form, "bddc")
+        form.Assemble()
+        found = GridFunction(space)
+        found.Set(CF((-y, x, 0)), definedon=mesh.Boundaries("turned"))
+        right = found.vec.CreateVector()
+        right.data = -form.mat * found.vec
+        inverse = CGSolver(form.mat, pre.mat, tol=1e-7, maxiter=600)
+        change = found.vec.CreateVector()
+        right.data += form.harmonic_extension_trans * right
+        change.data = inverse * right
+        found.vec.data += change
+        found.vec.data += form.harmonic_extension * found.vec
+        found.vec.data += form.inner_solve * right
+        strain = Sym(Grad(found))
+        density = InnerProduct(stress(strain), strain)  # twice the energy
+        core = IfPos(mm["core_radius"] + 0.01 - sqrt(x * x + y * y), 1, 0)
+        total = Integrate(density, mesh)
+        shares = {name: Integrate(density, mesh, definedon=mesh.Materials(name)) for name in ("pcl", "pad", "housing")}
+        if mm.get("vane_count"):
+            stands = IfPos(z, 1, 0)
+            hangs = IfPos(mm["rotor_bottom_level"] - z, 1, 0)
+            shares["housing_vanes"] = Integrate(stands * density, mesh, definedon=mesh.Materials("housing"))
+            shares["housing"] -= shares["housing_vanes"]
+            shares["rotor_vanes"] = Integrate(hangs * density, mesh, definedon=mesh.Materials("rotor"))
+        shares["core"] = Integrate(core * density, mesh, definedon=mesh.Materials("rotor"))
+        shares["plate"] = Integrate((1 - core) * density, mesh, definedon=mesh.Materials("rotor"))
+        shares["plate"] -= shares.get("rotor_vanes", 0.0)
+    torque = total  # N*mm at one radian
+    result = {"elements": mesh.ne, "unknowns": space.ndof, "hub": total * 1e-3}
+    result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
+    return result | _stresses(mesh, stress(strain), mm, torque) | {"seconds": time.time() - began}
+
+
+def _stresses(mesh, tensor, mm, torque) -> dict[str, float]:
+    """Layer's shear and core's von Mises stress [MPa] at one newton metre."""
+    points = mesh.MapToAllElements(IntegrationRule(TET, 2), VOL)
+    material = np.array([e.mat for e in mesh.Elements(VOL)])
+    each = len(points) // len(material)
+    names = np.repeat(material, each)
+    deviator = tensor - Trace(tensor) / 3 * Id(3)
+    mises = np.asarray(sqrt(1.5 * InnerProduct(deviator, deviator))(points)).ravel() * 1e3 / torque
+    sliding = np.asarray(sqrt(tensor[0, 2] ** 2 + tensor[1, 2] ** 2)(points)).ravel() * 1e3 / torque
+    level = np.asarray(z(points)).ravel()
+    layer = sliding[names == "pcl"]
+    shaft = (names == "rotor") & (level > mm["rotor_top_level"] + 1.0) & (level < mm["link_bottom_level"] - 1.0)
+    plain = shaft & (level < mm["link_bottom_level"] - mm["link_screw_depth"] - 1.0)
+    return {"layer_peak": layer.max(), "layer_99": np.quantile(layer, 0.99), "layer_mean": layer.mean(),
+            "core_mises": mises[shaft].max(), "core_mises_below_holes": mises[plain].max() if plain.any() else 0.0,
+            "core_mises_99": np.quantile(mises[shaft], 0.99)}  # fmt: skip
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        found = solve(Path(name))
+        print(yaml.safe_dump({Path(name).name: {k: float(f"{v:.4g}") for k, v in found.items()}}), flush=True)
