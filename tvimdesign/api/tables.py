@@ -61,7 +61,8 @@ def _stands(answered: AnsweredStudy) -> dict[str, str]:
 
 def _all_of(name: str, table: Table) -> list[str]:
     base, at, point = name.partition("@")
-    return [f"{part}{at}{point}" for part in table.output(base).least_of]
+    row = table.output(base)
+    return [f"{part}{at}{point}" for part in row.least_of or ((base, *row.also_limited) if row.also_limited else ())]
 
 
 def _status(name: str, design: Design, table: Table) -> str:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.study import Study, given
 
@@ -47,14 +47,15 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     `chosen` are records and options by name, so that rules of what the module lacks are left out; without them only
     those are that the study itself says it lacks.
     """
-    own = [
-        make_constraint(table, output, r.sense, r.limit, "require")
-        for r in study.require
-        for output in _behind(table, r.output, r.sense)
-    ]
-    taken = {(limit.output, limit.sense) for limit in own}
     said = study.module if chosen is None else chosen
     options = {row.name: said.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    asked = [
+        make_constraint(table, output, r.sense, r.limit, "require")
+        for r in study.require
+        for output in _behind(table.output(r.output), r.output, r.sense, options)
+    ]
+    own = list(dict.fromkeys(asked))
+    taken = {(limit.output, limit.sense) for limit in own}
     for row in table.outputs:
         for rule in row.rules if row.exists(options) else ():
             if (row.name, rule.sense) not in taken:
@@ -62,10 +63,12 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     return own
 
 
-def _behind(table: Table, name: str, sense: str) -> tuple[str, ...]:
-    """The rows a limit is put on: the named one, or each of those it is the least of."""
-    row = table.output(name)
-    return row.least_of if row.least_of and sense == ">=" else (name,)
+def _behind(row: Output, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
+    """The rows a limit is put on: the named one, those limited with it, or each of those it is the least of."""
+    rows = row.least_of if row.least_of and sense == ">=" else (name, *row.also_limited)
+    apart = row.parts_differ_with
+    alike = apart is not None and options.get(apart.choice) == apart.without
+    return rows[:1] if alike else rows
 
 
 def on_cycle(table: Table, output: str) -> bool:
