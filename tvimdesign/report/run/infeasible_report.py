@@ -47,6 +47,20 @@ def complaint(answer: StudyResult, table: Table) -> str:
     return "\n".join(lines)
 
 
+def above_rating(answer: StudyResult, table: Table) -> str:
+    """What to say of an optimum beyond ratings that the study does not accept; empty where it is beyond none."""
+    names = answer.design.above_rating
+    if answer.solution is None or not names:
+        return ""
+    checks = [check for check in answer.warnings if check.output in names]
+    lines = [f"{answer.design.name}: the optimum is beyond what its materials or bought parts are rated for:"]
+    lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-+')}: {check.origin}" for check in checks]
+    accepted = ", ".join([*answer.design.accepting, *names])
+    require = ", ".join(f'{name}: ">= 0 {table.unit(name)}"' for name in names)
+    lines.append(f"Accept that in the study, `accept: [{accepted}]`, or exclude it: `require: {{{require}}}`.")
+    return "\n".join(lines)
+
+
 def endings(starts: Sequence[Start]) -> list[str]:
     """The starts that did not converge, by how they ended, with what to do."""
     failed = Counter(start.status for start in starts if not start.converged)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -10,7 +10,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, Table
-from tvimdesign.device.table.quantity import Feature
+from tvimdesign.device.table.quantity import Feature, Rule
 from tvimdesign.study import Study, given
 
 
@@ -150,10 +150,19 @@ def impossible(values: Mapping[str, float], table: Table) -> list[str]:
 
 def advice_of(table: Table) -> list[Constraint]:
     """Return the limits that are reported where they are broken."""
+    return _reported(table, lambda row: row.advice)
+
+
+def ratings_of(table: Table) -> list[Constraint]:
+    """Return what materials and bought parts are rated for: no optimum is beyond one that the study does not accept."""
+    return _reported(table, lambda row: row.ratings)
+
+
+def _reported(table: Table, rules: Callable[[Output], tuple[Rule, ...]]) -> list[Constraint]:
     return [
         make_constraint(table, row.name, rule.sense, rule.value, rule.reason)
         for row in table.outputs
-        for rule in row.advice
+        for rule in rules(row)
     ]
 
 

@@ -93,6 +93,7 @@ def _of_checks(
         got = number(0.0 if abs(value) < _ROUND else value)
         if also := table.output(name).also_limited:
             got = _over(name, also, answer, table)
+    got += " ~" if any(name in one.as_drawn for one in answer.idealizations) else ""
     return Line(name, asked, got, _stands(answer, check, table), check.worst, rests_on)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from tvimdesign.device import Table
 from tvimdesign.report.run.first_screen.held_back import held_back_lines, yield_lines
+from tvimdesign.report.run.first_screen.qualifications import qualification_lines
 from tvimdesign.report.run.first_screen.requirements import Line, lines_of, screen_lines
 from tvimdesign.report.run.first_screen.verdict import chosen_lines, current_lines, header, module_lines, trade_lines
 from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_of
@@ -39,6 +40,7 @@ def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> l
     requirements = lines_of(answer, table, assumptions)
     top = [*header(answer, told.seconds, width), *_some(requirements, width)]
     if answer.found:
+        top += qualification_lines(answer, table, width)
         top += module_lines(answer, table, assumptions, width)
         top += chosen_lines(answer, table, width) + current_lines(answer, width)
         top += trade_lines(told.front, table, width)
