@@ -1,4 +1,4 @@
-"""An optimum beyond a rating is none unless its study accepts that: status, names, what is told, and what `check` says."""
+"""An optimum beyond a rating is none unless its study accepts that: status, names, and what is told where."""
 
 from __future__ import annotations
 
