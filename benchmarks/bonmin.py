@@ -18,9 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.derivatives import derivatives_of
@@ -65,9 +64,7 @@ def _alone(study: Study, reference: dict[str, float]) -> Chosen:
     """What the process of its own does."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     table = table_for(study.mode)
-    relaxation = Relaxation(
-        0, Optimizer(study, Catalog(), table, reference), {}, discrete_sizes(study, table), SolverEffort()
-    )
+    relaxation = Relaxation(0, Optimizer(study, reference), {}, discrete_sizes(study, table), SolverEffort())
     relaxation.starts()
     return _search(relaxation.optimizer, relaxation.sizes, relaxation.optima[0])
 

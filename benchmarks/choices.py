@@ -17,7 +17,6 @@ from pathlib import Path
 from bonmin import best_by_bonmin
 from reference_problem import study_of_sizes
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
@@ -89,7 +88,7 @@ def compare(study: Study, weights: dict[str, float], ways: Sequence[str]) -> str
     table = table_for(study.mode)
     sizes = discrete_sizes(asked, table)
     begin = time.process_time()
-    relaxation = Relaxation(0, Optimizer(asked, Catalog(), table), {}, sizes, SolverEffort())
+    relaxation = Relaxation(0, Optimizer(asked), {}, sizes, SolverEffort())
     relaxation.starts()
     built = time.process_time() - begin
     results = {how: clocked(relaxation, how) for how in ways}

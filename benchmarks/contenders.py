@@ -19,11 +19,9 @@ from reference_problem import LONGEST, Heat, Reference, study
 from scipy.integrate import solve_ivp
 from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
-from tvimdesign.simulation import device_functions, phase_functions
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.working_cycle import device_functions, phase_functions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.solve.nlp.transcription import radau
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -57,7 +55,7 @@ class Contender:
 def by_tvimdesign(_: Reference, begin: Array) -> Found:
     """Build and solve, as `tvimdesign run` does for one start."""
     asked = study()
-    optimizer = Optimizer(asked, Catalog(), table_for(asked.mode))
+    optimizer = Optimizer(asked)
     inputs = optimizer.model.start.copy()
     places = [optimizer.model.index[free.name] for free in optimizer.free]
     inputs[places] = begin
@@ -75,7 +73,7 @@ class Built:
     def build(self, reference: Reference) -> None:
         """Build, and solve once, which is when CasADi builds the solver."""
         asked = study()
-        self._optimizer = Optimizer(asked, Catalog(), table_for(asked.mode))
+        self._optimizer = Optimizer(asked)
         self.solve(reference, reference.begin)
 
     def solve(self, reference: Reference, begin: Array) -> Found:

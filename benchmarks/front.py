@@ -23,8 +23,6 @@ from numpy.typing import NDArray
 from quick import Quick
 from reference_problem import LONGEST, Reference, study
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
 from tvimdesign.solve.nlp.solver_run import Run
@@ -121,7 +119,7 @@ def ours(reference: Reference, outputs: tuple[str, ...], points: int) -> Ours:
         built.append((optimizer, runs))
 
     began = time.process_time()
-    solution = optimize(asked, Catalog(), table_for(asked.mode), keep=keep, objectives=outputs)
+    solution = optimize(asked, keep=keep, objectives=outputs)
     found = time.process_time()
     optimizer, runs = built[0]
     front = trace_front(Tradeoff(asked, solution, optimizer, runs), outputs, points)

@@ -24,7 +24,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import TvimError
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
 from tvimdesign.device.table.quantity import FirstOscillation, Output, Supplied
 from tvimdesign.study import Study, given, read_study
@@ -63,7 +62,7 @@ class Draws:
         """`seed` makes the same designs again."""
         self.study = study
         self.table: Table = table_for(study.mode)
-        self._known = given(study, Catalog(), self.table)
+        self._known = given(study)
         if not study.vary:
             raise SystemExit(f"{study.name} varies nothing: choose a study with a vary section")
         self._random = np.random.default_rng(seed)

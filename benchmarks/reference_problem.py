@@ -17,10 +17,8 @@ import yaml
 from numpy.typing import NDArray
 from quick import Quick
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import impossible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study
@@ -70,8 +68,7 @@ class Reference:
 
     def __init__(self, asked: Study) -> None:
         """Compile them once; no contender is charged for it but tvimdesign, which builds its own."""
-        catalog, table = Catalog(), table_for(asked.mode)
-        self.optimizer = Optimizer(asked, catalog, table)
+        self.optimizer = Optimizer(asked)
         model, problem = self.optimizer.model, self.optimizer.problem
         self.model, self.limits, self.free = model, problem.limits, self.optimizer.free
         self.places = [model.index[free.name] for free in self.free]

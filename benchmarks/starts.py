@@ -10,7 +10,6 @@ import time
 
 from reference_problem import study
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
@@ -28,7 +27,7 @@ def main() -> None:
     asked = asked.model_copy(update={"solver": asked.solver.model_copy(update={"starts": count})})
     table = table_for(asked.mode)
     begin = time.process_time()
-    relaxation = Relaxation(0, Optimizer(asked, Catalog(), table), {}, discrete_sizes(asked, table), Work())
+    relaxation = Relaxation(0, Optimizer(asked), {}, discrete_sizes(asked, table), Work())
     starts = [run.start for run in relaxation.starts()]
     seconds = time.process_time() - begin
     converged = [start for start in starts if start.converged]

@@ -15,11 +15,10 @@ from pathlib import Path
 
 import numpy as np
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel, of_columns
 from tvimdesign.study import given, read_study
@@ -41,7 +40,7 @@ def main() -> None:
     asked = parser.parse_args()
     study = read_study(asked.study)
     table = table_for(study.mode)
-    known = given(study, Catalog(), table)
+    known = given(study)
     model = DeviceFunctions(table, known, tuple(study.operating_points), study.solver.cells)
     arithmetic(model, asked.designs)
     for event in ("far_face_time", "softening_time"):

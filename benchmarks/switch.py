@@ -21,13 +21,12 @@ from numpy.typing import NDArray
 from quick import Quick
 from scipy.integrate import solve_ivp
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.device.core import thermal_stack
 from tvimdesign.physics import heat, layer, polymer
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
 Array = NDArray[np.float64]
@@ -206,7 +205,7 @@ def main() -> None:
     chosen = parser.parse_args()
     study = read_study(STUDY)
     rows = table_for(study.mode)
-    model = DeviceFunctions(rows, given(study, Catalog(), rows), tuple(study.operating_points), study.solver.cells)
+    model = DeviceFunctions(rows, given(study), tuple(study.operating_points), study.solver.cells)
     text = "\n\n".join(table(model, wanted, chosen.repeats) for wanted in (None, 1e-4))
     print(text)
     if chosen.out:

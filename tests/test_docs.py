@@ -11,7 +11,6 @@ import yaml
 from support import ROOT, STUDIES, Command
 
 from tvimdesign.catalog import Catalog, check_records
-from tvimdesign.device import table_for
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study, read_study_text
 
@@ -50,7 +49,7 @@ def test_the_readme_shows_every_study_with_its_picture() -> None:
 @pytest.mark.parametrize("study", STUDIES, ids=lambda path: str(path.stem))
 def test_sizes_and_times_of_the_studies_are_what_they_come_to(study: Path) -> None:
     read = read_study(study)
-    values = answer(read, Catalog(), table_for(read.mode)).design.values
+    values = answer(read).design.values
     size, mass, soft = (values[name] for name in ("envelope_diameter", "module_mass", "softening_time"))
     assert _study_rows()[study.stem][3] == f"{1e3 * size:.0f} mm, {1e3 * mass:.0f} g, soft after {soft:.0f} s"
 
@@ -58,7 +57,7 @@ def test_sizes_and_times_of_the_studies_are_what_they_come_to(study: Path) -> No
 @pytest.mark.parametrize(("study", "column"), [("paper_as_published", 1), ("paper_shear", 2)])
 def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column: int) -> None:
     read = read_study(ROOT / f"studies/{study}.yaml")
-    values = answer(read, Catalog(), table_for(read.mode)).design.values
+    values = answer(read).design.values
     cold, hot = values["joint_stiffness@cold"], values["joint_stiffness@hot"]
     expected = {
         "envelope": f"{1e3 * values['envelope_diameter']:.0f} mm x {1e3 * values['envelope_height']:.1f} mm",
@@ -79,7 +78,7 @@ def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column:
 
 def test_the_study_in_the_readme_has_an_optimum() -> None:
     study = read_study_text(_blocks("yaml")[0], "README.md")
-    assert answer(study, Catalog(), table_for(study.mode)).design.status == "optimal"
+    assert answer(study).design.status == "optimal"
 
 
 @pytest.mark.slow
@@ -105,7 +104,7 @@ def test_the_record_in_the_docs_is_one_that_can_be_used(tmp_path: Path) -> None:
     assert check_records(catalog) == []
     text = f"mode: shear\ncatalog: {tmp_path}\nmodule: {{peltier_module: my_pad}}\n"
     study = read_study_text(text, "docs/catalogue.md")
-    assert answer(study, catalog, table_for("shear")).design.choices["peltier_module"] == "my_pad"
+    assert answer(study).design.choices["peltier_module"] == "my_pad"
 
 
 def test_links_lead_somewhere() -> None:

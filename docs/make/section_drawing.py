@@ -22,7 +22,6 @@ from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, kind_of
 from tvimdesign.cad.geometry.solids import turned
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, table_for
 from tvimdesign.study import given, read_study
 
@@ -41,7 +40,7 @@ def start(study: str) -> Dimensions:
     """Dimensions of a study's module as the study starts, in mm."""
     read = read_study(ROOT / f"studies/{study}.yaml")
     table = table_for(read.mode)
-    known = table.settled(given(read, Catalog(), table))
+    known = table.settled(given(read))
     scale = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
     values = {
         quantity.name: float(known[quantity.name]) * scale[quantity.unit]

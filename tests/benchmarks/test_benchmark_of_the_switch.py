@@ -6,17 +6,15 @@ import numpy as np
 import pytest
 import switch
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
 
 @pytest.fixture(scope="module")
 def model() -> DeviceFunctions:
     study = read_study(switch.STUDY)
-    table = table_for(study.mode)
-    return DeviceFunctions(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+    table = study.table
+    return DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
 
 
 def test_equations_by_hand_and_compiled_are_the_same(model: DeviceFunctions) -> None:

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from support import fine
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Supplied, Table, table_for
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.study import given, read_study_text
 
 POINTS = ("cold", "hot")
@@ -18,7 +17,7 @@ POINTS = ("cold", "hot")
 
 def inputs_of(mode: str = "shear", **module: float | str) -> dict[str, Any]:
     """Inputs and choices of a module that is the default one but for what is said (SI)."""
-    found = given(read_study_text(f"mode: {mode}\n", "a test"), Catalog(), table_for(mode))
+    found = given(read_study_text(f"mode: {mode}\n", "a test"))
     return {**found, **module}
 
 

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tvimdesign.cad import CadReport
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.device.table.quantity import Event
 from tvimdesign.device.table.quantity import Path as SwitchPath
@@ -77,7 +76,7 @@ CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
 def given(overrides: Mapping[str, float | str], mode: str) -> dict[str, Any]:
     """Every input and choice of a mode at its default, but for the overrides."""
     study = read_study_text(f"mode: {mode}\n", "a test").model_copy(update={"module": dict(overrides)})
-    return resolve(study, Catalog(), table_for(mode))
+    return resolve(study)
 
 
 def design_of(name: str, overrides: Mapping[str, float | str], mode: str = "shear") -> Design:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Options, Study, read_study_text
 
@@ -43,7 +41,7 @@ def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> di
     """
     lists = {name: vary.values for name, vary in study.vary.items() if isinstance(vary, Options)}
     asked = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": starts})})
-    optimizer = Optimizer(asked, Catalog(), table_for(study.mode), reference)
+    optimizer = Optimizer(asked, reference)
     begins = list(optimizer.multistart.points())
     found: dict[tuple[float, ...], float] = {}
     for combination in itertools.product(*lists.values()):

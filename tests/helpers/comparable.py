@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.study import read_study
 from tvimdesign.study.conditions import Entrant
 
@@ -69,4 +67,4 @@ def entrants(folder: Path, *texts: str) -> list[Entrant]:
     """Studies of these texts as the comparison takes them."""
     paths = written(folder, **{f"study_{i}": text for i, text in enumerate(texts)})
     studies = [(path, read_study(path)) for path in paths]
-    return [Entrant(path, study, Catalog(), table_for(study.mode)) for path, study in studies]
+    return [Entrant(path, study) for path, study in studies]

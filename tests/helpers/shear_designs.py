@@ -7,10 +7,9 @@ from typing import Any
 import pytest
 from support import fine
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.study import given, read_study_text
 
 Build = Callable[..., DeviceFunctions]
@@ -31,9 +30,9 @@ def build() -> Build:
 
     @cache
     def make(design: str = "as it is", cells: int = 12, rotor_cells: int | None = None) -> DeviceFunctions:
-        catalog, table = Catalog(), table_for("shear")
+        table = table_for("shear")
         study = read_study_text("mode: shear\n", "a test").model_copy(update={"module": DESIGNS[design]})
-        inputs: dict[str, Any] = given(study, catalog, table)
+        inputs: dict[str, Any] = given(study)
         if rotor_cells is not None:
             inputs["rotor_cells"] = rotor_cells
         return DeviceFunctions(table, inputs, ("cold", "hot"), cells)

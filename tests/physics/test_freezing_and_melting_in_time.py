@@ -14,7 +14,7 @@ from scipy.integrate import quad, solve_ivp
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics import crystallization, polymer
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 Array = NDArray[np.float64]
 CELSIUS = 273.15

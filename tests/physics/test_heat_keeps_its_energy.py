@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from tvimdesign.physics import heat, peltier, polymer
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 AREA = 1579.2e-6  # m^2, Exley et al., table I
 AMBIENT, TARGET = 295.15, 373.15

@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.physics import hold, laplace
 from tvimdesign.physics.motion import Modes
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.symbols import symbols
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import symbols
 
 SPRINGS, STRUCTURE, LOAD = 5.61, 919.0, 0.583
 MELT = [(2.07e-2, 82.0), (6.5e-3, 104.0), (2.07e-3, 131.0), (6.5e-4, 165.0), (2.07e-4, 207.0), (6.5e-5, 261.0)]

@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from tvimdesign.catalog import Catalog, Record
+from tvimdesign.base.record import Record
+from tvimdesign.catalog import Catalog
 from tvimdesign.device.core.joint_impedance import melt_modes
 from tvimdesign.physics import polymer
 

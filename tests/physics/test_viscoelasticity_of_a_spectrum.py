@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from tvimdesign.base.errors import InputError
 from tvimdesign.physics import viscoelasticity
 from tvimdesign.physics.polymer import maxwell_moduli
 from tvimdesign.physics.viscoelasticity import creep_compliance, relaxation_modulus, retardation
@@ -173,26 +172,3 @@ def test_long_after_a_ramp_a_melt_has_a_tiny_stress_and_not_none() -> None:
     # One mode by hand: s' = G g' - s/tau gives G g' tau (1 - exp(-t_r/tau)) at the end of the rise, fading from there.
     by_hand = 1e5 * (0.1 / 0.1) * 0.02 * (1.0 - math.exp(-5.0)) * math.exp(-0.9 / 0.02)
     assert viscoelasticity.ramped_stress(1.0, 0.1, 0.1, [(0.02, 1e5)]) == pytest.approx(by_hand, rel=1e-9, abs=0.0)
-
-
-@pytest.mark.parametrize(
-    ("modes", "said"),
-    [
-        ([], "here: the spectrum has no modes; expected at least one"),
-        ([(1.0, 5.0), (0.1, -2.5)], "here: mode 2 has the modulus -2.5 Pa; expected a number greater than zero"),
-        ([(0.0, 5.0)], "here: mode 1 has the relaxation time 0 s; expected a number greater than zero"),
-        ([(1.0, math.nan)], "here: mode 1 has the modulus nan Pa"),
-        ([(math.inf, 1.0)], "here: mode 1 has the relaxation time inf s"),
-    ],
-)
-def test_what_is_no_spectrum_is_refused_with_the_value_and_its_place(modes: Modes, said: str) -> None:
-    with pytest.raises(InputError) as caught:
-        viscoelasticity.check_spectrum(modes, "here")
-    assert str(caught.value).startswith(said)
-
-
-def test_numbers_that_do_not_rise_are_refused_with_the_value_and_its_place() -> None:
-    viscoelasticity.check_rising([1.0, 2.0, 3.0], "there", "K")
-    for values in ([1.0, 3.0, 2.0], [1.0, 3.0, 3.0], [1.0, 3.0, math.nan]):
-        with pytest.raises(InputError, match=r"there: value 3 is \S+ K and follows 3 K; expected rising values"):
-            viscoelasticity.check_rising(values, "there", "K")

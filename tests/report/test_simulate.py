@@ -9,7 +9,7 @@ import pytest
 from support import Command
 
 from tvimdesign.report.simulate_study import figure_data, findings, sheet_csv
-from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 SHEET = CurveTable(
     "warm",

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
@@ -39,7 +37,7 @@ solver: {starts: 7, seed: 1}
 
 
 def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
-    solution = optimize(read_study_text(SMALL, "test"), Catalog(), table_for("compression"), lambda _: None)
+    solution = optimize(read_study_text(SMALL, "test"), lambda _: None)
     assert solution.status == "optimal"
     assert solution.feasible
     assert all(start.converged for start in solution.starts)
@@ -56,7 +54,7 @@ def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
 def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most: str) -> None:
     def solved(more: str) -> Solution:
         text = SMALL.replace("minimize:", f"{more}minimize:").replace("starts: 7", "starts: 2")
-        return optimize(read_study_text(text, "test"), Catalog(), table_for("compression"), lambda _: None)
+        return optimize(read_study_text(text, "test"), lambda _: None)
 
     free, held = solved(""), solved(f'  {row}: "{most}"\n')
     limit = float(most.split()[1])

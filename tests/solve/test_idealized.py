@@ -8,7 +8,6 @@ import io
 import pytest
 from support import ROOT
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
 from tvimdesign.report.run.first_screen.qualifications import qualification_lines
@@ -20,7 +19,7 @@ TABLE = table_for("shear")
 
 @pytest.fixture(scope="module")
 def published() -> StudyResult:
-    return answer(read_study(ROOT / "studies/paper_as_published.yaml"), Catalog(), TABLE)
+    return answer(read_study(ROOT / "studies/paper_as_published.yaml"))
 
 
 def test_the_papers_ratio_is_told_with_the_stiffness_as_drawn(published: StudyResult) -> None:
@@ -48,7 +47,7 @@ def test_they_are_marked_where_they_are_told(published: StudyResult) -> None:
 
 
 def test_a_study_as_drawn_has_none() -> None:
-    found = answer(read_study_text("mode: shear\n"), Catalog(), TABLE)
+    found = answer(read_study_text("mode: shear\n"))
     assert found.idealizations == ()
     assert not any(row["idealized"] for row in results(found, TABLE)["values"].values())
 
@@ -63,6 +62,6 @@ def test_every_idealization_of_the_table_is_no_default_and_says_what_it_leaves_o
 
 def test_a_layer_that_freezes_where_it_melts_changes_times_alone() -> None:
     study = read_study_text("mode: shear\nmodule: {phase_model: equilibrium}\n")
-    (one,) = answer(study, Catalog(), TABLE).idealizations
+    (one,) = answer(study).idealizations
     assert "stiffening_time" in one.as_drawn
     assert "spring_stiffness" not in one.as_drawn

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.trajectory import Trajectory
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
@@ -53,7 +52,7 @@ TOLERANCE = 2e-3  # share of a limit: the peaks of the equations are at their po
 
 @cache
 def solve(text: str) -> Solution:
-    return optimize(read_study_text(text, "a test"), Catalog(), TABLE)
+    return optimize(read_study_text(text, "a test"))
 
 
 def with_pieces(pieces: int, text: str = HEATING) -> str:

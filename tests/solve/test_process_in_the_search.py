@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study_text
 
@@ -23,7 +21,7 @@ solver: {{starts: 1}}
 
 @pytest.mark.parametrize(("process", "wall"), [("print_petg", 1.2e-3), ("machine_6061", 1.0e-3)])
 def test_walls_end_where_the_process_ends(process: str, wall: float) -> None:
-    found = answer(read_study_text(STUDY.format(process=process), "a test"), Catalog(), table_for("shear")).design
+    found = answer(read_study_text(STUDY.format(process=process), "a test")).design
     assert found.status == "optimal"
     assert found.values["wall_thickness"] == pytest.approx(wall, rel=1e-4)
     # Keys in the plate would want more of it; they are left out.

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 from support import Command
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.check_study import foreseen_ratings
 from tvimdesign.report.run.first_screen.qualifications import qualification_lines
@@ -38,7 +37,7 @@ ACCEPTED = f"accept: [{', '.join((*BOTH, PADS))}]\n"
 @cache
 def answered(accept: str = "", *, searched: bool = True) -> StudyResult:
     text = SEARCHED + accept if searched else f"mode: shear\n{accept}"
-    return answer(read_study_text(text), Catalog(), TABLE)
+    return answer(read_study_text(text))
 
 
 def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
@@ -87,7 +86,7 @@ def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
 def test_a_cooler_switch_is_within_every_rating() -> None:
     cool = "module: {process: machine_6061, target_temperature: 70 degC}\n"
     points = "operating_points: {hot: {temperature: 70 degC}}\n"
-    found = answer(read_study_text(f"{SEARCHED}{cool}{points}"), Catalog(), TABLE)
+    found = answer(read_study_text(f"{SEARCHED}{cool}{points}"))
     assert (found.design.status, status(found)) == ("optimal", "OPTIMAL")
 
 

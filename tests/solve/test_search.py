@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from support import ROOT
 
 from tvimdesign.base.errors import InfeasibleError, InputError
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
@@ -36,7 +33,7 @@ solver: {starts: 1}
 
 
 def _solve(study: Study) -> Solution:
-    return optimize(study, Catalog(), TABLE)
+    return optimize(study)
 
 
 def _study(text: str) -> Study:
@@ -90,7 +87,7 @@ def test_the_optimum_is_feasible_outside_the_solver(paper: Solution) -> None:
 def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: Solution) -> None:
     """Ten times the cells in layer and rotor, scipy's Radau at a tolerance far below a tenth of the step."""
     study = read_study(ROOT / "studies/paper_shear.yaml")
-    fine = dict(given(study, Catalog(), TABLE))
+    fine = dict(given(study))
     coarse = paper.model
     fine.update({name: float(paper.inputs[i]) for name, i in coarse.index.items()})
     fine["rotor_cells"] = 10 * int(fine["rotor_cells"])
@@ -223,8 +220,8 @@ def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
         assert weak.starts[0].end[name] == pytest.approx(reference.starts[0].end[name], rel=1e-3)
 
 
-def test_advice_that_is_not_followed_is_told(tmp_path: Path) -> None:
-    found = answer(_study("mode: shear\n"), Catalog(tmp_path), TABLE)
+def test_advice_that_is_not_followed_is_told() -> None:
+    found = answer(_study("mode: shear\n"))
     assert "structure_temperature_margin" in {warning.output for warning in found.warnings}
 
 

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
@@ -15,7 +13,7 @@ QUICK = "cold_side: sink, pcl_thickness: 0.6 mm, cooling_current: 1.5 A, stiffen
 
 def answered(module: str, points: str = "") -> StudyResult:
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n{points}", "a test")
-    return answer(study, Catalog(), table_for("shear"))
+    return answer(study)
 
 
 def warned(found: StudyResult) -> set[str]:

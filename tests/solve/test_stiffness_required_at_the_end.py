@@ -8,10 +8,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Cycle, Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
@@ -33,7 +31,7 @@ solver: {{starts: 1}}
 @cache
 def _answer(more: str = "", criterion: str = "mean") -> StudyResult:
     study = read_study_text(STUDY.format(criterion=criterion, more=more), "test")
-    return answer(study, Catalog(), table_for("shear"))
+    return answer(study)
 
 
 def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None:
@@ -111,5 +109,5 @@ def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, r
 
 def test_the_compression_module_has_them_too() -> None:
     study = read_study_text("mode: compression\nmodule: {response_criterion: softening}\n", "test")
-    values = answer(study, Catalog(), table_for("compression")).design.values
+    values = answer(study).design.values
     assert values["softened_impedance"] == pytest.approx(values["soft_threshold"], rel=1e-4)

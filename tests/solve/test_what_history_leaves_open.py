@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.device.core.joint_impedance import melt_modes
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
@@ -15,7 +14,7 @@ POINTS = "operating_points: {{cold: {{temperature: {cold} degC}}, hot: {{tempera
 
 def answered(module: str, cold: float = 30.0, hot: float = 100.0) -> StudyResult:
     text = f"mode: shear\nmodule: {{{module}}}\n" + POINTS.format(cold=cold, hot=hot)
-    return answer(read_study_text(text, "a test"), Catalog(), table_for("shear"))
+    return answer(read_study_text(text, "a test"))
 
 
 def liquid_impedance(found: StudyResult, celsius: float) -> complex:
@@ -72,7 +71,7 @@ def test_a_limit_that_only_some_histories_keep_is_undecided_and_the_design_carri
     points = "operating_points: {warm: {temperature: 60 degC}}\n"
     require = "require: {joint_stiffness@warm: '>= 100 N.m/rad', joint_stiffness@hot: '>= 1 N.m/rad'}\n"
     study = read_study_text(f"mode: shear\n{points}{require}", "a test")
-    found = answer(study, Catalog(), table_for("shear"))
+    found = answer(study)
     assert [check.output for check in found.undecided] == ["joint_stiffness@warm"]
     low, high = found.design.intervals["joint_stiffness@warm"]
     assert low == pytest.approx(liquid_impedance(found, 60.0).real, rel=1e-6)

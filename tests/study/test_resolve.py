@@ -6,7 +6,6 @@ from typing import Any
 import pytest
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.device import Table
 from tvimdesign.study import Study, given
 
 Read = Callable[..., Study]
@@ -14,32 +13,33 @@ BASE = "mode: shear\nmodule: {pcl_thickness: 1 mm, %s}\n"
 VARY = "minimize: module_mass\nvary: {%s}\n"
 
 
-def _given(read: Read, catalog: Any, table: Table, module: str = "", more: str = "") -> dict[str, Any]:
-    return given(read(BASE % module + more), catalog, table)
+def _given(read: Read, module: str = "", more: str = "") -> dict[str, Any]:
+    return given(read(BASE % module + more))
 
 
-def test_every_input_and_choice_has_a_value(read: Read, catalog: Any, table: Table) -> None:
-    found = _given(read, catalog, table, "wire_diameter: 2 mm", "operating_points: {warm: {temperature: 60 degC}}")
-    points = {f"{row.name}@{point}" for row in table.inputs if row.per_point for point in ("cold", "hot", "warm")}
-    fixed = {row.name for row in table.inputs if not row.per_point}
-    assert set(found) == points | fixed | {row.name for row in table.choices}
+def test_every_input_and_choice_has_a_value(read: Read) -> None:
+    study = read(BASE % "wire_diameter: 2 mm" + "operating_points: {warm: {temperature: 60 degC}}")
+    found = given(study)
+    points = {f"{row.name}@{point}" for row in study.table.inputs if row.per_point for point in ("cold", "hot", "warm")}
+    fixed = {row.name for row in study.table.inputs if not row.per_point}
+    assert set(found) == points | fixed | {row.name for row in study.table.choices}
     assert found["wire_diameter"] == pytest.approx(2e-3)
     assert found["coil_diameter"] == 24e-3
     assert found["temperature@warm"] == pytest.approx(333.15)
     assert (found["rate_model"], found["peltier"].name) == ("bending", "flexible_1600")
 
 
-def test_the_study_before_the_record_before_the_default(read: Read, catalog: Any, table: Table) -> None:
-    assert _given(read, catalog, table)["youngs_modulus"] == 203.4e9
-    assert _given(read, catalog, table, "spring_material: stainless_302")["youngs_modulus"] == 193e9
-    assert _given(read, catalog, table, "youngs_modulus: 200 GPa")["youngs_modulus"] == pytest.approx(200e9)
+def test_the_study_before_the_record_before_the_default(read: Read) -> None:
+    assert _given(read)["youngs_modulus"] == 203.4e9
+    assert _given(read, "spring_material: stainless_302")["youngs_modulus"] == 193e9
+    assert _given(read, "youngs_modulus: 200 GPa")["youngs_modulus"] == pytest.approx(200e9)
 
 
-def test_what_has_no_value_is_named(read: Read, catalog: Any, table: Table) -> None:
+def test_what_has_no_value_is_named(read: Read) -> None:
     with pytest.raises(InputError, match="pcl_thickness has no value; give it under `module`, in mm"):
-        given(read("mode: shear"), catalog, table)
+        given(read("mode: shear"))
     with pytest.raises(InputError, match=r"youngs_modulus has no value \(mystery_steel has no value"):
-        _given(read, catalog, table, "spring_material: mystery_steel")
+        _given(read, "spring_material: mystery_steel")
 
 
 @pytest.mark.parametrize(
@@ -58,25 +58,22 @@ def test_what_has_no_value_is_named(read: Read, catalog: Any, table: Table) -> N
         ("rate_model: smi", "rate_model: {choose: [bending, smi]}", "rate_model", "smi"),
     ],
 )
-def test_what_varies_starts_within(
-    read: Read, catalog: Any, table: Table, *, module: str, vary: str, name: str, value: float | str
-) -> None:
-    found = _given(read, catalog, table, module, VARY % vary)[name]
+def test_what_varies_starts_within(read: Read, *, module: str, vary: str, name: str, value: float | str) -> None:
+    found = _given(read, module, VARY % vary)[name]
     assert found == (value if isinstance(value, str) else pytest.approx(value))
 
 
-def test_a_varied_input_without_any_value_starts_in_the_middle(read: Read, catalog: Any, table: Table) -> None:
+def test_a_varied_input_without_any_value_starts_in_the_middle(read: Read) -> None:
     study = read("mode: shear\n" + VARY % "pcl_thickness: [1 mm, 2 mm]")
-    assert given(study, catalog, table)["pcl_thickness"] == pytest.approx(1.5e-3)
+    assert given(study)["pcl_thickness"] == pytest.approx(1.5e-3)
 
 
-def test_a_varied_record_takes_its_fields_along(read: Read, catalog: Any, table: Table) -> None:
-    found = _given(read, catalog, table, "", VARY % "spring_material: {choose: [stainless_302]}")
+def test_a_varied_record_takes_its_fields_along(read: Read) -> None:
+    found = _given(read, "", VARY % "spring_material: {choose: [stainless_302]}")
     assert found["youngs_modulus"] == 193e9
 
 
-def test_the_table_accepts_it(read: Read, catalog: Any, table: Table) -> None:
-    found = _given(read, catalog, table)
-    assert table.evaluate(found, ["joint_stiffness@hot", "envelope_diameter"])["envelope_diameter"] == pytest.approx(
-        0.138
-    )
+def test_the_table_accepts_it(read: Read) -> None:
+    study = read(BASE % "")
+    found = study.table.evaluate(given(study), ["joint_stiffness@hot", "envelope_diameter"])
+    assert found["envelope_diameter"] == pytest.approx(0.138)

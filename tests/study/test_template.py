@@ -2,8 +2,6 @@
 
 import re
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.study import given, read_study_text, template_text
 from tvimdesign.study.tree import SECTIONS
 
@@ -11,7 +9,7 @@ from tvimdesign.study.tree import SECTIONS
 def test_the_template_is_a_study() -> None:
     study = read_study_text(template_text(), "template.yaml")
     assert study.task == "optimize"
-    assert given(study, Catalog(), table_for("shear"))["spring_material"].name == study.module["spring_material"]
+    assert given(study)["spring_material"].name == study.module["spring_material"]
 
 
 def test_its_commented_lines_are_good_too() -> None:

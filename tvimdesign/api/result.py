@@ -91,7 +91,7 @@ class Result:
         """The result of an answer. Raises NoDesignError where there is no design."""
         result = cls(answered)
         if not answered.result.found:
-            raise NoDesignError(complaint(answered.result, answered.table), result)
+            raise NoDesignError(complaint(answered.result, answered.study.table), result)
         return result
 
     @property
@@ -137,7 +137,7 @@ class Result:
 
     def __getitem__(self, name: str) -> Quantity | Any:
         """A value by its full name, `row` or `row@point`, in the row's unit; a choice's word. Raises InputError."""
-        design, table = self.design, self._answered.table
+        design, table = self.design, self._answered.study.table
         if name in design.choices:
             return design.choices[name]
         if name not in design.values:
@@ -159,7 +159,7 @@ class Result:
 
     def why(self) -> Reasons:
         """What holds the design back, and what easing it would buy."""
-        found, table = self._answered.result, self._answered.table
+        found, table = self._answered.result, self._answered.study.table
         return Reasons(tuple(sentences(found)), tuple(why_rows(found, table)))
 
     # --- figures ---
@@ -223,14 +223,14 @@ class Result:
     # --- what it looks like ---
 
     def _margin(self, check: Any) -> str:
-        return margin_text(check, self._answered.table).lstrip("-+")
+        return margin_text(check, self._answered.study.table).lstrip("-+")
 
     def __repr__(self) -> str:
         """Name, mode and status in a line."""
         return f"<Result {self.name!r}: {self.design.mode} mode, {self.status}>"
 
     def _repr_html_(self) -> str:
-        found, table = self._answered.result, self._answered.table
+        found, table = self._answered.result, self._answered.study.table
         rows = [
             (check.text, value_text(found, check.output, table), "kept" if check.kept else "broken", margin)
             for check in found.checks if check.origin == "require" for margin in (margin_text(check, table),)

@@ -12,7 +12,7 @@ from tvimdesign.api import html
 from tvimdesign.api.shown_progress import shown_progress
 from tvimdesign.base.units import format_quantity
 from tvimdesign.base.whole_files import write_whole
-from tvimdesign.study import Range, catalog_of, read_tree
+from tvimdesign.study import Range, read_tree
 from tvimdesign.study import Study as ResolvedStudy
 from tvimdesign.study.template import example_text
 from tvimdesign.study.text.mistakes import Mistakes
@@ -155,12 +155,11 @@ class Study:
         Raises StudyError for every mistake, InputError for a module that cannot be, InfeasibleError for limits that
         bounds prove impossible.
         """
-        from tvimdesign.device import table_for
         from tvimdesign.report.run.check_study import foreseen_ratings, refuse_what_cannot_be
-        from tvimdesign.report.run.record_checks import record_checks
+        from tvimdesign.study.record_checks import record_checks
 
         study = refuse_what_cannot_be(self.resolved)
-        return [*record_checks(study, catalog_of(study), table_for(study.mode)), *foreseen_ratings(study)]
+        return [*record_checks(study), *foreseen_ratings(study)]
 
     def run(self, *, sensitivities: bool = False, prove: bool = False, progress: bool = True) -> Result:
         """Evaluate or optimise the study, as `tvimdesign run` does, without writing a file.
@@ -220,15 +219,10 @@ def _written(tree: StudyTree, section: str) -> list[tuple[str, Any]]:
 
 
 def _range(name: str, study: ResolvedStudy) -> str:
-    from tvimdesign.device import Choice, table_for
-
-    row, vary = table_for(study.mode).quantity(name), study.vary[name]
+    vary = study.vary[name]
     if isinstance(vary, Range):
         values: Sequence[float | str] = (vary.lower, vary.upper)
     else:
         values = vary.values
-    shown = [
-        value if isinstance(value, str) or isinstance(row, Choice) else format_quantity(value, row.unit)
-        for value in values
-    ]
+    shown = [value if isinstance(value, str) else format_quantity(value, study.table.unit(name)) for value in values]
     return " to ".join(map(str, shown)) if isinstance(vary, Range) else "one of " + ", ".join(map(str, shown))

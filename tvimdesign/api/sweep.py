@@ -14,10 +14,8 @@ from tvimdesign.api.result import Result
 from tvimdesign.api.shown_progress import shown_progress
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.compare.normalization import at_its_start, common
+from tvimdesign.report.compare.answer_series import AnswerSeries
 from tvimdesign.report.output.progress import Progress
-from tvimdesign.report.run.answered_study import answer_study
-from tvimdesign.solve.warm_search import WarmSearch
 from tvimdesign.study import Study as ResolvedStudy
 from tvimdesign.study.tree import StudyTree
 
@@ -118,10 +116,8 @@ class Sweep:
         return from_si(set_to, unit) if isinstance(set_to, float) else str(value)
 
     def _unit(self, name: str) -> str:
-        from tvimdesign.device import Choice, table_for
-
-        row = table_for(self.cells[0].study.mode).by_name.get(name.partition("@")[0])
-        return "" if row is None or isinstance(row, Choice) else row.unit
+        row = self.cells[0].study.resolved.table.by_name.get(name.partition("@")[0])
+        return getattr(row, "unit", "")  # a choice has none
 
     def _label(self, name: str) -> str:
         unit = pretty(self._unit(name) or "1")
@@ -155,12 +151,12 @@ def swept(study: SweptStudy, axes: Mapping[str, Sequence[Any]], progress: bool) 
     """
     cells = _cells(study, axes)
     whole = study.resolved
-    search = WarmSearch(common([at_its_start(whole)]) if whole.vary else None)
+    series = AnswerSeries(whole)
     found = []
     with shown_progress(progress) as say:
         for number, (at, asked) in enumerate(cells, start=1):
-            found.append(_answered(at, asked, search, _numbered(say, f"cell {number} of {len(cells)}")))
-    return Sweep(dict(axes), tuple(found), search.warm_solves)
+            found.append(_answered(at, asked, series, _numbered(say, f"cell {number} of {len(cells)}")))
+    return Sweep(dict(axes), tuple(found), series.warm_solves)
 
 
 def _cells(study: SweptStudy, axes: Mapping[str, Sequence[Any]]) -> list[tuple[dict[str, Any], SweptStudy]]:
@@ -186,10 +182,10 @@ def _numbered(say: Progress, cell: str) -> Progress:
     return lambda text: say(f"{cell}: {text}" if text else "")
 
 
-def _answered(at: Mapping[str, Any], study: SweptStudy, search: WarmSearch, say: Progress) -> Cell:
+def _answered(at: Mapping[str, Any], study: SweptStudy, series: AnswerSeries, say: Progress) -> Cell:
     try:
         say("begins")
-        result = Result(answer_study(study._tree, say, search=search))
+        result = Result(series.answer(study._tree, say))
     except TvimError as error:
         return Cell(at, study, None, " ".join(str(error).split()))
     found = result._answered.result.found

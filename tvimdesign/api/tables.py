@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tvimdesign.device import Input, Table
 from tvimdesign.report.output.tables import NOTHING, check_row
 from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
     """Every value by full name, with unit, meaning and status; infinite where something never happens."""
     import pandas as pd
 
-    design, table = answered.result.design, answered.table
+    design, study = answered.result.design, answered.study
     stands = _stands(answered)
     rows = []
     for name, entry in answered.reported["values"].items():
@@ -28,7 +28,7 @@ def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
             "value": float("inf") if entry["value"] is None else entry["value"],
             "unit": entry["unit"],
             "meaning": entry["description"],
-            "status": stands.get(name) or _status(name, design, table),
+            "status": stands.get(name) or _status(name, design, study),
             "low": entry.get("low"),
             "high": entry.get("high"),
             "group": entry["group"],
@@ -41,7 +41,7 @@ def constraint_table(answered: AnsweredStudy) -> pd.DataFrame:
     """Every requirement and rule: limit, value, unit, margin and its unit, whether it is kept, where it is from."""
     import pandas as pd
 
-    return pd.DataFrame([check_row(check, answered.table) for check in answered.result.checks])
+    return pd.DataFrame([check_row(check, answered.study.table) for check in answered.result.checks])
 
 
 def _stands(answered: AnsweredStudy) -> dict[str, str]:
@@ -54,21 +54,21 @@ def _stands(answered: AnsweredStudy) -> dict[str, str]:
         stand = "broken" if not check.kept else "binds" if check.margin <= NOTHING else "kept"
         found[check.output] = max(stand, found.get(check.output, "kept"), key=order.index)
     for limit in answered.study.require:  # a limit on what is the least of several is put on each of them
-        several = [found[name] for name in _all_of(limit.output, answered.table) if name in found]
+        several = [found[name] for name in _all_of(limit.output, answered.study) if name in found]
         found |= {limit.output: max(several, key=order.index)} if several else {}
     return found
 
 
-def _all_of(name: str, table: Table) -> list[str]:
+def _all_of(name: str, study: Study) -> list[str]:
     base, at, point = name.partition("@")
-    row = table.output(base)
+    row = study.table.output(base)
     return [f"{part}{at}{point}" for part in row.least_of or ((base, *row.also_limited) if row.also_limited else ())]
 
 
-def _status(name: str, design: Design, table: Table) -> str:
+def _status(name: str, design: Design, study: Study) -> str:
     """What a value is: found by the optimiser, set by the study, a default, or computed."""
     base, _, point = name.partition("@")
-    if not isinstance(table.quantity(name), Input):
+    if not any(row.name == base for row in study.table.inputs):
         return "computed"
     if base in design.study["vary"]:
         return "found"

@@ -2,6 +2,5 @@
 
 from tvimdesign.catalog.catalog import Catalog, check_records
 from tvimdesign.catalog.categories import CATEGORIES
-from tvimdesign.catalog.record import Entry, Record, RecordTable
 
-__all__ = ["CATEGORIES", "Catalog", "Entry", "Record", "RecordTable", "check_records"]
+__all__ = ["CATEGORIES", "Catalog", "check_records"]

@@ -7,8 +7,8 @@ from functools import cache
 from pathlib import Path
 
 from tvimdesign.base.errors import CatalogError
+from tvimdesign.base.record import Record
 from tvimdesign.catalog.categories import CATEGORIES
-from tvimdesign.catalog.record import Record
 from tvimdesign.catalog.validate import build_record
 from tvimdesign.catalog.yaml_file import Tree, read_tree
 

@@ -11,8 +11,8 @@ from typing import Any
 
 from tvimdesign.base import units
 from tvimdesign.base.errors import UnitError
+from tvimdesign.base.record import STATUSES, Entry, Record, RecordTable
 from tvimdesign.catalog.categories import AGREEMENT, CATEGORIES, Columns
-from tvimdesign.catalog.record import STATUSES, Entry, Record, RecordTable
 from tvimdesign.catalog.yaml_file import Tree
 
 _ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")

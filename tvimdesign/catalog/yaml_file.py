@@ -14,7 +14,7 @@ Tree: TypeAlias = "str | list[Tree] | dict[str, Tree]"
 
 LARGEST_FILE = 1_000_000
 DEEPEST = 8
-MOST_NODES = 50_000
+MOST_NODES = 10_000
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 

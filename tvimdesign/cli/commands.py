@@ -12,7 +12,7 @@ from tvimdesign.base.errors import InputError, RenamedWarning
 from tvimdesign.cli import completions
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.cli.options import AsJson, Out, Overwrite, Settings, StudyFile, StudyOrDesign
-from tvimdesign.virtual_tests.registry import TESTS
+from tvimdesign.simulation.registry import TESTS
 
 app = typer.Typer(
     no_args_is_help=True,

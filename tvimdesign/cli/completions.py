@@ -20,7 +20,7 @@ def designs_and_studies(incomplete: str) -> list[str]:
 
 def tests(incomplete: str) -> list[str]:
     """Virtual tests."""
-    from tvimdesign.virtual_tests.registry import TESTS
+    from tvimdesign.simulation.registry import TESTS
 
     return _beginning(TESTS, incomplete)
 
@@ -34,27 +34,23 @@ def examples(incomplete: str) -> list[str]:
 
 def modes(incomplete: str) -> list[str]:
     """Modes of a module."""
-    from tvimdesign.device import MODES
+    from tvimdesign.report.rows import mode_names
 
-    return _beginning(MODES, incomplete)
+    return _beginning(mode_names(), incomplete)
 
 
 def rows(incomplete: str) -> list[str]:
     """Names of rows of either mode."""
-    from tvimdesign.device import MODES
-    from tvimdesign.report.rows import named_rows
+    from tvimdesign.report.rows import row_names
 
-    return _beginning(dict.fromkeys(row.name for mode in MODES for row in named_rows(mode)), incomplete)
+    return _beginning(row_names(), incomplete)
 
 
 def settings(incomplete: str) -> list[str]:
     """Inputs and choices, and outputs after `require.`, each with the `=` of a setting."""
-    from tvimdesign.device import MODES, Output
-    from tvimdesign.report.rows import named_rows
+    from tvimdesign.report.rows import setting_names
 
-    every = [row for mode in MODES for row in named_rows(mode)]
-    names = [f"require.{row.name}=" if isinstance(row, Output) else f"{row.name}=" for row in every]
-    return _beginning(dict.fromkeys(names), incomplete)
+    return _beginning(setting_names(), incomplete)
 
 
 def _beginning(names: Iterable[str], incomplete: str) -> list[str]:

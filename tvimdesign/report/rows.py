@@ -17,11 +17,11 @@ from rich.text import Text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Choice, Input, Output, table_for
+from tvimdesign.device import MODES, Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.progress import wide_console
 from tvimdesign.report.output.tables import number
+from tvimdesign.study.resolve import words_of
 from tvimdesign.study.text.mistakes import did_you_mean
 
 _SHOWN = 8
@@ -47,6 +47,22 @@ def print_rows(mode: str, word: str, as_json: bool) -> None:
 def named_rows(mode: str) -> list[Quantity]:
     """The rows that a study may name, in the table's order. Raises InputError for no such mode."""
     return [row for row in table_for(mode).quantities if not (isinstance(row, Output) and (row.hidden or row.instant))]
+
+
+def mode_names() -> tuple[str, ...]:
+    """Modes that have rows."""
+    return MODES
+
+
+def row_names() -> list[str]:
+    """Names of the rows of every mode, each once."""
+    return list(dict.fromkeys(row.name for mode in MODES for row in named_rows(mode)))
+
+
+def setting_names() -> list[str]:
+    """What `--set` takes: inputs and choices, and outputs after `require.`, each with the `=`."""
+    every = [row for mode in MODES for row in named_rows(mode)]
+    return list(dict.fromkeys(f"require.{row.name}=" if isinstance(row, Output) else f"{row.name}=" for row in every))
 
 
 def matching(rows: Sequence[Quantity], word: str) -> list[Quantity]:
@@ -124,7 +140,7 @@ def _facts(plain: dict[str, Any]) -> str:
 
 def _plain(row: Quantity) -> dict[str, Any]:
     if isinstance(row, Choice):
-        allowed = ", ".join([*row.options, *(Catalog().names(row.category) if row.category else [])])
+        allowed = ", ".join(words_of(row))
         return _entry(row, "choice", "", f"from {row.record[0]}" if row.record else row.default, allowed)
     name = f"{row.name}@point" if row.per_point else row.name
     if isinstance(row, Input):

@@ -16,19 +16,18 @@ from rich.table import Table as Grid
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
-from tvimdesign.device import table_for
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.number_entry import finite
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import head
 from tvimdesign.report.output.tables import curves_csv, number
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.study import Study, catalog_of, read_tree
+from tvimdesign.simulation.registry import find_test
+from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import read_design
 from tvimdesign.study.tree import study_file, tree_of_file
-from tvimdesign.virtual_tests.registry import find_test
-from tvimdesign.virtual_tests.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 
 def simulate_study(
@@ -76,11 +75,9 @@ def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[st
             raise InputError(f"--set {settings[0]}: {source} is a design, which is finished; give the study's file")
         design = read_design(source)
         study = Study.model_validate(design.study)
-        return resolve_design(design, catalog_of(study), table_for(study.mode)), [
-            f"Module: the design {source}.", *design.rating_notes,
-        ]  # fmt: skip
+        return resolve_design(design), [f"Module: the design {source}.", *design.rating_notes]
     study = read_tree(tree_of_file(source, settings))
-    resolved = resolve_study(study, catalog_of(study), table_for(study.mode))
+    resolved = resolve_study(study)
     if not study.vary:
         return resolved, [f"Module: {source}."]
     return resolved, [
@@ -91,7 +88,7 @@ def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[st
 def _records(resolved: ResolvedModule) -> dict[str, Path]:
     """Files of the catalogue records the module is made of."""
     return {
-        f"{row.category}/{resolved.values[row.name].name}": resolved.catalog.path(
+        f"{row.category}/{resolved.values[row.name].name}": resolved.study.catalog.path(
             row.category, resolved.values[row.name].name
         )
         for row in resolved.table.choices

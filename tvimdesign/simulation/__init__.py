@@ -1,1 +1,1 @@
-"""The device as compiled functions, and its working cycle simulated: how a design is evaluated."""
+"""How a design is evaluated: its working cycle simulated, and what a laboratory would measure on the module."""

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.device import Choice
-from tvimdesign.simulation.current_profile import CurrentProfile
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp.constraints import on_cycle
 
 _SAME, _SAME_CYCLE = 1e-6, 2e-3

@@ -6,10 +6,9 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Path, Table
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import Constraint, on_cycle, ratings_of
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
@@ -45,13 +44,13 @@ def sorted_by_acceptance(names: Collection[str], accept: Collection[str]) -> tup
     )
 
 
-def exceeded_at_start(study: Study, catalog: Catalog, table: Table) -> dict[str, float]:
+def exceeded_at_start(study: Study) -> dict[str, float]:
     """What the module a study starts from is beyond and the study does not accept: value (SI) by the rating's name.
 
     One working cycle is simulated. A rating that the study requires to be kept is left out. Raises SimulationError.
     """
-    model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+    model = DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
     values = model.values(model.start, Simulator(model).run(model.start).values)
     required = {one.output for one in study.require if one.sense == ">=" and one.limit >= 0.0}
-    names = (limit.output for limit in exceeded(values, table))
+    names = (limit.output for limit in exceeded(values, study.table))
     return {name: values[name] for name in names if name not in required and name not in study.accept}

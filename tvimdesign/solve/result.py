@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign import __version__
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
-from tvimdesign.simulation.curves import Curves, impedance_sweep, phase_history
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.melt_history import intervals
-from tvimdesign.simulation.resolved_module import ResolvedModule
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.joint_tests.release import contact_seen
+from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, phase_history
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.melt_history import intervals
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.idealized import Idealization, idealizations
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
@@ -34,7 +34,6 @@ from tvimdesign.solve.ratings import exceeded, happened, kept, sorted_by_accepta
 from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
-from tvimdesign.virtual_tests.joint_tests.release import contact_seen
 
 
 @dataclass(frozen=True)
@@ -109,8 +108,6 @@ class StudyResult:
 
 def answer(
     study: Study,
-    catalog: Catalog,
-    table: Table,
     progress: Progress = lambda _: None,
     reference: dict[str, float] | None = None,
     keep: Keep = lambda *_: None,
@@ -122,21 +119,21 @@ def answer(
     What found the optimum is handed to `keep`, able to trade some outputs afterwards. A `search` may stand in place of
     the usual one.
     """
-    solution = None
-    refuse_impossible(study, catalog, table)
+    solution, table = None, study.table
+    refuse_impossible(study)
     if study.task == "optimize":
-        solution = search(study, catalog, table, progress, reference, keep, objectives)
+        solution = search(study, progress, reference, keep, objectives)
         model, inputs, cycle, values = solution.model, solution.inputs, solution.cycle, solution.values
         status, current_profiles = solution.status, solution.current_profiles
     else:
         progress("simulating one working cycle")
-        model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
         cycle = Simulator(model).run_to_show(inputs)
         values = model.values(inputs, cycle.values)
         status, current_profiles = "evaluated", {}
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
-    resolved = ResolvedModule(study, catalog, table, {**given(study, catalog, table), **model.words, **numbers})
+    resolved = ResolvedModule(study, {**given(study), **model.words, **numbers})
     open_values = intervals(resolved, model, inputs, cycle.values, current_profiles)
     seen = _seen(resolved, exists=solution is None or status == OPTIMAL)
     open_values |= {name: (low, high) for name, (_, low, high) in seen.items() if low < high}

@@ -7,8 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from tvimdesign.base.errors import InfeasibleError, InputError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes
 from tvimdesign.solve.discrete.enumeration import enumerate_all
@@ -23,7 +21,7 @@ from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
 
 Keep = Callable[[Optimizer, list[Run]], None]
-Search = Callable[[Study, Catalog, Table, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]
+Search = Callable[[Study, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]
 """What finds the best design of a study, as `optimize` does."""
 MAX_COMBINATIONS = 20_000
 MAX_RECORDS = 60
@@ -34,8 +32,6 @@ _Found = dict[tuple[int, Box], Run]
 
 def optimize(
     study: Study,
-    catalog: Catalog,
-    table: Table,
     progress: Progress = lambda _: None,
     reference: dict[str, float] | None = None,
     keep: Keep = lambda *_: None,
@@ -47,10 +43,10 @@ def optimize(
     `keep` is handed the problem, with its solvers, that the best design came from, and the runs of its starts; outputs
     that are `traded` can be weighed and bounded with it afterwards.
     """
-    refuse_unreachable(study, catalog, table)
-    sizes, records = discrete_sizes(study, table), discrete_records(study, table)
+    refuse_unreachable(study)
+    sizes, records = discrete_sizes(study, study.table), discrete_records(study, study.table)
     _refuse_too_many(sizes, len(records))
-    trees = _trees(study, catalog, table, sizes, records, reference, progress, objectives)
+    trees = _trees(study, sizes, records, reference, progress, objectives)
     hopeless = all(relaxation.hopeless() for relaxation in trees)
     free = [(relaxation, run) for relaxation in trees for run in relaxation.starts(1 if hopeless else None)]
     choosing: Choosing | None = None
@@ -140,7 +136,7 @@ def _refuse_too_many(sizes: Sizes, records: int) -> None:
 
 
 def _trees(
-    study: Study, catalog: Catalog, table: Table, sizes: Sizes, records: Sequence[Mapping[str, str]],
+    study: Study, sizes: Sizes, records: Sequence[Mapping[str, str]],
     reference: dict[str, float] | None, progress: Progress, objectives: Sequence[str],
 ) -> list[Relaxation]:  # fmt: skip
     """The problem of each combination of records, built once for all whose numbers alone differ."""
@@ -150,7 +146,7 @@ def _trees(
         asked = with_records(study, choice)
         try:
             optimizer = next(filter(None, (relaxation.optimizer.with_records(asked) for relaxation in trees)), None)
-            optimizer = optimizer or Optimizer(asked, catalog, table, reference, progress, objectives=objectives)
+            optimizer = optimizer or Optimizer(asked, reference, progress, objectives=objectives)
         except InfeasibleError as error:  # a limit that nothing free can mend, with these records
             refused.append(error)
             continue

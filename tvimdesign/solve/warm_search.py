@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Table
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.nlp.solution import Solution
@@ -34,11 +33,11 @@ class WarmSearch:
         self._reference = reference
 
     def __call__(
-        self, study: Study, catalog: Catalog, table: Table, progress: Progress, reference: dict[str, float] | None,
+        self, study: Study, progress: Progress, reference: dict[str, float] | None,
         keep: Keep, objectives: Sequence[str],
     ) -> Solution:  # fmt: skip
         """Find the best design of a study. Raises InputError, InfeasibleError."""
-        solution = self._warm(study, table)
+        solution = self._warm(study, study.table)
         if solution:
             return solution
 
@@ -48,7 +47,7 @@ class WarmSearch:
             self._last = min(converged, key=lambda run: run.start.objective, default=None)
             keep(optimizer, runs)
 
-        return optimize(study, catalog, table, progress, reference or self._reference, remember, objectives)
+        return optimize(study, progress, reference or self._reference, remember, objectives)
 
     def _warm(self, study: Study, table: Table) -> Solution | None:
         """The optimum sought from the last one; None where that cannot be done, or comes to none."""

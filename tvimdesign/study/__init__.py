@@ -1,7 +1,7 @@
 """What the user writes: reads a study file, says everything that is wrong with it, and resolves it to numbers."""
 
 from tvimdesign.study.reader import read_study, read_study_text, read_tree
-from tvimdesign.study.resolve import catalog_of, drawn, given
+from tvimdesign.study.resolve import drawn, given
 from tvimdesign.study.sections.tolerances import standard_tolerances
 from tvimdesign.study.study import (
     Options,
@@ -31,7 +31,6 @@ __all__ = [
     "Tolerance",
     "Vary",
     "WriteOptions",
-    "catalog_of",
     "drawn",
     "given",
     "read_study",

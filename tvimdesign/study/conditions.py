@@ -14,9 +14,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
-from tvimdesign.catalog import Catalog, Record
-from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device import Choice, Input
 from tvimdesign.study.resolve import given
 from tvimdesign.study.study import Range, Requirement, Study, Vary
 from tvimdesign.study.text.mistakes import Mistake, StudyError
@@ -35,8 +35,6 @@ class Entrant:
 
     path: Path
     study: Study
-    catalog: Catalog
-    table: Table
 
     @cached_property
     def places(self) -> Places:
@@ -46,7 +44,7 @@ class Entrant:
     @cached_property
     def values(self) -> dict[str, Any]:
         """Its inputs and choices, ranges at their start."""
-        return given(self.study, self.catalog, self.table)
+        return given(self.study)
 
 
 @dataclass(frozen=True)
@@ -100,7 +98,7 @@ def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Mistake]:
     theirs, mine = ({condition.name: condition for condition in _conditions(one)} for one in (first, other))
     differing = {name for name in theirs.keys() & mine.keys() if not _same(theirs[name].value, mine[name].value)}
     for name in (name for name in mine if name in differing):
-        row = first.table.by_name.get(name)
+        row = first.study.table.by_name.get(name)
         if isinstance(row, Input) and row.record and row.record[0] in differing:
             continue  # another record, which is told
         message = f"{mine[name].words} here, {theirs[name].words} in {first.places.text(theirs[name].path)}"
@@ -117,14 +115,14 @@ def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Mistake]:
 def _conditions(of: Entrant) -> Iterator[_Condition]:
     """Everything that must be the same; requirements apart."""
     study = of.study
-    for row in of.table.quantities:
+    for row in of.study.table.quantities:
         if isinstance(row, Input | Choice) and _is_condition(row):
             vary, value = study.vary.get(row.name), of.values[row.name]
             path = f"vary.{row.name}" if vary else f"module.{row.name}"
             yield _Condition(row.name, path, (_plain(value), _limits(vary)), _in_words(row, value, vary))
     for point, values in study.operating_points.items():
         for name, value in values.items():
-            words = format_quantity(value, of.table.unit(name))
+            words = format_quantity(value, of.study.table.unit(name))
             yield _Condition(f"{point}.{name}", f"operating_points.{point}.{name}", value, words)
     for phase, pieces in study.profile.model_dump().items():
         yield _Condition(f"profile of {phase}", f"profile.{phase}", pieces, f"{pieces} pieces")
@@ -183,7 +181,7 @@ def _unequal_requirements(entrants: Sequence[Entrant], other: Entrant) -> Iterat
     """Limits of `other` against those of the first study whose mode has the output."""
     reported: set[str] = set()
     for entrant in entrants[: entrants.index(other)]:
-        common = (entrant.table.by_name.keys() & other.table.by_name.keys()) - reported
+        common = (entrant.study.table.by_name.keys() & other.study.table.by_name.keys()) - reported
         reported |= common
         theirs, mine = (_limits_on(common, one) for one in (entrant, other))
         for key in dict.fromkeys([*mine, *theirs]):
@@ -209,7 +207,7 @@ def _limits_on(names: Collection[str], of: Entrant) -> dict[tuple[str, str], Req
 
 
 def _limit(of: Entrant, requirement: Requirement) -> str:
-    value = format_quantity(requirement.limit, of.table.unit(requirement.output))
+    value = format_quantity(requirement.limit, of.study.table.unit(requirement.output))
     return f"{requirement.output} {requirement.sense} {value}"
 
 

@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.whole_files import write_whole
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.study.text.named_file import ordinary_bytes, printable
 from tvimdesign.study.text.renamed import renamed_plain
@@ -65,6 +66,12 @@ class Design(BaseModel):
         if name not in self.values:
             raise InputError(f"the design {self.name!r} has no value {name!r}")
         return self.values[name]
+
+
+def catalog_of(design: Design) -> Catalog:
+    """The catalogue a design was found with; raises CatalogError where the folder its study names is not here."""
+    folder = design.study.get("catalog_folder")
+    return Catalog(Path(folder) if folder else None)
 
 
 def design_json(design: Design) -> bytes:

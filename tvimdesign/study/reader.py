@@ -70,9 +70,12 @@ class _Reader:
         self.sections = unknown_keys(self.problems, found, "", "section", list(SECTIONS))
         plain = self._plain()
         folder, mode = self._catalog_folder(), self._mode()
-        parts = self._parts(Reading(self.problems, mode, self.table(mode), self._records(folder))) if mode else {}
+        reading = Reading(self.problems, mode, self.table(mode), self._records(folder)) if mode else None
+        parts = self._parts(reading) if reading else {}
         self.problems.stop()
-        return Study(**plain, **parts, catalog_folder=folder.as_posix() if folder else None)
+        assert reading is not None
+        study = Study(**plain, **parts, catalog_folder=folder.as_posix() if folder else None)
+        return study.based_on(reading.catalog, reading.table)
 
     def _plain(self) -> dict[str, Any]:
         """The sections that need no table."""

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device import Choice, Input
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
 
-def catalog_of(study: Study) -> Catalog:
-    """The catalogue a study uses: the shipped records and those of the folder it names."""
-    return Catalog(Path(study.catalog_folder) if study.catalog_folder else None)
-
-
-def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:
+def given(study: Study) -> dict[str, Any]:
     """Return what `Table.evaluate` wants: every input in SI by full name, every choice as its record or its word.
 
     What the study varies gets its start: the range's, else the module's or the default value, moved into the range or
@@ -24,9 +18,9 @@ def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:
     no value.
     """
     found: dict[str, Any] = {}
-    for choice in table.choices:
-        found[choice.name] = _chosen(choice, study, catalog, found)
-    for row in table.inputs:
+    for choice in study.table.choices:
+        found[choice.name] = _chosen(choice, study, found)
+    for row in study.table.inputs:
         if row.per_point:
             for point, values in study.operating_points.items():
                 name = f"{row.name}@{point}"
@@ -36,21 +30,26 @@ def given(study: Study, catalog: Catalog, table: Table) -> dict[str, Any]:
     return found
 
 
-def drawn(study: Study, catalog: Catalog, table: Table) -> Study:
+def drawn(study: Study) -> Study:
     """The module a study starts from, as a study that evaluates it: what is varied stands at its start."""
-    starts = given(study, catalog, table)
+    starts = given(study)
     module = {name: getattr(starts[name], "name", starts[name]) for name in study.vary}
     update = {"module": {**study.module, **module}, "vary": {}, "minimize": {}, "profile": ProfileOptions()}
     return study.model_copy(update=update)
 
 
-def _chosen(row: Choice, study: Study, catalog: Catalog, chosen: dict[str, Any]) -> Any:
+def words_of(choice: Choice) -> list[str]:
+    """What a study may write for a choice: its options, then the shipped records."""
+    return [*choice.options, *(Catalog().names(choice.category) if choice.category else [])]
+
+
+def _chosen(row: Choice, study: Study, chosen: dict[str, Any]) -> Any:
     word, allowed = study.module.get(row.name), study.vary.get(row.name)
     if word is None:
         word = chosen[row.record[0]].word(row.record[1]) if row.record else row.default
     if isinstance(allowed, Options) and word not in allowed.values:
         word = allowed.values[0]
-    return catalog.record(row.category, str(word)) if row.category and word not in row.options else word
+    return study.catalog.record(row.category, str(word)) if row.category and word not in row.options else word
 
 
 def _started(row: Input, study: Study, chosen: dict[str, Any]) -> float:

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Table, table_for
 
 FORMAT = 1
 """The file format this version reads, the study's key `tvimdesign`."""
@@ -139,7 +145,40 @@ class Study(_Part):
     write: WriteOptions = WriteOptions()
     catalog_folder: str | None = None
 
+    @cached_property
+    def catalog(self) -> Catalog:
+        """The shipped records and those of the folder the study names; raises CatalogError where that is not there."""
+        return Catalog(Path(self.catalog_folder) if self.catalog_folder else None)
+
+    @cached_property
+    def table(self) -> Table:
+        """The quantities of the study's mode; raises InputError for a mode that does not exist."""
+        return table_for(self.mode)
+
+    def based_on(self, catalog: Catalog, table: Table) -> Study:
+        """The same study with a catalogue that is open already, and a table."""
+        copied = self.model_copy()
+        copied.__dict__.update(catalog=catalog, table=table)
+        return copied
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Study:
+        """A copy with some fields changed; it keeps the open catalogue and the table unless they are what changes."""
+        copied = super().model_copy(update=update, deep=deep)
+        for kept, field in _KEPT.items():
+            if getattr(copied, field) != getattr(self, field):
+                copied.__dict__.pop(kept, None)
+        return copied
+
+    def __getstate__(self) -> dict[Any, Any]:
+        """What a pickle holds: the fields; the catalogue and the table are looked up again where it is read."""
+        state = super().__getstate__()
+        return {**state, "__dict__": {name: value for name, value in state["__dict__"].items() if name not in _KEPT}}
+
     @property
     def task(self) -> Literal["evaluate", "optimize"]:
         """What the study asks for."""
         return "optimize" if self.vary else "evaluate"
+
+
+_KEPT = {"catalog": "catalog_folder", "table": "mode"}
+"""What a study keeps once it is asked for, by the field it follows from."""

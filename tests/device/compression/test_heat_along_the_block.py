@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from support import ROOT, fine
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study
 
@@ -64,7 +63,7 @@ def test_twice_the_depth_of_a_whole_module_tends_from_flux_to_diffusion_and_hard
     # Pads and vanes take heat as well, which does not double: a thin block takes less than twice as long. The deeper it
     # is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the block is.
     study = read_study(ROOT / "studies" / "paper_compression.yaml")
-    module = {**resolve(study, Catalog(), TABLE), "horizon": 1e5}
+    module = {**resolve(study), "horizon": 1e5}
 
     def ratios(depth: float, current: float) -> tuple[float, float]:
         found = []

@@ -9,8 +9,8 @@ from support import USED_BY_PARTS, digits
 
 from tvimdesign.base.units import to_si
 from tvimdesign.device import Choice, Input, Output, Supplied, table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 TABLE = table_for("compression")
 OWN = [row for row in TABLE.quantities if row.name not in table_for("shear").by_name and not isinstance(row, Choice)]

@@ -8,7 +8,6 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import given as given_of
@@ -43,7 +42,7 @@ def test_the_product_says_the_same_of_the_published_module(inputs: dict[str, Any
 
 def test_geometry_is_what_a_study_gets_that_says_nothing(inputs: dict[str, Any]) -> None:
     study = read_study_text("mode: shear\n")
-    assert given_of(study, Catalog(), TABLE)["transmission"] == "geometry"
+    assert given_of(study)["transmission"] == "geometry"
     assert inputs["transmission"] == "geometry"
 
 

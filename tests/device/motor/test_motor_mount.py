@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, table_for
 from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
 from tvimdesign.study import given, read_study_text
@@ -28,7 +27,7 @@ DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
 
 def inputs_with(mode: str = "shear", **module: str) -> dict[str, Any]:
     lines = "\n".join(f"  {name}: {value}" for name, value in {"stroke": "0.104 rad", **module}.items())
-    return given(read_study_text(f"mode: {mode}\nmodule:\n{lines}\n", "a test"), Catalog(), table_for(mode))
+    return given(read_study_text(f"mode: {mode}\nmodule:\n{lines}\n", "a test"))
 
 
 def values_of(rows: str, mode: str = "shear", **module: str) -> dict[str, float]:
@@ -248,7 +247,7 @@ def test_there_is_no_motor_and_no_rule_of_one_unless_it_is_chosen(mode: str) -> 
                         ("motor: frameless_70x10, encoder_magnet_spacing: 2 mm", "encoder is none")):  # fmt: skip
         study = read_study_text(f"mode: {mode}\nmodule: {{{idle}}}\n", "a test")
         with pytest.raises(InputError, match=f"no effect, as {words}"):
-            refuse_impossible(study, Catalog(), table)
+            refuse_impossible(study)
 
 
 # On a sensor: the circle of 50 mm, whose bore of 31.5 mm lets the board of 28 mm in, and a base for screws of 10.5 mm.

@@ -19,7 +19,7 @@ RULES = ("key_margin", "key_depth_margin", "key_width_margin", "key_pitch_margin
 
 def inputs_of(**module: Any) -> dict[str, Any]:
     """Inputs of the default shear module but for what is said (SI)."""
-    return {**given(read_study_text("mode: shear\n", "a test"), Catalog(), TABLE), **module}
+    return {**given(read_study_text("mode: shear\n", "a test")), **module}
 
 
 def values_of(rows: str, **module: Any) -> dict[str, float]:

@@ -71,7 +71,7 @@ def test_what_is_of_an_extra_is_refused_in_a_study_of_a_module_without_it() -> N
         value = Catalog().names(row.category)[0] if isinstance(row, Choice) and row.category else row.default
         lacking = row.requires[0]
         with pytest.raises(InputError, match=f"{name}: no effect, as {lacking.choice} is {lacking.without}"):
-            refuse_impossible(study.model_copy(update={"module": {name: value}}), Catalog(), TABLE)
+            refuse_impossible(study.model_copy(update={"module": {name: value}}))
 
     of_every(OF_EXTRAS, check)
 
@@ -143,11 +143,11 @@ _BUILT: dict[str, Any] = {}
 
 
 def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
-    from tvimdesign.simulation.device_functions import DeviceFunctions
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
     from tvimdesign.study import given as resolve
 
     if not _BUILT:
-        start = resolve(read_study_text("mode: shear\n", "a test"), Catalog(), TABLE)
+        start = resolve(read_study_text("mode: shear\n", "a test"))
         _BUILT["model"] = DeviceFunctions(TABLE, {**start, "transmission": "geometry"}, ("cold", "hot"), 4)
     model = _BUILT["model"]
     factors = random.uniform(0.97, 1.03, (len(model.names), 3))

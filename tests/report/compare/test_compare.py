@@ -12,8 +12,6 @@ import pytest
 from comparable import COMPRESSION, SHEAR, written
 from support import ROOT, Command
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
@@ -280,6 +278,6 @@ def test_no_compression_module_of_the_pair_is_found_that_damps_as_the_paper_s_do
     for mode, found in (("shear", "optimal"), ("compression", "infeasible")):
         text = (ROOT / f"studies/compare_{mode}.yaml").read_text()
         study = read_study_text(text.replace("require:", 'require:\n  joint_damping@hot: ">= 1 N.m.s/rad"'), mode)
-        solution = optimize(study, Catalog(), table_for(mode))
+        solution = optimize(study)
         assert solution.status.startswith(found)
         assert len(solution.starts) == 10

@@ -14,7 +14,6 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from tests.helpers.figures import faults, signed
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.figures.theme.canvas import as_file, png
 from tvimdesign.report.run.run_plot_data import drawings, plot_data
@@ -36,7 +35,7 @@ NAMES = ("cycle", "stiffness_and_damping", "power_and_energy", "impedance", "tor
 @pytest.fixture(scope="module", params=STUDIES)
 def found(request: pytest.FixtureRequest) -> StudyResult:
     study = read_study_text(STUDIES[request.param], "a test")
-    return answer(study, Catalog(), table_for(study.mode))
+    return answer(study)
 
 
 @pytest.fixture(scope="module")

@@ -9,14 +9,12 @@ import numpy as np
 import pytest
 
 from tests.helpers.figures import faults, signed
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.report.figures import comparison_figures, front_figure, paper_figures, tolerance_figure
 from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
 from tvimdesign.report.simulate_study import figure_data
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.registry import TESTS, find_test
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
-from tvimdesign.virtual_tests.registry import TESTS, find_test
 
 STUDIES = Path(__file__).parents[3] / "studies"
 
@@ -24,7 +22,7 @@ STUDIES = Path(__file__).parents[3] / "studies"
 @pytest.fixture(scope="module", params=["paper_as_published", "calibrated_compression"])
 def resolved(request: pytest.FixtureRequest) -> ResolvedModule:
     study = read_study(STUDIES / f"{request.param}.yaml")
-    return resolve_study(study, Catalog(), table_for(study.mode))
+    return resolve_study(study)
 
 
 @pytest.mark.parametrize("test", TESTS)

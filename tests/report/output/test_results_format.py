@@ -14,7 +14,6 @@ import yaml
 from support import ROOT
 
 from tvimdesign.base.units import si_unit, to_si
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, table_for
 from tvimdesign.report.output.number_entry import number_entry
 from tvimdesign.report.output.results_folder import ResultsFolder
@@ -39,7 +38,7 @@ solver: {starts: 1}
 
 @pytest.fixture(scope="module")
 def found() -> StudyResult:
-    return answer(read_study_text(STUDY, "a test"), Catalog(), TABLE)
+    return answer(read_study_text(STUDY, "a test"))
 
 
 @pytest.fixture(scope="module")
@@ -135,7 +134,7 @@ def test_a_chosen_record_of_a_user_s_folder_is_the_one_that_is_shown(tmp_path: P
     mine = text.replace("assumed: foot of a melting peak at 58-62 degC", "assumed: weighed by me", 1)
     (tmp_path / "polymers/mine.yaml").write_text(mine)
     study = read_study_text(f"mode: shear\ncatalog: {tmp_path}\nmodule: {{pcl_grade: mine}}\n", "a test")
-    values = results(answer(study, Catalog(tmp_path), TABLE), TABLE)["values"]
+    values = results(answer(study), TABLE)["values"]
     assert values["pcl_melting_start"]["source"] == "polymers/mine: assumed: weighed by me"
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import headline_rows
 from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
@@ -27,7 +26,7 @@ STATED = "impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance
 def test_soft_and_stiff_are_said_as_impedances(module: str, soft: str, stiff: str) -> None:
     """By hand: band times 40, and 300 over the band."""
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test")
-    found = answer(study, Catalog(), TABLE)
+    found = answer(study)
     assert soft_in_words(found.design, TABLE) == soft
     assert stiff_in_words(found.design, TABLE) == stiff
     meanings = {name: text for _, name, _, _, text in headline_rows(found, TABLE)}

@@ -9,11 +9,9 @@ from typing import Any
 import pytest
 from support import ROOT
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.paper_claims import claims
-from tvimdesign.simulation.cycle import Simulator
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import Study, given, read_study, read_study_text
 
@@ -28,7 +26,7 @@ def shipped(mode: str) -> Study:
 
 
 def resolved(study: Study) -> dict[str, Any]:
-    return given(study, Catalog(), table_for(study.mode))
+    return given(study)
 
 
 @pytest.mark.parametrize("mode", MODES)

@@ -9,10 +9,8 @@ from pathlib import Path
 import pytest
 from support import Command
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities
 from tvimdesign.study import read_study_text
@@ -30,8 +28,7 @@ solver: {starts: 1, cells: 8, elements: 2}
 
 @pytest.fixture(scope="module")
 def found() -> tuple[OutputSensitivities, ResolvedModule]:
-    table, catalog = table_for("shear"), Catalog()
-    return sensitivities(answer(read_study_text(STUDY, "a test"), catalog, table), catalog, table)
+    return sensitivities(answer(read_study_text(STUDY, "a test")))
 
 
 def test_a_derivative_in_reading_units_adds_what_one_percent_more_does(

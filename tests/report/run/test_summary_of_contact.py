@@ -9,8 +9,6 @@ import pytest
 from comparable import COMPRESSION, SHEAR
 from rich.console import Console
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.report.compare.comparison_plot_data import _from_where_it_moves
 from tvimdesign.report.run.first_screen.warnings import warnings_of
 from tvimdesign.report.run.full_summary import print_full_summary
@@ -20,8 +18,8 @@ from tvimdesign.study import drawn, read_study_text
 
 def _said(text: str) -> str:
     study, stream = read_study_text(text, "test"), io.StringIO()
-    table = table_for(study.mode)
-    found = answer(drawn(study, Catalog(), table), Catalog(), table)
+    table = study.table
+    found = answer(drawn(study))
     console = Console(file=stream, width=130, color_system=None)
     print_full_summary(found, table, console, warnings=warnings_of(found, table, []))
     return " ".join(stream.getvalue().split())

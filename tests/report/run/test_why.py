@@ -7,7 +7,6 @@ import io
 
 import pytest
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.why import binding, sentences, slack, slack_in_words, why_csv, why_rows
 from tvimdesign.solve.result import StudyResult, answer
@@ -31,7 +30,7 @@ solver: {starts: 1}
 
 @pytest.fixture(scope="module")
 def found() -> StudyResult:
-    return answer(read_study_text(STUDY, "a test"), Catalog(), TABLE)
+    return answer(read_study_text(STUDY, "a test"))
 
 
 def test_more_stiffness_costs_mass(found: StudyResult) -> None:

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from support import ROOT, fine
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.study import given, read_study
 
@@ -70,7 +69,7 @@ def test_the_whole_cycle_is_within_the_accuracy_asked_for(build: Build, design: 
 def test_every_shipped_study_is_within_the_accuracy_asked_for(study: str) -> None:
     read = read_study(ROOT / f"studies/{study}.yaml")
     table = table_for(read.mode)
-    model = DeviceFunctions(table, given(read, Catalog(), table), tuple(read.operating_points), read.solver.cells)
+    model = DeviceFunctions(table, given(read), tuple(read.operating_points), read.solver.cells)
     assert _worst(model, SOFTENING, 6) < WITHIN
 
 

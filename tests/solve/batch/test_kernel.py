@@ -12,10 +12,9 @@ import numpy as np
 import pytest
 from support import ROOT, digits
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.elimination import newton_step
 from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
 from tvimdesign.study import given, read_study
@@ -88,7 +87,7 @@ def test_an_operation_without_a_vector_form_is_named() -> None:
 def test_the_kernel_of_the_table_agrees_with_casadi(study: str) -> None:
     read = read_study(ROOT / f"studies/{study}.yaml")
     table = table_for(read.mode)
-    model = DeviceFunctions(table, given(read, Catalog(), table), tuple(read.operating_points), read.solver.cells)
+    model = DeviceFunctions(table, given(read), tuple(read.operating_points), read.solver.cells)
     moving = ["wire_diameter", "coil_diameter", "preload_angle", "pcl_inner_radius", "pcl_flexural_modulus", "current"]
     places = [(0, model.index[name]) for name in moving]
     function = of_columns(model.every_output, [model.start, np.full(len(model.switch_names), 50.0)], places)

@@ -10,7 +10,6 @@ from bonmin import best_by_bonmin
 from choosing import LISTED, by_brute_force, listed
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
@@ -53,7 +52,7 @@ solver: {starts: 3, cells: 6, elements: 2}
 
 
 def _solve(study: Study) -> Solution:
-    return optimize(study, Catalog(), table_for(study.mode))
+    return optimize(study)
 
 
 def _chosen(solution: Solution) -> Choosing:
@@ -164,7 +163,7 @@ def test_bonmin_comes_to_the_same(found: Solution) -> None:
 def _relaxation(found: Solution) -> Relaxation:
     """The problem of the listed study with its starts run, its objective over the same reference."""
     study = listed()
-    optimizer = Optimizer(study, Catalog(), TABLE, found.reference)
+    optimizer = Optimizer(study, found.reference)
     relaxation = Relaxation(0, optimizer, {}, discrete_sizes(study, TABLE), SolverEffort())
     relaxation.starts()
     return relaxation
@@ -206,8 +205,8 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(found: So
 def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:
     text = LISTED.replace("vary:", "module: {structure_material: STUFF}\nvary:")
     petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))
-    first = Optimizer(petg, Catalog(), TABLE)
-    shared, own = first.with_records(metal), Optimizer(metal, Catalog(), TABLE, first.reference)
+    first = Optimizer(petg)
+    shared, own = first.with_records(metal), Optimizer(metal, first.reference)
     assert shared is not None
     assert shared.problem is first.problem
     runs = [optimizer.solve(begin=own.model.start) for optimizer in (shared, own)]
@@ -246,14 +245,14 @@ def test_where_no_combination_has_a_design_that_is_said() -> None:
 
 def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:
     study = listed()
-    optimizer = Optimizer(study, Catalog(), TABLE)
+    optimizer = Optimizer(study)
     screen, begin = FeasibilityScreen(optimizer), optimizer.model.start
     thin, thick = {"wire_diameter": (1.5e-3, 1.6e-3)}, {"wire_diameter": (1.5e-3, 2.4e-3)}
     assert screen.impossible(thin, begin)
     assert not screen.impossible(thick, begin)
     # Of thin wire by hand: k = E d^4 / (64 D n) in N.m per radian, four springs, D and n as small as they may be.
     rate = 196.5e9 * 1.6e-3**4 / (64.0 * 12e-3 * 3.0)
-    stress = 32.0 * rate * given(study, Catalog(), TABLE)["stroke"] / (math.pi * 1.6e-3**3)
+    stress = 32.0 * rate * given(study)["stroke"] / (math.pi * 1.6e-3**3)
     assert 4.0 * rate < 5.0 or stress > 0.5 * 2211e6 / 1.6**0.145 / 1.2
 
 

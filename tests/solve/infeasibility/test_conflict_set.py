@@ -7,7 +7,6 @@ import re
 import pytest
 
 from tvimdesign.base.errors import InfeasibleError
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
@@ -48,12 +47,12 @@ def _study(text: str) -> Study:
 
 
 def _answer(text: str) -> StudyResult:
-    return answer(_study(text), Catalog(), TABLE)
+    return answer(_study(text))
 
 
 def _refusal(text: str) -> str:
     with pytest.raises(InfeasibleError) as caught:
-        refuse_infeasible(_study(text), Catalog(), TABLE)
+        refuse_infeasible(_study(text))
     return str(caught.value)
 
 
@@ -75,7 +74,7 @@ def test_what_is_fixed_and_would_move_a_limit_most_is_named_and_doing_so_helps()
     )
     assert "vary placement_radius (57 mm), which moves it more than all that is varied" in _refusal(text)
     freed = text.replace("30 mm]}", "30 mm], placement_radius: [45 mm, 57 mm]}")
-    refuse_infeasible(_study(freed), Catalog(), TABLE)
+    refuse_infeasible(_study(freed))
     little = freed.replace("45 mm", "56 mm")  # nothing that is fixed moves it more now
     assert "moves it more" not in _refusal(little)
 
@@ -83,7 +82,7 @@ def test_what_is_fixed_and_would_move_a_limit_most_is_named_and_doing_so_helps()
 def test_what_a_design_keeps_is_never_refused() -> None:
     free = _answer(HEAVY.replace(', module_mass: "<= 60 g"', ""))
     just = 1e3 * free.design.values["module_mass"] * (1.0 + 1e-6)
-    refuse_infeasible(_study(HEAVY.replace("<= 60 g", f"<= {just:.9g} g")), Catalog(), TABLE)
+    refuse_infeasible(_study(HEAVY.replace("<= 60 g", f"<= {just:.9g} g")))
 
 
 def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None:
@@ -101,9 +100,9 @@ def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None
     assert "module_mass" not in said
     (figure,) = re.findall(r"coil_pitch <= 2.05 mm: alone it would have to move to <= ([\d.]+) mm", said)
     assert float(figure) > 2.05
-    refuse_infeasible(_study(text.replace("<= 2.05 mm", f"<= {1.001 * float(figure):.6g} mm")), Catalog(), TABLE)
-    refuse_infeasible(_study(text.replace(', coil_pitch: "<= 2.05 mm"', "")), Catalog(), TABLE)
-    refuse_infeasible(_study(text.replace('spring_index: "<= 6", ', "")), Catalog(), TABLE)
+    refuse_infeasible(_study(text.replace("<= 2.05 mm", f"<= {1.001 * float(figure):.6g} mm")))
+    refuse_infeasible(_study(text.replace(', coil_pitch: "<= 2.05 mm"', "")))
+    refuse_infeasible(_study(text.replace('spring_index: "<= 6", ', "")))
 
 
 def test_a_limit_nothing_varied_can_change_is_told_before_anything_is_built() -> None:
@@ -117,7 +116,7 @@ def test_a_limit_nothing_varied_can_change_is_told_before_anything_is_built() ->
 def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> None:
     listed = HEAVY.replace("vary: {", "vary: {structure_material: {choose: [petg, aluminum_6061_t6]}, ")
     assert "every listed structure_material" in _refusal(listed)
-    refuse_infeasible(_study(listed.replace("<= 60 g", "<= 250 g")), Catalog(), TABLE)
+    refuse_infeasible(_study(listed.replace("<= 60 g", "<= 250 g")))
 
 
 def test_a_check_says_the_same_of_limits_that_need_no_simulation() -> None:
@@ -179,7 +178,7 @@ def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
 
 def test_a_start_begun_again_from_a_design_that_keeps_all_limits_converges() -> None:
     study = _study(STIFF.replace(">= 20 N.m/rad", ">= 8 N.m/rad"))
-    optimizer = Optimizer(study, Catalog(), TABLE)
+    optimizer = Optimizer(study)
     run = optimizer.solve()
     again = SecondTry(optimizer).from_conflict_search(run)
     assert again.start.second_try

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.infeasibility.inspection import DERIVATIVE_TOLERANCE, Inspection
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -35,7 +34,7 @@ def _study(text: str) -> Study:
 
 @pytest.fixture(scope="module")
 def inspection() -> Inspection:
-    return Inspection(Optimizer(_study(TIMED), Catalog(), TABLE))
+    return Inspection(Optimizer(_study(TIMED)))
 
 
 def test_exact_derivatives_agree_with_differences(inspection: Inspection) -> None:
@@ -45,7 +44,7 @@ def test_exact_derivatives_agree_with_differences(inspection: Inspection) -> Non
 
 
 def test_a_wrong_derivative_is_found_and_named() -> None:
-    spoilt = Inspection(Optimizer(_study(TIMED), Catalog(), TABLE))
+    spoilt = Inspection(Optimizer(_study(TIMED)))
     names = spoilt._rows
     row = names.index("spring_stiffness >=")
     spoilt._jacobian[row, 0] *= 1.001
@@ -84,7 +83,7 @@ require: {envelope_diameter: "<= 400 mm"}
 minimize: envelope_diameter
 solver: {starts: 1}
 """
-    found = Inspection(Optimizer(_study(text), Catalog(), TABLE))
+    found = Inspection(Optimizer(_study(text)))
     rows = [i for i, name in enumerate(found._rows) if not name.startswith(("envelope", "goal"))]
     found._jacobian[rows, :] = 0.0
     conditioning = found.conditioning()

@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle, Trajectory
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle, Trajectory
 from tvimdesign.solve.nlp.transcription import guess, phase_block, radau
 
 DESIGNS = ("as it is", "thin", "thick", "aluminium")

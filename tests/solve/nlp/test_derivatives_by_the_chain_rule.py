@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.derivatives import derivatives_of
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -76,7 +74,7 @@ def assert_same(problem: Any, x: Array, p: Array) -> None:
 @pytest.mark.parametrize("text", [SHEAR, COMPRESSION, CYCLE, ROBUST], ids=["shear", "compression", "cycle", "robust"])
 def test_derivatives_of_a_problem_are_those_of_the_whole(text: str) -> None:
     study = read_study_text(text, "a test")
-    optimizer = Optimizer(study, Catalog(), table_for(study.mode))
+    optimizer = Optimizer(study)
     begin = optimizer.guess(optimizer.model.start)
     apart = 1e-3 * np.random.default_rng(2).normal(size=begin.size)
     assert_same(optimizer._compiled, begin + apart, optimizer.parameters(Objective(study.minimize)))

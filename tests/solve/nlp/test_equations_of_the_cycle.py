@@ -11,12 +11,11 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 from support import fine
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import resolve_study
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.transcription import guess
 from tvimdesign.study import read_study
@@ -136,7 +135,7 @@ def test_the_cycle_depends_on_what_one_expects_it_to(solved: Solved, build: Call
 def test_a_layer_whose_frozen_edge_runs_through_the_cells_has_elements_enough() -> None:
     """With as many as for softening, `wrist_joint` as it starts would be off by 0.4 %."""
     study = read_study(Path(__file__).parents[3] / "studies" / "wrist_joint.yaml")
-    resolved = resolve_study(study, Catalog(), table_for(study.mode))
+    resolved = resolve_study(study)
     model = DeviceFunctions(resolved.table, resolved.values, resolved.points, study.solver.cells)
     cycle = fine(model).run(model.start)
     found = solve(model, cycle, study.solver.elements).values["stiffening_time"]

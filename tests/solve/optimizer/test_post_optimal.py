@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from support import ROOT
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -42,14 +41,14 @@ def _study() -> Study:
 
 def _optimum(study: Study) -> dict[str, float]:
     """The minimised outputs at a study's optimum, as its collocation has them."""
-    optimizer = Optimizer(study, Catalog(), TABLE)
+    optimizer = Optimizer(study)
     run = optimizer.solve()
     assert run.start.converged
     return optimizer.derivatives(run).values
 
 
 def _active(study: Study) -> tuple[ActiveConstraint, ...]:
-    optimizer = Optimizer(study, Catalog(), TABLE)
+    optimizer = Optimizer(study)
     run = optimizer.solve()
     return verify_optimum(optimizer, run, (run.start,), {}).held
 
@@ -94,7 +93,7 @@ def test_savings_add_up_to_the_price_in_the_objective(name: str) -> None:
     """The envelope theorem: to first order the weighted sum changes by the multiplier."""
     study = read_study(ROOT / "studies" / f"{name}.yaml")
     study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 1})})
-    solution = optimize(study, Catalog(), table_for(study.mode))
+    solution = optimize(study)
     weights = {n: w * solution.values[n] / solution.reference[n] for n, w in study.minimize.items()}
     priced = [held for held in solution.held if held.shadow_price > 1e-3 and held.sensitivity]
     assert len(priced) >= 5

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from comparable import COMPRESSION, SHEAR
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import Solution
@@ -34,7 +33,7 @@ class Solved:
         self.study = read_study_text(text, "test")
         self.built: list[tuple[Optimizer, list[Run]]] = []
         self.solution: Solution = optimize(
-            self.study, Catalog(), table_for(self.study.mode), keep=lambda *kept: self.built.append(kept),
+            self.study, keep=lambda *kept: self.built.append(kept),
             objectives=objectives,
         )  # fmt: skip
         assert self.solution.status == "optimal"
@@ -50,7 +49,7 @@ class Solved:
             "require": (*self.study.require, *more),
             "module": {**self.study.module, **(begin or {})},
         }
-        return optimize(self.study.model_copy(update=asked), Catalog(), table_for(self.study.mode)).values[minimize]
+        return optimize(self.study.model_copy(update=asked)).values[minimize]
 
 
 # Where the joint is soft while cells still melt one after the other, the grid has optima of its own, 0.3 % high.
@@ -166,7 +165,7 @@ def test_nothing_is_built_again_for_another_front(solved: Solved, monkeypatch: p
 
 
 def test_what_can_be_traded_does_not_change_the_optimum(solved: Solved) -> None:
-    bare = optimize(solved.study, Catalog(), table_for(solved.study.mode))
+    bare = optimize(solved.study)
     assert bare.objective == pytest.approx(solved.solution.objective, rel=1e-5)
     assert bare.reference.keys() == solved.solution.reference.keys() == solved.study.minimize.keys()
 

@@ -10,12 +10,10 @@ import pytest
 from support import fine
 
 from tvimdesign.base.errors import SimulationError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.current_profile import CurrentProfile
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.sensitivity.output_sensitivity import (
     FINER,
     OutputSensitivities,
@@ -37,7 +35,7 @@ STEP = 4e-3
 
 def _rig(text: str = "mode: shear\n") -> ResolvedModule:
     study = read_study_text(text, "a test")
-    return resolve_study(study, Catalog(), table_for(study.mode))
+    return resolve_study(study)
 
 
 @pytest.fixture(scope="module")
@@ -108,9 +106,7 @@ def test_what_never_happens_is_left_out_by_name() -> None:
 
 def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -> None:
     """A profile divides the time its stage takes, so the current is no one number there."""
-    driven = ResolvedModule(
-        resolved.study, resolved.catalog, resolved.table, resolved.values, {"stiffening": CurrentProfile.constant(-0.5)}
-    )
+    driven = ResolvedModule(resolved.study, resolved.values, {"stiffening": CurrentProfile.constant(-0.5)})
     found = output_sensitivities(driven, 3, CELLS, ["response_time", "stiffening_time", "module_mass"])
     assert found.left_out == ("stiffening_time",)
     assert "cooling_current" not in found.variables
@@ -130,7 +126,7 @@ def test_the_compression_module_is_differentiated_alike() -> None:
 def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -> None:
     """Newton's whole steps do not converge there; shorter ones do."""
     study = read_study(Path(__file__).parents[3] / "studies" / "wrist_compression.yaml")
-    resolved = resolve_study(study, Catalog(), table_for(study.mode))
+    resolved = resolve_study(study)
     elements, cells = FINER * study.solver.elements, study.solver.cells
     by = _logarithmic(output_sensitivities(resolved, elements, cells, ["frozen_time"], [name]), resolved)
     shown = _simulated(resolved, cells, name, ["frozen_time"])

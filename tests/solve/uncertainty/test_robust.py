@@ -8,12 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.full_summary import _robustness
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.simulation.resolved_module import resolve_design
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, trace_front
@@ -46,10 +44,9 @@ solver: {starts: 1, cells: 12, elements: 3}
 
 def _solved(text: str) -> tuple[StudyResult, Spread]:
     study = read_study_text(text, "a test")
-    catalog, table = Catalog(), table_for(study.mode)
-    found = answer(study, catalog, table)
+    found = answer(study)
     assert found.design.status == "optimal"
-    analysis = Tolerancing(resolve_design(found.design, catalog, table), lambda _: None)
+    analysis = Tolerancing(resolve_design(found.design), lambda _: None)
     return found, analysis.analyse(1 << 14, 1)
 
 
@@ -98,7 +95,7 @@ def test_every_point_of_a_front_keeps_limits_on_times_by_as_much_as_the_optimum_
     study = study.model_copy(update={"minimize": {"peak_power": 1.0, "response_time": 10.0}})
     built: list[tuple[Optimizer, list[Run]]] = []
     solution = optimize(
-        study, Catalog(), table_for("shear"), keep=lambda *kept: built.append(kept), objectives=objectives
+        study, keep=lambda *kept: built.append(kept), objectives=objectives
     )  # fmt: skip
     front = trace_front(Tradeoff(study, solution, *built[0]), objectives, 3)
     assert len(front.points) == 3
@@ -118,10 +115,9 @@ def _inputs(optimizer: Optimizer, front: Front) -> list[NDArray[np.float64]]:
 def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
-    table = table_for(study.mode)
-    found = answer(study, Catalog(), table)
+    found = answer(study)
     assert not found.found
-    assert "(`robust`): ask for fewer, or spread less" in complaint(found, table)
+    assert "(`robust`): ask for fewer, or spread less" in complaint(found, study.table)
 
 
 @pytest.mark.slow

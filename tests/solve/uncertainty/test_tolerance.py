@@ -10,10 +10,8 @@ import numpy as np
 import pytest
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp.moments import moments
 from tvimdesign.solve.uncertainty.contributors import contributors_of
@@ -30,8 +28,7 @@ def resolved() -> Callable[[str], ResolvedModule]:
 
     @cache
     def make(text: str) -> ResolvedModule:
-        table = table_for("shear")
-        return resolve_study(read_study_text(f"mode: shear\n{text}", "a test"), Catalog(), table)
+        return resolve_study(read_study_text(f"mode: shear\n{text}", "a test"))
 
     return make
 

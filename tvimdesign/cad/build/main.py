@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.whole_files import write_whole
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.study.design import Design, read_design
+from tvimdesign.study.design import Design, catalog_of, read_design
 
 if TYPE_CHECKING:
     from tvimdesign.cad.build.worker import Done
@@ -59,13 +58,11 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
 
 def _titles(design: Design) -> dict[str, str]:
     """What the catalogue calls the records a design was made of; a record that is not here has its name only."""
-    reported = design.study.get("catalog_folder")
     titles = {}
     for row in table_for(design.mode).choices:
         with contextlib.suppress(CatalogError):
             if row.category and row.name in design.choices:
-                catalog = Catalog(Path(reported) if reported else None)
-                titles[row.name] = catalog.record(row.category, design.choices[row.name]).title
+                titles[row.name] = catalog_of(design).record(row.category, design.choices[row.name]).title
     return titles
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.catalog import Record
+from tvimdesign.base.record import Record
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tvimdesign.catalog import Record
+from tvimdesign.base.record import Record
 from tvimdesign.device.table.quantity import Feature, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 

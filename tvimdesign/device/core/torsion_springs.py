@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.catalog import Record
+from tvimdesign.base.record import Record
 from tvimdesign.device.table.quantity import Feature, Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import spring

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tvimdesign.catalog import Record
+from tvimdesign.base.record import Record
 from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
 from tvimdesign.device.fixtures.bearing import BEARINGS, bearing_inner_section, bearings_inertia

@@ -9,7 +9,6 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
-from tvimdesign.device import table_for
 from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.report.compare.comparison import Outcome
 from tvimdesign.report.compare.comparison_plot_data import drawings
@@ -19,7 +18,7 @@ from tvimdesign.report.figures.plot_process import PlotProcess
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.check_study import refuse_what_cannot_be
-from tvimdesign.study import catalog_of, read_tree
+from tvimdesign.study import read_tree
 from tvimdesign.study.conditions import Entrant, refuse_unequal
 from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.text.mistakes import Mistake, StudyError
@@ -103,7 +102,7 @@ def _read(paths: Sequence[Path], settings: Sequence[str]) -> list[Entrant]:
             shown = printable(path)
             problems.append(Mistake(shown, 0, 0, "", str(error).removeprefix(f"{shown}: ").removeprefix(f"{shown} ")))
         else:
-            found.append(Entrant(path, study, catalog_of(study), table_for(study.mode)))
+            found.append(Entrant(path, study))
     if problems:
         raise StudyError(problems)
     refuse_unequal(found)

@@ -27,7 +27,7 @@ class Outcome:
     def __init__(self, entrants: Mapping[str, Entrant], found: Mapping[str, dict[str, Any]]) -> None:
         """`found` holds what each child process wrote."""
         self.entrants, self.found = dict(entrants), dict(found)
-        self.tables = {label: entrant.table for label, entrant in entrants.items()}
+        self.tables = {label: entrant.study.table for label, entrant in entrants.items()}
         self.seconds: dict[str, float] = {}
 
     @property

@@ -21,24 +21,23 @@ from typing import Any
 from tvimdesign.base.errors import AboveRatingError, InfeasibleError, TvimError
 from tvimdesign.base.units import from_si
 from tvimdesign.base.whole_files import write_whole
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.report.compare import normalization
 from tvimdesign.report.output.tables import check_row
 from tvimdesign.report.output.thresholds import soft_in_words
 from tvimdesign.report.run.infeasible_report import above_rating, complaint
 from tvimdesign.report.run.why import binding
 from tvimdesign.report.simulate_study import figure_data, findings
-from tvimdesign.simulation.resolved_module import resolve_design
+from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
+from tvimdesign.simulation.registry import find_test
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.study import Study, catalog_of, drawn, read_tree
+from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.tree import tree_of_file
-from tvimdesign.virtual_tests.joint_tests.release import ANGLE_PANEL
-from tvimdesign.virtual_tests.registry import find_test
 
 Say = Callable[[str], None]
 HELD_TOLD = 3
@@ -59,8 +58,7 @@ class ComparisonJob:
         """Read the study; the parent has seen that it can be read."""
         self.study = read_tree(tree_of_file(path, settings))
         self._others = [(other, settings) for other in others]
-        self.catalog: Catalog = catalog_of(self.study)
-        self.table = table_for(self.study.mode)
+        self.table = self.study.table
         self.points, self.say = points, say
         self._built: list[tuple[Optimizer, list[Run]]] = []
         self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}, "release": {}, "heat": {}}
@@ -75,7 +73,7 @@ class ComparisonJob:
         designs: dict[str, StudyResult] = {}
         with self._step("as drawn"):
             self.say("as drawn")
-            designs["drawn"] = answer(drawn(self.study, self.catalog, self.table), self.catalog, self.table)
+            designs["drawn"] = answer(drawn(self.study))
             self.found["drawn"] = self._told(designs["drawn"])
         if self.study.vary:
             with self._step("optimised"):
@@ -107,7 +105,7 @@ class ComparisonJob:
         starts = [normalization.at_its_start(study) for study in (self.study, *self.others)]
         common = normalization.common(starts)
         objectives = front_outputs(self.study, self.table) if self.points else ()
-        answered = answer(self.study, self.catalog, self.table, self.say, common, self._keep, objectives)
+        answered = answer(self.study, self.say, common, self._keep, objectives)
         if not answered.found:
             raise InfeasibleError(complaint(answered, self.table))
         self.found["optimised"] = self._told(answered)
@@ -169,7 +167,7 @@ class ComparisonJob:
         return plain
 
     def _release(self, of: StudyResult) -> dict[str, Any]:
-        trial = find_test("release")(resolve_design(of.design, self.catalog, self.table))
+        trial = find_test("release")(resolve_design(of.design))
         panels = [panel for panel in figure_data(trial)["panels"] if panel["title"].startswith(ANGLE_PANEL)]
         lines = [line for panel in panels for line in panel["lines"] if not line["dashed"]]
         return {**findings(trial), "x_label": panels[0]["x_label"], "y_label": panels[0]["y_label"], "lines": lines}

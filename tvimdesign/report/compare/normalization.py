@@ -10,19 +10,18 @@ import math
 from collections.abc import Mapping, Sequence
 
 from tvimdesign.base.errors import TvimError
-from tvimdesign.device import table_for
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.study import Study, catalog_of, given
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.study import Study, given
 
 Values = Mapping[str, float]
 
 
 def at_its_start(study: Study) -> dict[str, float] | None:
     """The minimised outputs of a study as it is drawn, SI; None where that cannot be simulated."""
-    table, catalog = table_for(study.mode), catalog_of(study)
+    table = study.table
     try:
-        model = DeviceFunctions(table, given(study, catalog, table), tuple(study.operating_points), study.solver.cells)
+        model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
         values = model.values(model.start, Simulator(model).run(model.start).values)
     except TvimError:
         return None

@@ -48,9 +48,9 @@ class Contest:
 def conditions(entrants: Mapping[str, Entrant]) -> list[str]:
     """What holds for every study, in words: requirements all share, temperatures, current, materials, surroundings."""
     first = next(iter(entrants.values()))
-    study, table, values = first.study, first.table, first.values
+    study, table, values = first.study, first.study.table, first.values
     everywhere = [
-        r for r in study.require if all(r.output.partition("@")[0] in e.table.by_name for e in entrants.values())
+        r for r in study.require if all(r.output.partition("@")[0] in e.study.table.by_name for e in entrants.values())
     ]
     required = [f"{r.output} {r.sense} {format_quantity(r.limit, table.unit(r.output))}" for r in everywhere]
     points = [

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from tvimdesign.base.errors import CatalogError
-from tvimdesign.catalog import Catalog
+from tvimdesign.base.record import Record
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.design import Design
 
 Ends = tuple[float, float]
+FindRecord = Callable[[str, str], Record]
+"""Gives a record by its category and name; raises CatalogError where there is none."""
 
 
 class Provenance(NamedTuple):
@@ -22,7 +25,7 @@ class Provenance(NamedTuple):
     high: float | None = None
 
 
-def provenance(name: str, design: Design, table: Table, catalog: Catalog) -> Provenance:
+def provenance(name: str, design: Design, table: Table, find_record: FindRecord) -> Provenance:
     """Where the number of a full name comes from, in a design."""
     row, base = table.quantity(name), name.partition("@")[0]
     if not isinstance(row, Input):
@@ -34,17 +37,19 @@ def provenance(name: str, design: Design, table: Table, catalog: Catalog) -> Pro
     if row.per_point:
         return Provenance("study", "an operating point of the study")
     if row.record:
-        return _of_record(*row.record, row, design, table, catalog)
+        return _of_record(*row.record, row, design, table, find_record)
     status, _, source = row.source.partition(": ")
     return Provenance(status, source)
 
 
-def _of_record(choice: str, field: str, row: Input, design: Design, table: Table, catalog: Catalog) -> Provenance:
+def _of_record(
+    choice: str, field: str, row: Input, design: Design, table: Table, find_record: FindRecord
+) -> Provenance:
     """As the chosen record has it; as the row says where the record has no such value."""
     chosen = table.quantity(choice)
     assert isinstance(chosen, Choice)
     try:
-        record = catalog.record(chosen.category or "", design.choices[choice])
+        record = find_record(chosen.category or "", design.choices[choice])
         entry = record.entry(field)
     except CatalogError:
         return Provenance("record", row.source)

@@ -7,20 +7,18 @@ import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any, cast
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, Output, Table
 from tvimdesign.report.output.choices_tables import choosing_data
 from tvimdesign.report.output.number_entry import finite, number_entry
-from tvimdesign.report.output.provenance import provenance
+from tvimdesign.report.output.provenance import FindRecord, provenance
 from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, ValueEntry, Yield, head
 from tvimdesign.report.output.thresholds import meaning, notes
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
-from tvimdesign.study.design import Design
+from tvimdesign.study.design import Design, catalog_of
 
 NOTHING = 5e-4
 """Margin, as a share, below which a limit is said to bind."""
@@ -148,11 +146,10 @@ def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | 
 def results(answer: StudyResult, table: Table) -> Answered:
     """Everything a script wants to know: every number in its unit and in SI, every check, how it was found."""
     design, reached = answer.design, answer.solution.yield_reached if answer.solution else None
-    folder = design.study.get("catalog_folder")
-    catalog, ends = Catalog(Path(folder) if folder else None), answer.intervals
+    find_record, ends = catalog_of(design).record, answer.intervals
 
     def entries(values: Mapping[str, float]) -> dict[str, ValueEntry]:
-        return {name: _entry(name, value, answer, table, catalog) for name, value in values.items()}
+        return {name: _entry(name, value, answer, table, find_record) for name, value in values.items()}
 
     constant = answer.solution.constant if answer.solution else None
     best: BestConstant | None = (
@@ -194,9 +191,9 @@ def results(answer: StudyResult, table: Table) -> Answered:
     }
 
 
-def _entry(name: str, value: float, answer: StudyResult, table: Table, catalog: Catalog) -> ValueEntry:
+def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> ValueEntry:
     design = answer.design
-    row, known = table.quantity(name), provenance(name, design, table, catalog)
+    row, known = table.quantity(name), provenance(name, design, table, find_record)
     return {
         **number_entry(value, table.unit(name), (known.low, known.high)),
         "kind": "input" if isinstance(row, Input) else "output",

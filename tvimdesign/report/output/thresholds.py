@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Table
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study.design import Design
 
 _MULTIPLES = {2.0: "twice", 3.0: "three times"}

@@ -22,7 +22,7 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.paper_check import published_model
 from tvimdesign.report.paper.paper_claims import from_paper
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, level_set
 
 THICKNESSES = np.geomspace(0.2e-3, 2e-3, 8)  # m

@@ -16,12 +16,11 @@ from typing import Any
 import numpy as np
 import yaml
 
+from tvimdesign.base.record import Entry
 from tvimdesign.base.units import from_si, pretty, to_si
-from tvimdesign.catalog import Catalog
-from tvimdesign.catalog.record import Entry
 from tvimdesign.device import Input, table_for
 from tvimdesign.report.paper.paper_claims import from_paper
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.ratio_sensitivity import Array, Influence, Pair, Span, ratio
 from tvimdesign.study import given, read_study_text
 
@@ -48,7 +47,7 @@ def _model(mode: str, **choices: str) -> DeviceFunctions:
     study = read_study_text(case()["studies"][mode], f"the calibrated {mode} module")
     study = study.model_copy(update={"module": {**study.module, **choices}})
     table = table_for(mode)
-    return DeviceFunctions(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+    return DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
 
 
 @cache

@@ -18,7 +18,7 @@ from tvimdesign.physics import dynamics, layer, spring, transmission
 from tvimdesign.report.paper.paper_claims import claims, from_paper
 
 if TYPE_CHECKING:
-    from tvimdesign.simulation.device_functions import DeviceFunctions
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 
 @dataclass(frozen=True)
@@ -115,19 +115,17 @@ _INSULATED = {"rotor_contact": 1e-3}
 @cache
 def published_model() -> DeviceFunctions:
     """The paper's module as published, compiled."""
-    from tvimdesign.catalog import Catalog
-    from tvimdesign.device import table_for
-    from tvimdesign.simulation.device_functions import DeviceFunctions
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
     from tvimdesign.study import given, read_study_text
 
     study = read_study_text(claims()["study"], "the paper's module")
-    table = table_for(study.mode)
-    return DeviceFunctions(table, given(study, Catalog(), table), tuple(study.operating_points), study.solver.cells)
+    table = study.table
+    return DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
 
 
 def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
     """The paper's thickness as assumed here [m], and a function from changed inputs to the values of one switch."""
-    from tvimdesign.simulation.cycle import Simulator
+    from tvimdesign.simulation.working_cycle.cycle import Simulator
 
     model = published_model()
     simulator = Simulator(model)
@@ -172,13 +170,11 @@ def _ratio() -> str:
 @cache
 def _published() -> dict[str, float]:
     """Values of the paper's module as published, one switch simulated."""
-    from tvimdesign.catalog import Catalog
-    from tvimdesign.device import table_for
     from tvimdesign.solve.result import answer
     from tvimdesign.study import read_study_text
 
     study = read_study_text(claims()["study"], "the paper's module")
-    return answer(study, Catalog(), table_for(study.mode)).design.values
+    return answer(study).design.values
 
 
 _COMPUTED: dict[str, Callable[[], str]] = {

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, cast
 
 from tvimdesign.base.errors import InputError, TvimError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
@@ -17,11 +16,11 @@ from tvimdesign.report.output.results_format import RunResults
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
-from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.report.run.why import why
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
-from tvimdesign.study import Study, catalog_of, drawn, read_tree
+from tvimdesign.study import Study, drawn, read_tree
+from tvimdesign.study.record_checks import record_checks
 from tvimdesign.study.tree import StudyTree
 
 
@@ -31,8 +30,6 @@ class AnsweredStudy:
 
     tree: StudyTree
     study: Study
-    table: Table
-    catalog: Catalog
     result: StudyResult
     front: FrontOfRun
     reported: RunResults
@@ -63,13 +60,13 @@ def answer_study(
     """
     study = read_tree(tree)
     study = proving(study) if prove else study
-    table, catalog = table_for(study.mode), catalog_of(study)
-    study = drawn(study, catalog, table) if drawn_only else study
+    table = study.table
+    study = drawn(study) if drawn_only else study
     front = FrontOfRun(study, table, folder)
-    found = answer(study, catalog, table, progress, keep=front.keep, objectives=front.outputs, search=search)
+    found = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search)
     early(found)
-    answered = AnsweredStudy(tree, study, table, catalog, found, front, _reported(found, table))
-    answered.reported["doubts"] = record_checks(study, catalog, table)
+    answered = AnsweredStudy(tree, study, found, front, _reported(found, table))
+    answered.reported["doubts"] = record_checks(study)
     if found.found and (sensitivities or study.write.sensitivities):
         progress("differentiating the outputs")
         with noting(answered.failures):
@@ -97,7 +94,7 @@ def _differentiate(answered: AnsweredStudy) -> None:
     """Add what every variable does to every output. Raises SimulationError."""
     from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
 
-    derivatives, resolved = sensitivities(answered.result, answered.catalog, answered.table)
+    derivatives, resolved = sensitivities(answered.result)
     answered.sensitivities = sensitivities_csv(derivatives, resolved)
     answered.reported["sensitivities_left_out"] = list(derivatives.left_out)
     answered.heat_map = heat_map(derivatives, resolved)
@@ -109,7 +106,7 @@ def drawings(answered: AnsweredStudy) -> list[Drawing]:
 
     if not answered.result.found:
         return []
-    found = run_plot_data.drawings(answered.result, answered.table)
+    found = run_plot_data.drawings(answered.result, answered.study.table)
     if answered.heat_map.get("values"):
         found.append(Drawing("sensitivities", "sensitivity_figure.sensitivities", answered.heat_map))
     return found + answered.front.drawings()

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.device import table_for
-from tvimdesign.report.run.record_checks import record_checks
-from tvimdesign.study import Study, catalog_of
+from tvimdesign.study import Study
+from tvimdesign.study.record_checks import record_checks
 
 
 def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
@@ -18,7 +17,7 @@ def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
     from tvimdesign.report.run.refusal import refuse_unfit
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
-    (refuse_unfit if proof else refuse_impossible)(study, catalog_of(study), table_for(study.mode))
+    (refuse_unfit if proof else refuse_impossible)(study)
     return study
 
 
@@ -26,21 +25,20 @@ def describe(study: Study) -> str:
     """One line on what a valid study asks, then one for each of its records that contradicts itself."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
     asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
-    return "\n".join([asked, *record_checks(study, catalog_of(study), table_for(study.mode)), *foreseen_ratings(study)])
+    return "\n".join([asked, *record_checks(study), *foreseen_ratings(study)])
 
 
 def foreseen_ratings(study: Study) -> list[str]:
     """Ratings that the module the study starts from is beyond and the study neither accepts nor excludes."""
     from tvimdesign.solve.ratings import exceeded_at_start
 
-    table = table_for(study.mode)
     try:
-        found = exceeded_at_start(study, catalog_of(study), table)
+        found = exceeded_at_start(study)
     except SimulationError:
         return []
     module, then = ("The module", "") if not study.vary else ("The module it starts from", " An optimum may be, too.")
     return [
-        f"{module} is beyond a rating: {name} is {format_quantity(value, table.unit(name))}.{then} Accept it, "
-        f'`accept: [{name}]`, or exclude it, `require: {{{name}: ">= 0 {table.unit(name)}"}}`.'
+        f"{module} is beyond a rating: {name} is {format_quantity(value, study.table.unit(name))}.{then} Accept it, "
+        f'`accept: [{name}]`, or exclude it, `require: {{{name}: ">= 0 {study.table.unit(name)}"}}`.'
         for name, value in found.items()
     ]

@@ -8,12 +8,12 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.device import Choice, table_for
+from tvimdesign.device import Choice
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.run.check_study import describe, refuse_what_cannot_be
 from tvimdesign.report.run.infeasible_report import endings
-from tvimdesign.study import Range, Study, catalog_of
+from tvimdesign.study import Range, Study
 
 if TYPE_CHECKING:
     from tvimdesign.solve.infeasibility.inspection import Conditioning, DerivativeCheck, Structure, ValueRange
@@ -67,7 +67,7 @@ def inspect_study(study: Study, progress: Progress) -> Diagnostics:
     from tvimdesign.solve.infeasibility.inspection import Inspection
     from tvimdesign.solve.optimizer.optimizer import Optimizer
 
-    table, catalog = table_for(study.mode), catalog_of(study)
+    table = study.table
     if not any(isinstance(vary, Range) for vary in study.vary.values()):
         raise InputError(f"{study.name}: varies no number between limits, so there is no problem to look at deeper")
     numbers = {name: vary for name, vary in study.vary.items() if not isinstance(table.quantity(name), Choice)}
@@ -78,7 +78,7 @@ def inspect_study(study: Study, progress: Progress) -> Diagnostics:
     }
     study = study.model_copy(update={"vary": numbers, "module": {**study.module, **words}})
     progress("building the problem")
-    optimizer = Optimizer(study, catalog, table, progress=progress)
+    optimizer = Optimizer(study, progress=progress)
     inspection = Inspection(optimizer)
     rows, columns = inspection.scaling()
     progress("comparing derivatives with differences")

@@ -7,24 +7,20 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from tvimdesign.base.errors import InfeasibleError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import FORMAT, UNITS, RefusedRun
 from tvimdesign.study import Study
 from tvimdesign.study.tree import StudyTree, study_file
 
 
-def refuse_unfit(
-    study: Study, catalog: Catalog, table: Table, progress: Callable[[str], None] = lambda _: None
-) -> None:
+def refuse_unfit(study: Study, progress: Callable[[str], None] = lambda _: None) -> None:
     """Raise InputError or InfeasibleError where the study can have no design: what `check` finds."""
     from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
-    refuse_impossible(study, catalog, table)
+    refuse_impossible(study)
     progress("looking for limits that cannot hold together")
-    refuse_infeasible(study, catalog, table)
+    refuse_infeasible(study)
 
 
 @contextmanager

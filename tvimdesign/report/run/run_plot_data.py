@@ -11,7 +11,7 @@ from tvimdesign.device import Output, Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.axis_labels import axis_label, name_in_words
 from tvimdesign.report.run.margin_plot_data import free_rows, margin_groups
-from tvimdesign.simulation.curves import PHASE_UNITS, Curves, torque_loop
+from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves, torque_loop
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.design import Design
 

@@ -65,8 +65,8 @@ def run_study(
     else:
         show(look_first(folder, str(folder.path), wide_console().width), wide_console())
     if not found.found:
-        raise InfeasibleError(complaint(found, answered.table))
-    if refused := above_rating(found, answered.table):
+        raise InfeasibleError(complaint(found, answered.study.table))
+    if refused := above_rating(found, answered.study.table):
         raise AboveRatingError(refused)
     if failures:
         raise done_in_part(failures)

@@ -7,10 +7,8 @@ import io
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty, to_si
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table
 from tvimdesign.report.output.axis_labels import name_in_words
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.sensitivity.output_sensitivity import FINER, OutputSensitivities, entries, output_sensitivities
 
@@ -18,11 +16,13 @@ _SHOWN = 5e-3
 """Elasticity below which a row or a column of the heat map has nothing to say."""
 
 
-def sensitivities(answer: StudyResult, catalog: Catalog, table: Table) -> tuple[OutputSensitivities, ResolvedModule]:
+def sensitivities(answer: StudyResult) -> tuple[OutputSensitivities, ResolvedModule]:
     """Differentiate what a summary shows and what the study limits or minimises. Raises SimulationError."""
-    resolved = resolve_design(answer.design, catalog, table)
+    resolved = resolve_design(answer.design)
     asked = {*answer.design.study["minimize"], *(one["output"] for one in answer.design.study["require"])}
-    wanted = [name for name in table.names(resolved.points) if table.output(name).headline or name in asked]
+    wanted = [
+        name for name in resolved.table.names(resolved.points) if resolved.table.output(name).headline or name in asked
+    ]
     options = answer.design.study["solver"]
     return output_sensitivities(resolved, FINER * options["elements"], options["cells"], wanted), resolved
 

@@ -9,14 +9,14 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, results_csv
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.why import why_csv
-from tvimdesign.simulation.curves import PHASE_UNITS
+from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS
 from tvimdesign.study.design import write_design
 from tvimdesign.study.tree import study_file
 
 
 def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
-    found, table, reported = answered.result, answered.table, answered.reported
+    found, table, reported = answered.result, answered.study.table, answered.reported
     folder.write("study.yaml", study_file(answered.tree))
     folder.write("study.resolved.json", answered.study.model_dump_json(indent=2) + "\n")
     folder.write_json("results.json", reported)
@@ -43,8 +43,8 @@ def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:
     """Files an answer was made from: the study's, where it has one, and those of the records the design uses."""
     path, choices = answered.tree.path, answered.result.design.choices
     records = {
-        f"{row.category}/{choices[row.name]}": answered.catalog.path(row.category, choices[row.name])
-        for row in answered.table.quantities
+        f"{row.category}/{choices[row.name]}": answered.study.catalog.path(row.category, choices[row.name])
+        for row in answered.study.table.quantities
         if isinstance(row, Choice) and row.category and choices[row.name] not in row.options
     }
     return {"study": path, **records} if path else records

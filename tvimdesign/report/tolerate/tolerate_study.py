@@ -16,7 +16,7 @@ from rich.table import Table as Grid
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
@@ -33,12 +33,12 @@ from tvimdesign.report.tolerate.tolerance_tables import (
     spreads,
 )
 from tvimdesign.report.tolerate.words import of_concern, sentences
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread, Tolerancing
-from tvimdesign.study import Study, catalog_of, read_study, standard_tolerances
+from tvimdesign.study import Study, read_study, standard_tolerances
 from tvimdesign.study.design import Design, read_design, write_design
 
 FEWEST, MOST = 1 << 8, 1 << 22
@@ -97,21 +97,21 @@ def _study(source: Path) -> Study:
 
 def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule:
     """The module to analyse: a design as it is, a study evaluated, or the optimum of one."""
-    table, catalog = table_for(study.mode), catalog_of(study)
+    table = study.table
     notes = []
     if not study.tolerances:
         study = study.model_copy(update={"tolerances": standard_tolerances(table)})
         notes.append("The study gives no tolerances: the standard ones are taken.")
     if source.suffix == ".json":
         design = read_design(source)
-        resolved = resolve_design(design, catalog, table)
+        resolved = resolve_design(design)
         return TolerancedModule(
             replace(resolved, study=resolved.study.model_copy(update={"tolerances": study.tolerances})),
             None,
             (f"Module: the design {source}.", *design.rating_notes, *notes),
         )
     if not study.vary:
-        return TolerancedModule(resolve_study(study, catalog, table), None, (f"Module: {source}.", *notes))
+        return TolerancedModule(resolve_study(study), None, (f"Module: {source}.", *notes))
     progress("seeking the optimum")
     design = _optimum(study, progress)
     module = f"Module: the optimum of {source}{', robust as it asks' if study.robust else ''}."
@@ -120,13 +120,13 @@ def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule
     if study.robust:
         progress("seeking the optimum that is not robust")
         plain = _optimum(study.model_copy(update={"robust": None}), progress)
-        nominal = resolve_design(plain, catalog, table)
-    return TolerancedModule(resolve_design(design, catalog, table), design, tuple(notes), nominal)
+        nominal = resolve_design(plain)
+    return TolerancedModule(resolve_design(design), design, tuple(notes), nominal)
 
 
 def _optimum(study: Study, progress: Progress) -> Design:
-    table = table_for(study.mode)
-    found = answer(study, catalog_of(study), table, progress)
+    table = study.table
+    found = answer(study, progress)
     if not found.found:
         raise InfeasibleError(complaint(found, table))
     return found.design

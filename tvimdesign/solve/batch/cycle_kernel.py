@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Event, Path, Steady
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.phase_kernel import Passage, PhaseKernel, Steps
 
 Array = NDArray[np.float64]

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.phase_functions import PhaseFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.solve.batch.elimination import newton_step
 from tvimdesign.solve.batch.kernel import Kernel, stacked
 

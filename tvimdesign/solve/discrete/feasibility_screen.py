@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.ipopt import NLP
 from tvimdesign.solve.nlp.solver_run import Ends

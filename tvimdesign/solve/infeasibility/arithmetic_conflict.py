@@ -10,9 +10,7 @@ import numpy as np
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.solution import ConflictSet
@@ -25,14 +23,14 @@ _MOST_RECORDS = 20
 """Combinations of records beyond which the search itself shall tell."""
 
 
-def refuse_infeasible(study: Study, catalog: Catalog, table: Table) -> None:
+def refuse_infeasible(study: Study) -> None:
     """Raise InfeasibleError, naming the limits and the ranges' ends, where no start keeps the arithmetic limits."""
-    records = discrete_records(study, table)
+    records = discrete_records(study, study.table)
     if not study.vary or len(records) > _MOST_RECORDS:
         return
     said: list[str] = []
     for chosen in records:
-        reported = _conflict(with_records(study, chosen), catalog, table)
+        reported = _conflict(with_records(study, chosen))
         if not reported:
             return
         said.append(reported)
@@ -40,15 +38,15 @@ def refuse_infeasible(study: Study, catalog: Catalog, table: Table) -> None:
     raise InfeasibleError(f"{study.name}: {said[0]}{also}")
 
 
-def _conflict(study: Study, catalog: Catalog, table: Table) -> str:
+def _conflict(study: Study) -> str:
     """What conflicts, with what to do; empty where a start keeps all limits."""
     update = {
-        "minimize": {name: weight for name, weight in study.minimize.items() if not on_cycle(table, name)},
+        "minimize": {name: weight for name, weight in study.minimize.items() if not on_cycle(study.table, name)},
         "solver": study.solver.model_copy(update={"starts": max(_STARTS, study.solver.starts)}),
         "profile": ProfileOptions(), "robust": None,
     }  # fmt: skip
     try:
-        optimizer = Optimizer(study.model_copy(update=update), catalog, table, without_cycle=True)
+        optimizer = Optimizer(study.model_copy(update=update), without_cycle=True)
     except InfeasibleError as error:  # a limit that nothing free can mend
         return str(error)
     if not optimizer.free or not optimizer.problem.limits:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.ipopt import NLP, solver_of
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Array, Run

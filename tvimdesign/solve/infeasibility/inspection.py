@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, is_constant
 from tvimdesign.solve.nlp.labels import row_names, unknown_names
 from tvimdesign.solve.nlp.objective import Objective

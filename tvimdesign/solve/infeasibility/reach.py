@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import ProfileOptions, Study
@@ -16,17 +15,17 @@ _ENDS = {
 """Of each target: the impedance it is held against, whether the least or the largest of that counts, and its band."""
 
 
-def refuse_unreachable(study: Study, catalog: Catalog, table: Table) -> None:
+def refuse_unreachable(study: Study) -> None:
     """Raise InputError, with what would be reachable, for a stated target that no design within the ranges has."""
     if study.module.get("impedance_targets") != "stated":
         return
     for word, (row, sign, band) in _ENDS.items():
-        reached = _extreme(study, catalog, table, row, sign)
-        target, factor = (_given(study, table, name) for name in (f"{word}_impedance", band))
+        reached = _extreme(study, row, sign)
+        target, factor = (_given(study, study.table, name) for name in (f"{word}_impedance", band))
         limit = target * factor if sign > 0.0 else target / factor
         if reached is not None and sign * (reached - limit) > 0.0:
             end, most = ("softest", "least") if sign > 0.0 else ("stiffest", "largest")
-            unit = table.unit(row)
+            unit = study.table.unit(row)
             asked, has, possible = (format_quantity(value, unit) for value in (target, reached, reached / factor**sign))
             raise InputError(
                 f"{word}_impedance {asked} cannot be reached: the {end} joint within the ranges under `vary` and the "
@@ -34,7 +33,7 @@ def refuse_unreachable(study: Study, catalog: Catalog, table: Table) -> None:
             )
 
 
-def _extreme(study: Study, catalog: Catalog, table: Table, row: str, sign: float) -> float | None:
+def _extreme(study: Study, row: str, sign: float) -> float | None:
     """Least or largest value of a row within the ranges and the machine's rules; None where the solver finds none."""
     asked = study.model_copy(
         update={
@@ -45,7 +44,7 @@ def _extreme(study: Study, catalog: Catalog, table: Table, row: str, sign: float
         }
     )
     try:
-        optimizer = Optimizer(asked, catalog, table)
+        optimizer = Optimizer(asked)
     except InfeasibleError:
         return None
     run = optimizer.solve()

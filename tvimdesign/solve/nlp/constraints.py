@@ -8,7 +8,6 @@ from typing import Any, Literal
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.table.quantity import Feature, Rule
 from tvimdesign.study import Study, given
@@ -91,10 +90,11 @@ def unchangeable(limit: Constraint, table: Table) -> str:
     )
 
 
-def refuse_impossible(study: Study, catalog: Catalog, table: Table) -> None:
+def refuse_impossible(study: Study) -> None:
     """Raise InputError, naming what is wrong, where a study's start is no geometry and nothing can be said of it."""
+    table = study.table
     rows = [row.name for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]
-    start = given(study, catalog, table)
+    start = given(study)
     found = impossible(table.evaluate(start, rows), table)
     if found:
         raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")

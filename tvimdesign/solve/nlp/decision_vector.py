@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from tvimdesign.device import Path
-from tvimdesign.simulation.current_profile import CurrentProfile, ramp_time
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.phase_functions import PhaseFunctions
-from tvimdesign.simulation.trajectory import Cycle, Trajectory
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile, ramp_time
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle, Trajectory
 from tvimdesign.solve.nlp.problem import FreeCurrent, Problem
 from tvimdesign.solve.nlp.solver_run import Array, Ends
 from tvimdesign.solve.nlp.transcription import guess

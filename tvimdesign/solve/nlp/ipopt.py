@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.derivatives import derivatives_of
 from tvimdesign.study import SolverOptions
 

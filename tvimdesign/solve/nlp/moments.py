@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.spread import deviation_of
 from tvimdesign.study import Tolerance
 

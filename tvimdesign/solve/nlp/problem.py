@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import Event, Path, Steady
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.current_profile import CurrentProfile, ramp_time
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile, ramp_time
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.transcription import Block, at_each, phase_block
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.solve.nlp.solution import Start
 
 Array = NDArray[np.float64]

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.phase_functions import PhaseFunctions
-from tvimdesign.simulation.trajectory import Trajectory
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 
 ORDER = 5
 """Points of an element. Three of five are as exact as eight of three, with three eighths fewer unknowns."""

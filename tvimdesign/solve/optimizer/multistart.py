@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from tvimdesign.base.errors import SimulationError
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import impossible, on_cycle
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.solver_run import Array, Progress

@@ -13,12 +13,11 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.errors import InfeasibleError
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Input, Table
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.current_profile import ramp_time
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.device import Input
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.current_profile import ramp_time
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.ipopt import NLP, solver_of
@@ -40,8 +39,6 @@ class Optimizer:
     def __init__(
         self,
         study: Study,
-        catalog: Catalog,
-        table: Table,
         reference: dict[str, float] | None = None,
         progress: Progress = lambda _: None,
         simulator: Simulator | None = None,
@@ -57,22 +54,20 @@ class Optimizer:
         so that none is simulated. Raises InfeasibleError where a limit is broken that nothing free
         can mend, InputError from the table.
         """
-        self.study, self.catalog, self.table, self.progress = study, catalog, table, progress
+        self.study, self.table, self.progress = study, study.table, progress
         began = time.perf_counter()
         points = tuple(study.operating_points)
-        self.simulator = simulator or Simulator(
-            DeviceFunctions(table, given(study, catalog, table), points, study.solver.cells)
-        )
+        self.simulator = simulator or Simulator(DeviceFunctions(self.table, given(study), points, study.solver.cells))
         self.model = self.simulator.model
         self.currents = tuple(self._current(phase, pieces) for phase, pieces in study.profile.pieces().items())
         rows = {current.row for current in self.currents}
-        numbers = [name for name in study.vary if isinstance(table.quantity(name), Input) and name not in rows]
+        numbers = [name for name in study.vary if isinstance(self.table.quantity(name), Input) and name not in rows]
         self.free = tuple(self._free(name) for name in numbers)
         self.margins: dict[str, float] = {}
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
-        limits = constraints_of(study, table, self.model.words)
+        limits = constraints_of(study, self.table, self.model.words)
         if without_cycle:
-            limits = [limit for limit in limits if not on_cycle(table, limit.output)]
+            limits = [limit for limit in limits if not on_cycle(self.table, limit.output)]
         self.problem = self._problem(self.kept_constraints(limits), objectives)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
@@ -84,7 +79,7 @@ class Optimizer:
         if not self.currents:
             return None
         study = self.study.model_copy(update={"profile": ProfileOptions()})
-        return Optimizer(study, self.catalog, self.table, self.reference, self.progress, self.simulator)
+        return Optimizer(study, self.reference, self.progress, self.simulator)
 
     def _free(self, name: str) -> Free:
         vary = self.study.vary[name]
@@ -110,7 +105,7 @@ class Optimizer:
         Nothing is built: such numbers are parameters. None where a row reads a table of a record that differs, or an
         option. Raises InfeasibleError as a new one does.
         """
-        numbers = given(study, self.catalog, self.table)
+        numbers = given(study)
         read = {need for row in self.table.outputs for need in row.needs}
         model = copy(self.model)
         model.words = {name: numbers[name] for name in self.model.words}

@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from tvimdesign.simulation.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 

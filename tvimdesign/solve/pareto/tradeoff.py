@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.simulation.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.solve.nlp.constraints import in_words, on_cycle
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import Solution

@@ -18,11 +18,11 @@ from scipy.sparse.linalg import splu
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si
 from tvimdesign.device import FirstOscillation, Table
-from tvimdesign.simulation.casadi_setup import ca
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule
-from tvimdesign.simulation.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.transcription import guess
 

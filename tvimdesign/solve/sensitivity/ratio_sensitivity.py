@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 TOLERANCE = 1e-8  # a hundredth of what a run is simulated with
 SHARE = 2e-3  # of an input, by which it is moved to either side for a difference

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.device import Input
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.study import Tolerance
 

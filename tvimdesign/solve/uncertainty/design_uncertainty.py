@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.catalog import Record
+from tvimdesign.base.record import Record
 from tvimdesign.device import Table
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import constraints_of

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.objective import Objective
@@ -112,9 +112,7 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
         return {}
     model = optimizer.model
     numbers = {name: float(run.inputs[i]) for name, i in model.index.items()}
-    resolved = ResolvedModule(
-        study, optimizer.catalog, optimizer.table, {**numbers, **model.words}, run.current_profiles
-    )
+    resolved = ResolvedModule(study, {**numbers, **model.words}, run.current_profiles)
     contributors = contributors_of(resolved)
     names = [contributor.name for contributor in contributors]
     options = study.solver

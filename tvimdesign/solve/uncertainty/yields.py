@@ -10,7 +10,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle
@@ -53,7 +53,7 @@ class Yields:
     def __init__(self, optimizer: Optimizer) -> None:
         """Compile. A current that follows a profile is not a number: limits on its phases are left out."""
         study, table = optimizer.study, optimizer.table
-        self._study, self._catalog, self._table, self._model = study, optimizer.catalog, table, optimizer.model
+        self._study, self._model = study, optimizer.model
         spreading = [name for name in study.tolerances if name in optimizer.model.index]
         self._moving = list(dict.fromkeys([*spreading, *(free.name for free in optimizer.free)]))
         bases = {name.partition("@")[0] for name in spreading}
@@ -68,7 +68,7 @@ class Yields:
 
     def _rig(self, values: Mapping[str, Any]) -> ResolvedModule:
         numbers = {name: float(values[name]) for name in self._model.names}
-        return ResolvedModule(self._study, self._catalog, self._table, {**numbers, **self._model.words})
+        return ResolvedModule(self._study, {**numbers, **self._model.words})
 
     def at(self, inputs: Array) -> Drawn:
         """Draw modules of the design with these inputs."""

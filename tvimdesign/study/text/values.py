@@ -8,8 +8,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tvimdesign.base.errors import CatalogError, UnitError
+from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity, parse_quantity
-from tvimdesign.catalog import Catalog, Record
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
 from tvimdesign.study.text.mistakes import Mistakes, Place, quoted, step
 from tvimdesign.study.text.yaml_text import Broken, Mapping, Node, Sequence, Text

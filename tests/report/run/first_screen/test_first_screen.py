@@ -11,15 +11,14 @@ import pytest
 from comparable import COMPRESSION, SHEAR
 from support import ROOT, Command
 
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.report.run.first_screen.requirements import lines_of
 from tvimdesign.report.run.first_screen.screen import AFTER, LINES, Told, first_screen
 from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
-from tvimdesign.report.run.record_checks import record_checks
 from tvimdesign.report.run.why import binding
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_study, read_study_text
+from tvimdesign.study.record_checks import record_checks
 
 LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 2.6 mm}"
 CHOICES = SHEAR.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}")
@@ -64,12 +63,12 @@ def case(name: str) -> Case:
     texts = {"choices": CHOICES, "many": MANY}
     study = read_study_text(texts[name], name) if name in texts else read_study(ROOT / f"studies/{name}.yaml")
     study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
-    table, catalog = table_for(study.mode), Catalog()
+    table = study.table
     if name in ("wrist_joint", "paper_compression"):
-        study = drawn(study, catalog, table)
-    found = answer(study, catalog, table)
+        study = drawn(study)
+    found = answer(study)
     data = Uncertainty(study).data(found.design, 256)
-    return Case(study, table, found, Told(12.3, data, record_checks(study, catalog, table)))
+    return Case(study, table, found, Told(12.3, data, record_checks(study)))
 
 
 CASES = ["paper_shear", "paper_as_published", "paper_compression", "wrist_joint", "choices", "many"]

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from comparable import SHEAR
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
-from tvimdesign.simulation.cycle import Simulator
-from tvimdesign.simulation.device_functions import DeviceFunctions
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel, assumed_inputs
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
@@ -28,12 +27,12 @@ ASKED = [requirement.output for requirement in STUDY.require]
 
 @pytest.fixture(scope="module")
 def found() -> StudyResult:
-    return answer(STUDY, Catalog(), TABLE)
+    return answer(STUDY)
 
 
 @pytest.fixture(scope="module")
 def module(found: StudyResult) -> ResolvedModule:
-    resolved = resolve_design(found.design, Catalog(), TABLE)
+    resolved = resolve_design(found.design)
     return replace(resolved, study=resolved.study.model_copy(update={"tolerances": standard_tolerances(TABLE)}))
 
 
@@ -92,7 +91,7 @@ def test_an_assumed_input_moves_the_switch_as_a_simulation_says(module: Resolved
 def test_limits_on_what_follows_a_profile_are_left_out_and_named(found: StudyResult) -> None:
     profiled = STUDY.model_copy(update={"profile": STUDY.profile.model_copy(update={"softening": 2})})
     study = profiled.model_copy(update={"tolerances": standard_tolerances(TABLE)})
-    resolved = ResolvedModule(study, Catalog(), TABLE, resolve_design(found.design, Catalog(), TABLE).values)
+    resolved = ResolvedModule(study, resolve_design(found.design).values)
     said = UncertaintyModel(resolved, ASKED).at(resolved, 256)
     assert said.left_out == ("response_time <=",)
     assert "response_time" not in said.swings

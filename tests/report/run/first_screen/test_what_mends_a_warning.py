@@ -9,7 +9,6 @@ import pytest
 import yaml
 from support import ROOT
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.first_screen.mending import filled, hints, mending
 from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_of
@@ -55,7 +54,7 @@ def _published(extra: str = "") -> StudyResult:
     """The published module, without what its study accepts."""
     text = re.sub(r"^accept:.*?\n\n", "", (ROOT / "studies/paper_as_published.yaml").read_text(), flags=re.M | re.S)
     study = read_study_text(text.replace("module:\n", f"module:\n{extra}", 1), "a test")
-    return answer(study, Catalog(), table_for(study.mode))
+    return answer(study)
 
 
 def test_the_line_that_is_proposed_mends() -> None:

@@ -6,13 +6,11 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
-from pathlib import Path
 from typing import Any
 
 import yaml
 
 from tvimdesign.base.errors import TvimError
-from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Table
 from tvimdesign.solve.nlp.constraints import advice_of, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
@@ -68,7 +66,7 @@ def _mends(check: ConstraintCheck, words: Mapping[str, str], answer: StudyResult
     found = {name: design.choices[name] for name in study.vary if name in design.choices}
     changed = study.model_copy(update={"vary": {}, "profile": {}, "module": {**study.module, **found, **words}})
     try:
-        values = given(changed, Catalog(Path(study.catalog_folder) if study.catalog_folder else None), table)
+        values = given(changed)
         values |= {name: design.values[name] for name in study.vary if name in design.values}
         values |= {row.name: design.values[row.name] for row in table.supplied}
         value = table.evaluate(values, [check.output])[check.output]

@@ -69,7 +69,7 @@ class RunScreen:
         if console is not None and full:
             _print_all(answered, told, console)
         elif console is not None:
-            show(first_screen(answered.result, answered.table, told, console.width), console)
+            show(first_screen(answered.result, answered.study.table, told, console.width), console)
 
 
 def write_summary(answered: AnsweredStudy, folder: ResultsFolder, uncertainty: Mapping[str, Any]) -> None:
@@ -84,19 +84,19 @@ def write_summary(answered: AnsweredStudy, folder: ResultsFolder, uncertainty: M
 def print_screen(answered: AnsweredStudy, console: Console) -> None:
     """Print the first screen of an answer of which nobody asked how sure it is."""
     told = Told(doubts=answered.reported["doubts"], front=answered.front.front)
-    show(first_screen(answered.result, answered.table, told, console.width), console)
+    show(first_screen(answered.result, answered.study.table, told, console.width), console)
 
 
 def _print_all(answered: AnsweredStudy, told: Told, console: Console) -> None:
     """The first screen, and every table."""
-    show(first_screen(answered.result, answered.table, told, console.width), console)
+    show(first_screen(answered.result, answered.study.table, told, console.width), console)
     console.print()
     print_tables(answered, told.uncertainty, console)
 
 
 def print_tables(answered: AnsweredStudy, uncertainty: Mapping[str, Any], console: Console) -> None:
     """Every table of an answer, for people."""
-    found, table, reported = answered.result, answered.table, answered.reported
+    found, table, reported = answered.result, answered.study.table, answered.reported
     print_full_summary(found, table, console, uncertainty, warnings_of(found, table, reported["doubts"]))
     names = reported.get("sensitivities_left_out")
     if names:

@@ -5,13 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.catalog import Catalog
-from tvimdesign.device import Table, table_for
-from tvimdesign.simulation.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.device import Table
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import Swing, UncertaintyModel
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
@@ -34,14 +32,11 @@ class Uncertainty:
 
     def __init__(self, study: Study) -> None:
         """Compile the module the study starts from, whose numbers under `vary` may change."""
-        self.study, self.table = study, table_for(study.mode)
+        self.study, self.table = study, study.table
         self.own = bool(study.tolerances)
         self.asked = list(dict.fromkeys([*(one.output for one in study.require), *TOLD]))
-        start = resolve_study(study, self._catalog(study), self.table)
+        start = resolve_study(study)
         self.model = UncertaintyModel(self._tolerant(start), self.asked, list(study.vary))
-
-    def _catalog(self, study: Study) -> Catalog:
-        return Catalog(Path(study.catalog_folder) if study.catalog_folder else None)
 
     def _tolerant(self, resolved: ResolvedModule) -> ResolvedModule:
         """A module with the tolerances that count."""
@@ -51,7 +46,7 @@ class Uncertainty:
     def data(self, design: Design, modules: int = MODULES) -> dict[str, Any]:
         """What there is to say of one design; `yield` is None where no limit depends on what spreads."""
         began = time.perf_counter()
-        resolved = self._tolerant(resolve_design(design, self._catalog(self.study), self.table))
+        resolved = self._tolerant(resolve_design(design))
         if not self.model.fits(resolved):  # another record was chosen
             self.model = UncertaintyModel(resolved, self.asked)
         found = self.model.at(resolved, modules)

@@ -1,0 +1,214 @@
+"""The three motion tests on the paper's module: what their findings say, against rows and hand calculation."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tvimdesign.physics import polymer
+from tvimdesign.simulation.joint_tests import release as release_test
+from tvimdesign.simulation.joint_tests import sine as sine_test
+from tvimdesign.simulation.joint_tests import step_test
+from tvimdesign.simulation.joint_tests.case import finding, with_paper_points
+from tvimdesign.simulation.joint_tests.load_through_cycle import SliceHistory
+from tvimdesign.simulation.trial import Trial
+from tvimdesign.simulation.working_cycle.melt_history import fractions_at
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.study import read_study, read_study_text
+
+STUDY = Path(__file__).parents[3] / "studies" / "paper_as_published.yaml"
+POINTS = ("cold", "melting", "hot")
+
+
+@pytest.fixture(scope="module")
+def resolved() -> ResolvedModule:
+    return resolve_study(read_study(STUDY))
+
+
+@pytest.fixture(scope="module")
+def release(resolved: ResolvedModule) -> Trial:
+    return release_test.release(resolved)
+
+
+@pytest.fixture(scope="module")
+def sine(resolved: ResolvedModule) -> Trial:
+    return sine_test.sine(resolved)
+
+
+@pytest.fixture(scope="module")
+def step(resolved: ResolvedModule) -> Trial:
+    times = np.linspace(0.0, 40.0, 81)
+    heat = np.clip(times / 20.0, 0.0, 1.0)
+    temperatures = np.array([303.15 + 70.0 * heat, 303.15 + 65.0 * heat])
+    fractions = np.array([1.0 - np.clip((heat - 0.4) / 0.3, 0.0, 1.0)] * 2)
+    return step_test.step(resolved, history=SliceHistory(times, temperatures, fractions))
+
+
+def test_interval_of_a_finding_spans_all_histories() -> None:
+    found = finding("x@melting", "1", "a test", [2.0, 1.0, 5.0])
+    assert (found.value, found.low, found.high) == (2.0, 1.0, 5.0)
+
+
+def value(trial: Trial, name: str) -> float:
+    return next(finding.value for finding in trial.findings if finding.name == name)
+
+
+@pytest.mark.parametrize("kind", ["release", "sine", "step"])
+def test_every_line_is_drawn_from_columns_that_exist(kind: str, request: pytest.FixtureRequest) -> None:
+    trial: Trial = request.getfixturevalue(kind)
+    sheets = {sheet.name: sheet for sheet in trial.sheets}
+    assert len(sheets) == len(trial.sheets)
+    assert len(trial.panels) == (3 if kind == "step" else 2 * 3)  # of each point, motion and loop
+    for sheet in trial.sheets:
+        assert len({len(column.values) for column in sheet.columns}) == 1
+        assert all(np.all(np.isfinite(column.values)) for column in sheet.columns)
+    for line in (line for panel in trial.panels for line in panel.lines):
+        assert len(sheets[line.sheet].column(line.x).values) == len(sheets[line.sheet].column(line.y).values)
+
+
+@pytest.mark.parametrize("kind", ["release", "sine", "step"])
+def test_findings_inside_the_melting_range_are_intervals_and_elsewhere_numbers(
+    kind: str, request: pytest.FixtureRequest
+) -> None:
+    trial: Trial = request.getfixturevalue(kind)
+    for one in trial.findings:
+        if one.name.endswith("@melting"):
+            assert one.low is not None
+            assert one.high is not None
+            assert one.low <= one.value <= one.high
+        else:
+            assert one.low is None
+            assert one.high is None
+    for end in ("nominal", "low", "high"):
+        assert any(sheet.name.endswith(f"_melting_{end}") for sheet in trial.sheets)
+
+
+def test_hot_link_creeps_back_and_cold_link_rings(resolved: ResolvedModule, release: Trial) -> None:
+    assert value(release, "ringing_frequency@hot") == 0.0
+    # Three time constants of the melt's viscosity over the springs, a little more for the melt's own memory.
+    viscosity = resolved.values["pcl_grade"].value("zero_shear_viscosity")
+    creep = (
+        viscosity
+        * resolved.quantity("layer_polar_moment")
+        / resolved.quantity("pcl_thickness")
+        / resolved.quantity("spring_stiffness")
+    )
+    assert value(release, "settling_time@hot") == pytest.approx(np.log(20.0) * creep, rel=0.02)
+    # Frozen, the layer is rigid beside the structure.
+    stiff = resolved.quantity("spring_stiffness") + resolved.quantity("structure_stiffness")
+    expected = np.sqrt(stiff / resolved.quantity("moving_inertia")) / (2.0 * np.pi)
+    assert value(release, "ringing_frequency@cold") == pytest.approx(expected, rel=0.01)
+    # A lightly damped swing fades as exp(-zeta omega t): ln 20/(zeta omega) to 5 %.
+    decay = value(release, "ringing_damping_ratio@cold") * 2.0 * np.pi * value(release, "ringing_frequency@cold")
+    assert value(release, "settling_time@cold") == pytest.approx(np.log(20.0) / decay, rel=0.01)
+
+
+def test_release_gives_back_what_holding_put_in_and_makes_no_energy(release: Trial) -> None:
+    for sheet in release.sheets:
+        energy = sheet.column("stored_energy").values
+        assert np.max(np.diff(energy)) <= 1e-9 * energy[0]
+    # The hot layer has relaxed: 0.1 rad on springs of 5.609 N*m/rad is 28.05 mJ.
+    assert value(release, "energy_dissipated@hot") == pytest.approx(28.05e-3, rel=1e-3)
+    assert value(release, "held_torque@hot") == pytest.approx(0.5609, rel=1e-3)
+    hot = next(sheet for sheet in release.sheets if sheet.name == "release_hot")
+    # The link is at rest before and after, so the module does no net work on it: the whole loop has no area.
+    loop = np.trapezoid(hot.column("torque").values, hot.column("angle").values)
+    assert loop == pytest.approx(0.0, abs=1e-3 * 28.05e-3)
+
+
+def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(
+    resolved: ResolvedModule, release: Trial
+) -> None:
+    hot = next(sheet for sheet in release.sheets if sheet.name == "release_hot")
+    times, simple = hot.column("time").values, hot.column("angle_kelvin_voigt").values
+    stiffness, damping = resolved.quantity("joint_stiffness@hot"), resolved.quantity("joint_damping@hot")
+    slow = max(np.roots([resolved.quantity("moving_inertia"), damping, stiffness]).real)
+    middle = (times > 0.2) & (times < 2.0)
+    assert np.gradient(np.log(simple), times)[middle] == pytest.approx(slow, rel=1e-2)
+    assert value(release, "kelvin_voigt_settling_time@hot") == pytest.approx(-np.log(20.0) / slow, rel=1e-2)
+    # Both creep as one exponential: the square of their difference has an integral known in closed form.
+    rate, other = np.log(20.0) / value(release, "settling_time@hot"), -slow
+    apart = np.sqrt((0.5 / rate + 0.5 / other - 2.0 / (rate + other)) * 2.0 * rate)
+    assert value(release, "kelvin_voigt_difference@hot") == pytest.approx(apart, rel=0.02)
+    bare = release_test.release(resolved, kelvin_voigt=False)
+    assert not any("kelvin" in finding.name for finding in bare.findings)
+    assert not any("kelvin" in column.name for sheet in bare.sheets for column in sheet.columns)
+
+
+def test_frozen_joint_that_would_break_is_said(resolved: ResolvedModule, release: Trial) -> None:
+    assert value(release, "held_torque@cold") > resolved.quantity("holding_torque")
+    assert any("bears" in note and "cold" in note for note in release.notes)
+    assert not any("bears" in note for note in release_test.release(resolved, angle=1e-3).notes)
+
+
+@pytest.mark.parametrize("point", POINTS)
+def test_sine_in_time_agrees_with_the_rows_within_one_percent(
+    resolved: ResolvedModule, sine: Trial, point: str
+) -> None:
+    worst = next(finding for finding in sine.findings if finding.name == f"frequency_domain_difference@{point}")
+    assert max(worst.value, worst.high or 0.0) < 1e-2
+    stiffness, damping = resolved.quantity(f"joint_stiffness@{point}"), resolved.quantity(f"joint_damping@{point}")
+    assert value(sine, f"stiffness@{point}") == pytest.approx(stiffness, rel=1e-2)
+    assert value(sine, f"damping@{point}") == pytest.approx(damping, rel=1e-2)
+    # A cycle's heat is pi b omega theta^2.
+    heat = np.pi * damping * 2.0 * np.pi * resolved.quantity(f"frequency@{point}") * resolved.quantity("stroke") ** 2
+    assert value(sine, f"cycle_energy@{point}") == pytest.approx(heat, rel=1e-2)
+
+
+def test_step_of_angle_relaxes_to_the_springs_when_hot_and_hardly_when_cold(
+    resolved: ResolvedModule, step: Trial
+) -> None:
+    springs = resolved.quantity("spring_stiffness") * resolved.quantity("stroke")
+    assert value(step, "step_final_torque@hot") == pytest.approx(springs, rel=1e-3)
+    assert value(step, "step_final_torque@cold") > 0.95 * value(step, "step_peak_torque@cold")
+    assert value(step, "step_peak_torque@hot") > 10.0 * springs
+
+
+def test_loaded_link_starts_on_the_frozen_layer_and_ends_on_its_springs(resolved: ResolvedModule, step: Trial) -> None:
+    load = resolved.quantity("spring_stiffness") * resolved.quantity("stroke")
+    assert value(step, "loaded_angle_start") == pytest.approx(
+        load / resolved.quantity("joint_stiffness@cold"), rel=0.01
+    )
+    assert value(step, "loaded_angle_end") == pytest.approx(resolved.quantity("stroke"), rel=1e-3)
+    assert abs(value(step, "loaded_layer_share")) < 1e-3
+    # The load did load times way of work; half of it stays in the springs.
+    assert value(step, "loaded_energy_dissipated") == pytest.approx(0.5 * load * resolved.quantity("stroke"), rel=0.02)
+    # It melts from 8 to 14 s, and creeps as it does.
+    assert 8.0 < value(step, "loaded_half_way_time") < 16.0
+    loaded = next(sheet for sheet in step.sheets if sheet.name == "step_of_impedance")
+    angle = loaded.column("angle").values
+    half = np.interp(value(step, "loaded_half_way_time"), loaded.column("time").values, angle)
+    assert half == pytest.approx(0.5 * (angle[0] + angle[-1]), rel=1e-3)
+
+
+def test_interval_holds_what_stands_between_the_histories(resolved: ResolvedModule, release: Trial) -> None:
+    # Neither the liquid nor the most frozen layer creeps slowest: a layer a quarter of the way between does, by
+    # its longest mode's viscosity over the springs, and takes longer than all three that are shown.
+    found = next(one for one in release.findings if one.name == "settling_time@melting")
+    temperature = resolved.quantity("temperature@melting")
+    fraction = 0.25 * fractions_at(resolved, temperature)[2]
+    time, modulus = polymer.spectrum(temperature, fraction, resolved.quantity("pcl_rheology"))[0]
+    creep = (
+        time
+        * modulus
+        * resolved.quantity("layer_polar_moment")
+        / resolved.quantity("pcl_thickness")
+        / resolved.quantity("spring_stiffness")
+    )
+    assert found.high is not None
+    assert found.high == pytest.approx(np.log(20.0) * creep, rel=0.2)
+    assert found.high > 10.0 * found.value
+
+
+def test_study_without_points_is_tested_at_the_papers_three_temperatures() -> None:
+    def bench(text: str) -> ResolvedModule:
+        return with_paper_points(resolve_study(read_study_text(text, "a test")))
+
+    resolved = bench("mode: shear\n")
+    assert resolved.points == ("cold", "melting", "hot")
+    assert [resolved.quantity(f"temperature@{point}") for point in resolved.points] == pytest.approx(
+        [303.15, 333.15, 373.15]
+    )
+    assert resolved.quantity("joint_stiffness@melting") > resolved.quantity("joint_stiffness@hot")
+    own = "mode: shear\noperating_points:\n  hot: {temperature: 90 degC, frequency: 2 Hz}\n"
+    assert set(bench(own).points) == {"cold", "hot"}

@@ -1,0 +1,285 @@
+"""The link's tests on a compression module: contact lost and made, its backlash on the loop, and the linear limits."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from support import ROOT
+
+from tvimdesign.physics import one_sided
+from tvimdesign.report.output.tables import results
+from tvimdesign.simulation.joint_tests import joint_motion, step_test
+from tvimdesign.simulation.joint_tests import release as release_test
+from tvimdesign.simulation.joint_tests.case import Case, cases
+from tvimdesign.simulation.joint_tests.load_through_cycle import SliceHistory
+from tvimdesign.simulation.joint_tests.release import contact_seen
+from tvimdesign.simulation.link_motion import contact, link
+from tvimdesign.simulation.link_motion.contact_simulation import OneSided
+from tvimdesign.simulation.registry import TESTS, find_test
+from tvimdesign.simulation.trial import CurveTable, Trial
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.solve.result import answer
+from tvimdesign.study import read_study
+
+POINTS = ("cold", "melting", "hot")
+
+
+@pytest.fixture(scope="module")
+def resolved() -> ResolvedModule:
+    study = read_study(ROOT / "studies" / "paper_compression.yaml")
+    # Without its cover: the core is shorter, and stiffer.
+    study = study.model_copy(update={"module": {**study.module, "cover": "none"}})
+    return resolve_study(study)
+
+
+@pytest.fixture(scope="module")
+def trial(resolved: ResolvedModule) -> Callable[[str], Trial]:
+    @cache
+    def run(test: str) -> Trial:
+        return find_test(test)(resolved)
+
+    return run
+
+
+def with_rows(resolved: ResolvedModule, **values: float) -> ResolvedModule:
+    """The rig with rows held to values."""
+    return replace(resolved, values={**resolved.values, **values})
+
+
+def value(trial: Trial, name: str) -> float:
+    return next(finding.value for finding in trial.findings if finding.name == name)
+
+
+def sheet(trial: Trial, name: str) -> CurveTable:
+    return next(one for one in trial.sheets if one.name == name)
+
+
+def case_of(resolved: ResolvedModule, name: str) -> Case:
+    return next(case for case in cases(resolved) if case.name == name)
+
+
+@pytest.mark.parametrize("test", TESTS)
+def test_every_test_runs_on_a_compression_module(test: str, trial: Callable[[str], Trial]) -> None:
+    found = trial(test)
+    assert found.findings
+    sheets = {one.name: one for one in found.sheets}
+    assert len(sheets) == len(found.sheets)
+    for one in found.sheets:
+        assert len({len(column.values) for column in one.columns}) == 1, one.name
+        assert all(np.all(np.isfinite(column.values)) for column in one.columns), one.name
+    for line in (line for panel in found.panels for line in panel.lines):
+        sheets[line.sheet].column(line.x)
+        sheets[line.sheet].column(line.y)
+    # Only where the link moves does it matter that blocks push.
+    assert any(note.startswith("Blocks push and never pull") for note in found.notes) == (
+        test in {"release", "sine", "step"}
+    )
+
+
+def test_energy_never_rises_in_a_release(trial: Callable[[str], Trial]) -> None:
+    release = trial("release")
+    for one in release.sheets:
+        if not one.name.endswith("_events"):
+            energy = one.column("stored_energy").values
+            assert np.max(np.diff(energy)) <= 1e-9 * energy[0], one.name
+    for point in POINTS:
+        found = next(one for one in release.findings if one.name == f"energy_gain@{point}")
+        assert max(found.value, found.high or 0.0) <= 1e-9
+
+
+def test_hot_blocks_leave_the_link_to_its_springs_and_the_warm_ones_a_flat_on_the_loop(
+    resolved: ResolvedModule, trial: Callable[[str], Trial]
+) -> None:
+    release, springs = trial("release"), resolved.quantity("spring_stiffness")
+    assert value(release, "backlash@hot") == pytest.approx(0.1, rel=1e-6)
+    for name in ("release_hot", "release_melting_nominal", "release_melting_high"):
+        one = sheet(release, name)
+        angle, torque = one.column("angle").values, one.column("torque").values
+        free = one.column("ahead_touches").values + one.column("behind_touches").values == 0.0
+        assert np.any(free)
+        assert torque[free] == pytest.approx(-springs * angle[free], rel=1e-9, abs=1e-12), name
+        assert np.max(np.abs(torque[~free])) > springs * np.max(np.abs(angle[~free])), name
+
+
+@pytest.mark.parametrize("name", ["cold", "melting_nominal", "melting_high"])
+def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(
+    name: str, resolved: ResolvedModule, trial: Callable[[str], Trial]
+) -> None:
+    # Unless a block recovers while it is crossed, which takes a millisecond: less than a tenth here.
+    one = sheet(trial("release"), f"release_{name}")
+    free = one.column("ahead_touches").values + one.column("behind_touches").values == 0.0
+    first = int(np.argmax(free))
+    last = first + int(np.argmin(free[first:]))
+    way = one.column("angle").values[first] - one.column("angle").values[last]
+    case = case_of(resolved, name)
+    gap = joint_motion.gap(case, joint_motion.held(case, 0.1, 10.0))
+    assert 0.9 * gap < way <= gap * (1.0 + 1e-9)
+
+
+def test_link_that_rattles_on_is_said_to(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:
+    # A hot link has nothing but lossless springs over most of its way, and a frozen one hardly any damping.
+    assert not np.isfinite(value(trial("release"), "settling_time@hot"))
+    assert any(note.startswith("At cold and hot the link still swings") for note in trial("release").notes)
+    assert not any(
+        "still swings" in note for note in release_test.release(with_rows(resolved, parting_share=0.0)).notes
+    )
+
+
+def test_loop_that_is_drawn_is_the_first_swing(trial: Callable[[str], Trial]) -> None:
+    release = trial("release")
+    loops = [panel for panel in release.panels if panel.x_label.startswith("Angle")]
+    assert len(loops) == 3
+    assert all(line.sheet.endswith("_first_swing") for panel in loops for line in panel.lines)
+    whole = sheet(release, "release_melting_nominal").column("time").values
+    swing = sheet(release, "release_melting_nominal_first_swing").column("time").values
+    assert np.array_equal(swing, whole[: len(swing)])
+    assert swing[-1] == pytest.approx(1.0 / value(release, "ringing_frequency@melting"), rel=1e-9)
+
+
+def test_events_are_where_the_columns_change(trial: Callable[[str], Trial]) -> None:
+    release = trial("release")
+    one, events = sheet(release, "release_cold"), sheet(release, "release_cold_events")
+    times = one.column("time").values
+    for ahead, column in ((1.0, "ahead_touches"), (0.0, "behind_touches")):
+        chosen = events.column("block_ahead").values == ahead
+        moments, touches = events.column("time").values[chosen], events.column("touches_from_here").values[chosen]
+        changes = np.flatnonzero(np.diff(one.column(column).values)) + 1
+        assert times[changes] == pytest.approx(moments, abs=1e-12)
+        assert np.array_equal(one.column(column).values[changes], touches)
+
+
+def test_contact_lost_is_the_time_between_leaving_and_meeting_over_the_swing(trial: Callable[[str], Trial]) -> None:
+    # By the events of the sheet: left at the first, met at the second, and once more on the way back.
+    events = sheet(trial("release"), "release_melting_nominal_events")
+    times, swing = events.column("time").values, 1.0 / value(trial("release"), "ringing_frequency@melting")
+    lost = (times[1] - times[0]) + (times[3] - times[2])
+    assert times[3] < swing < times[4] + swing
+    assert value(trial("release"), "contact_lost@melting") == pytest.approx(lost / swing, rel=1e-9)
+
+
+def test_rows_say_what_the_release_says(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:
+    seen = contact_seen(resolved)
+    for point in POINTS:
+        found = next(one for one in trial("release").findings if one.name == f"contact_lost@{point}")
+        nominal, low, high = seen[f"contact_lost@{point}"]
+        assert nominal == pytest.approx(found.value, rel=1e-6)
+        assert (low, high) == pytest.approx((found.low or nominal, found.high or nominal), rel=1e-6)
+    assert 0.0 < seen["contact_lost@cold"][0] < 0.01
+    assert 0.7 < seen["contact_lost@hot"][0] < 1.0
+
+
+def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) -> None:
+    found = answer(resolved.study)
+    seen, reported = contact_seen(resolved), results(found, resolved.table)["values"]
+    for name, (nominal, low, high) in seen.items():
+        assert found.design.values[name] == nominal
+        assert reported[name]["value"] == nominal
+        if low < high:
+            assert found.intervals[name] == (low, high)
+            assert (reported[name]["low"], reported[name]["high"]) == (low, high)
+    assert found.intervals.keys() & seen.keys() == {"contact_lost@melting"}
+    assert found.intervals["backlash@melting"][1] > 100.0 * found.intervals["backlash@melting"][0] > 0.0
+
+
+def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
+    study = read_study(ROOT / "studies" / "paper_as_published.yaml")
+    shear = resolve_study(study)
+    assert all(ends == (0.0, 0.0, 0.0) for ends in contact_seen(shear).values())
+    release = release_test.release(shear)
+    for point in POINTS:
+        assert value(release, f"backlash@{point}") == 0.0
+        assert value(release, f"contact_lost@{point}") == 0.0
+    assert not any(one.name.endswith("_events") for one in release.sheets)
+
+
+def test_blocks_that_could_not_part_are_released_as_the_linear_link_is(resolved: ResolvedModule) -> None:
+    bonded = with_rows(resolved, parting_share=0.0)
+    release = release_test.release(bonded, kelvin_voigt=False)
+    case = case_of(bonded, "hot")
+    linear = link.released(case.joint, case.modes, 0.1, link.held(case.joint, case.modes, 0.1, 10.0))
+    assert sheet(release, "release_hot").column("angle").values == pytest.approx(linear.angle, abs=1e-12)
+    assert value(release, "contact_lost@hot") == 0.0
+
+
+@pytest.mark.parametrize("name", ["cold", "hot"])
+def test_blocks_squeezed_beyond_the_swing_are_the_linear_link_with_both_senses(
+    resolved: ResolvedModule, name: str
+) -> None:
+    case = case_of(resolved, name)
+    blocks, joint = joint_motion.blocks_of(case), case.joint
+    # No hold: melt that is squeezed lets go of that as well.
+    held = contact.held(joint, blocks, 0.01, 0.0, precompression=50.0)
+    moved = contact.released(joint, blocks, 0.01, held)
+    both = joint._replace(structure_stiffness=2.0 * joint.structure_stiffness)
+    modes = [(tau, 2.0 * k) for tau, k in case.modes]
+    linear = link.released(both, modes, 0.01, np.zeros(len(modes)))
+    first = min(moved.events[0].time if moved.events else np.inf, linear.times[-1], moved.motion.times[-1])
+    early = moved.motion.times < first
+    assert np.sum(early) > 20
+    angle = np.interp(moved.motion.times[early], linear.times, linear.angle)
+    assert moved.motion.angle[early] == pytest.approx(angle, abs=1e-9)
+    assert moved.lost_share(0.0, first) == 0.0
+
+
+def test_blocks_that_do_not_relax_swing_as_one_spring_and_lose_no_contact(resolved: ResolvedModule) -> None:
+    stiffness = 4e3
+    elastic = replace(resolved, values={**resolved.values, "pcl_modes@cold": [(1e16, 3e3), (1e16, 1e3)]})
+    case = case_of(elastic, "cold")
+    internal = joint_motion.held(case, 0.1, 10.0)
+    assert joint_motion.gap(case, internal) == pytest.approx(0.0, abs=1e-15)
+    moved = joint_motion.released(case, 0.1, internal)
+    support, springs = resolved.quantity("elastic_support"), resolved.quantity("spring_stiffness")
+    rate = np.sqrt((springs + stiffness * support / (stiffness + support)) / resolved.quantity("moving_inertia"))
+    assert moved.motion.angle == pytest.approx(0.1 * np.cos(rate * moved.motion.times), abs=1e-7)
+    assert moved.lost_share(0.0, moved.first_swing()) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_sine_pushes_molten_blocks_aside_and_keeps_frozen_ones(
+    resolved: ResolvedModule, trial: Callable[[str], Trial]
+) -> None:
+    sine, springs = trial("sine"), resolved.quantity("spring_stiffness")
+    assert value(sine, "stiffness@hot") == pytest.approx(springs, rel=1e-4)
+    assert value(sine, "contact_lost@hot") > 0.95
+    assert value(sine, "stiffness@cold") == pytest.approx(resolved.quantity("joint_stiffness@cold"), rel=2e-3)
+    assert value(sine, "contact_lost@cold") < 1e-3
+    loop = sheet(sine, "sine_hot_loop").column("time").values
+    assert loop[-1] - loop[0] == pytest.approx(1.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["cold", "hot"])
+def test_step_presses_the_blocks_ahead_throughout_and_none_behind(resolved: ResolvedModule, name: str) -> None:
+    case = case_of(resolved, name)
+    moved = joint_motion.turned(case, 0.104, 0.01, [(1e-3, 50), (1.0, 50)])
+    internal = [*moved.motion.internal, *np.zeros_like(moved.motion.internal)]
+    ahead, behind = one_sided.pulls(moved.motion.angle, internal, joint_motion.blocks_of(case))
+    assert np.all(ahead[1:] > -1e-9 * np.max(ahead))
+    assert np.all(behind[1:] < 0.0)
+    assert np.array_equal(moved.touching, np.array([[True], [False]]).repeat(len(moved.motion.times), axis=1))
+
+
+def test_load_through_a_switch_leaves_a_gap_and_not_a_pose(resolved: ResolvedModule) -> None:
+    # It melts and freezes under the load: the blocks ahead stay at the stroke, the springs turn the link back to rest.
+    times = np.linspace(0.0, 60.0, 121)
+    heat = np.clip(np.minimum(times / 15.0, (60.0 - times) / 15.0), 0.0, 1.0)
+    temperatures = 303.15 + 70.0 * np.array([heat, heat])
+    fractions = np.array([1.0 - np.clip((heat - 0.4) / 0.3, 0.0, 1.0)] * 2)
+    step = step_test.step(resolved, history=SliceHistory(times, temperatures, fractions))
+    assert value(step, "unloaded_angle") == 0.0
+    assert value(step, "unloaded_backlash") == pytest.approx(0.104, rel=1e-2)
+    layer = sheet(step, "step_of_impedance").column("layer_torque").values
+    assert np.min(layer) > -1e-6 * np.max(layer)  # the integration is as exact
+    bonded = step_test.step(
+        with_rows(resolved, parting_share=0.0), history=SliceHistory(times, temperatures, fractions)
+    )
+    assert value(bonded, "unloaded_angle") == pytest.approx(0.104, rel=0.05)
+    assert value(bonded, "unloaded_backlash") == 0.0
+
+
+def test_average_weighs_each_value_with_the_time_it_lasts(resolved: ResolvedModule) -> None:
+    case = case_of(resolved, "cold")
+    moved = joint_motion.turned(case, 0.1, 0.24, [(1.0, 2)])
+    found = OneSided(moved.motion, moved.touching, ())
+    values = np.where(moved.motion.times < 0.24 - 1e-9, 5.0, 2.0)
+    assert found.average(values, 0.0, 2.24) == pytest.approx((5.0 * 0.24 + 2.0 * 2.0) / 2.24, rel=1e-9)

@@ -1,0 +1,193 @@
+"""The exact motion of the link: textbook solutions, scipy's Radau on equations written once more, and passivity."""
+
+import numpy as np
+import pytest
+import textbook
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from tvimdesign.physics import motion
+from tvimdesign.simulation.link_motion import link
+from tvimdesign.simulation.link_motion.linear_system import doubling, times_of
+
+Array = NDArray[np.float64]
+INERTIA, SPRINGS = 4.156e-4, 5.61  # the paper's table I
+JOINT = motion.Joint(INERTIA, SPRINGS, 919.0)
+MELT = [(2.068841e-2, 148.3), (6.54225e-3, 186.7), (2.068841e-3, 235.0), (6.54225e-4, 295.9), (2.068841e-4, 372.5),
+        (6.54225e-5, 468.9)]  # fmt: skip
+SOLID = [(1e10, 2.1e5), (10.0, 1.8e4), (1.0, 1.7e4), (0.1, 1.9e4), (0.01, 1.9e4), (0.001, 2.6e4)]
+HALF = [(300.0, 5.6e3), (0.4, 1.8e3), (0.05, 2.0e3), (8e-3, 2.4e3), (1.5e-3, 2.7e3), (2e-4, 3.5e3)]
+LAYERS = {"melt": MELT, "half frozen": HALF, "solid": SOLID}
+RIGID = 1e9  # N*m/rad
+
+
+def dashpot(damping: float) -> tuple[motion.Joint, motion.Modes]:
+    """A joint whose branch is a dashpot, as near as springs of 1e7 N*m/rad come to rigid."""
+    return motion.Joint(INERTIA, SPRINGS, RIGID), [(damping / 1e7, 1e7)]
+
+
+def relaxed(modes: motion.Modes) -> Array:
+    return np.full(len(modes), 0.1)
+
+
+def crossings(times: Array, values: Array) -> Array:
+    before = np.flatnonzero(values[:-1] * values[1:] < 0.0)
+    share = values[before] / (values[before] - values[before + 1])
+    return np.asarray(times[before] + share * (times[before + 1] - times[before]))
+
+
+def test_springs_alone_ring_at_18_5_hertz() -> None:
+    nothing = [(1.0, 1e-9)]
+    moved = link.released(JOINT, nothing, 0.1, np.zeros(1))
+    frequency = 0.5 / np.mean(np.diff(crossings(moved.times, moved.angle)))
+    assert frequency == pytest.approx(np.sqrt(SPRINGS / INERTIA) / (2.0 * np.pi), rel=1e-6)
+    assert frequency == pytest.approx(18.5, abs=0.05)
+    assert link.swings(JOINT, nothing, 0.1, np.zeros(1)).ringing() == pytest.approx(
+        (frequency, 0.0), rel=1e-6, abs=1e-6
+    )
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.3])
+def test_light_dashpot_gives_the_textbook_decay(ratio: float) -> None:
+    joint, modes = dashpot(ratio * 2.0 * np.sqrt(SPRINGS * INERTIA))
+    moved = link.released(joint, modes, 0.1, relaxed(modes))
+    omega = np.sqrt(SPRINGS / INERTIA)
+    damped = omega * np.sqrt(1.0 - ratio**2)
+    textbook = 0.1 * np.exp(-ratio * omega * moved.times) * (
+        np.cos(damped * moved.times) + ratio * omega / damped * np.sin(damped * moved.times)
+    )  # fmt: skip
+    assert moved.angle == pytest.approx(textbook, abs=1e-6)
+    swings = link.swings(joint, modes, 0.1, relaxed(modes))
+    assert swings.ringing() == pytest.approx((damped / (2.0 * np.pi), ratio), rel=1e-4)
+
+
+def test_heavy_dashpot_creeps_back_with_two_exponentials() -> None:
+    joint, modes = dashpot(5.0)
+    moved = link.released(joint, modes, 0.1, relaxed(modes))
+    fast, slow = np.sort(np.roots([INERTIA, 5.0, SPRINGS]))
+    textbook = 0.1 * (fast * np.exp(slow * moved.times) - slow * np.exp(fast * moved.times)) / (fast - slow)
+    assert moved.angle == pytest.approx(textbook, abs=1e-6)
+    # b/K_s = 0.891 s; three of them to 5 %.
+    settled = link.settling_time(moved.times, moved.angle, 0.05)
+    assert settled == pytest.approx(np.log(20.0) * 5.0 / SPRINGS, rel=2e-3)
+    swings = link.swings(joint, modes, 0.1, relaxed(modes))
+    assert swings.ringing() == (0.0, 1.0)
+    assert swings.fading_time(0.005) == pytest.approx(settled, rel=2e-3)
+
+
+@pytest.mark.parametrize("damping", [0.01, 5.0])
+def test_kelvin_voigt_is_the_dashpot_beside_the_spring(damping: float) -> None:
+    joint, modes = dashpot(damping)
+    moved = link.released(joint, modes, 0.1, relaxed(modes))
+    angle, torque = link.kelvin_voigt(joint, damping, SPRINGS, 0.1, moved)
+    assert angle == pytest.approx(moved.angle, abs=1e-6)
+    # A rigid link would have to turn at once: the dashpot's torque agrees once it has.
+    later = moved.times > 1e-3
+    assert torque[later] == pytest.approx(moved.torque[later], abs=1e-3)
+
+
+def test_standard_linear_solid_relaxes_as_in_the_textbook() -> None:
+    joint = motion.Joint(INERTIA, SPRINGS, 1e12)
+    tau, permanent, passing, rise = 0.5, 100.0, 40.0, 0.2
+    moved = link.turned(joint, [(1e16, permanent), (tau, passing)], 0.1, rise, doubling(1e-3, 5.0))
+    after = moved.times >= rise
+    # A ramp of gamma/rise, then rest: k1 gamma tau/rise (1 - exp(-rise/tau)) exp(-(t - rise)/tau).
+    fading = passing * 0.1 * tau / rise * (1.0 - np.exp(-rise / tau)) * np.exp(-(moved.times[after] - rise) / tau)
+    assert -moved.torque[after] == pytest.approx(0.1 * (SPRINGS + permanent) + fading, rel=1e-8)
+    assert moved.times[-1] == pytest.approx(5.0 + rise)
+
+
+def test_structure_in_series_stretches_the_relaxation_time() -> None:
+    # One mode k behind S: torque falls from S k/(S + k) with the time constant tau (S + k)/S.
+    joint, k, tau = motion.Joint(INERTIA, 0.0, 919.0), 400.0, 0.1
+    moved = link.turned(joint, [(tau, k)], 0.1, 1e-7, doubling(1e-3, 1.0))
+    after = moved.times >= 1e-7
+    expected = 0.1 * 919.0 * k / (919.0 + k) * np.exp(-moved.times[after] / (tau * (919.0 + k) / 919.0))
+    assert -moved.torque[after] == pytest.approx(expected, rel=1e-5)
+
+
+@pytest.mark.parametrize("hold", [0.0, 0.02, 10.0])
+@pytest.mark.parametrize("layer", LAYERS)
+def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer: str, hold: float) -> None:
+    # Other unknowns: torque of each mode, with the layer's angle from d/dt of the series' balance.
+    tau, k = np.array(LAYERS[layer]).T
+    structure = JOINT.structure_stiffness
+
+    def free(_: float, y: Array) -> Array:
+        turning = (structure * y[1] + np.sum(y[2:] / tau)) / (structure + np.sum(k))
+        return np.array([y[1], -(SPRINGS * y[0] + np.sum(y[2:])) / INERTIA, *(k * turning - y[2:] / tau)])
+
+    def still(_: float, y: Array) -> Array:
+        return np.asarray(k * np.sum(y / tau) / (structure + np.sum(k)) - y / tau)
+
+    torques = k * structure * 0.1 / (structure + np.sum(k))
+    if hold:
+        torques = solve_ivp(still, (0.0, hold), torques, method="Radau", rtol=1e-10, atol=1e-12).y[:, -1]
+    internal = link.held(JOINT, LAYERS[layer], 0.1, hold)
+    moved = link.released(JOINT, LAYERS[layer], 0.1, internal)
+    early = moved.times <= 0.02
+    reference = solve_ivp(
+        free, (0.0, 0.021), np.concatenate([[0.1, 0.0], torques]), method="Radau", t_eval=moved.times[early],
+        rtol=1e-9, atol=1e-12,
+    )  # fmt: skip
+    assert moved.angle[early] == pytest.approx(reference.y[0], abs=1e-6)
+    held_torque = SPRINGS * 0.1 + np.sum(torques)
+    torque = -(SPRINGS * reference.y[0] + np.sum(reference.y[2:], axis=0))
+    assert moved.torque[early] == pytest.approx(torque, abs=1e-5 * held_torque)
+
+
+@pytest.mark.parametrize("frequency", [0.2, 1.0, 18.5])
+@pytest.mark.parametrize("layer", LAYERS)
+def test_sine_in_time_has_the_complex_stiffness_of_the_frequency_domain(layer: str, frequency: float) -> None:
+    moved = link.swung(JOINT, LAYERS[layer], 0.104, frequency, 10, 240)
+    s = 2j * np.pi * frequency
+    inner = sum(k * s * tau / (1.0 + s * tau) for tau, k in LAYERS[layer])
+    expected = SPRINGS + 1.0 / (1.0 / JOINT.structure_stiffness + 1.0 / inner)
+    wave = np.exp(-s * moved.times[-240:])
+    found = -(moved.torque[-240:] @ wave) / (moved.angle[-240:] @ wave)
+    assert abs(found - expected) < 1e-2 * abs(expected)
+    assert found.imag == pytest.approx(expected.imag, rel=1e-2)
+    assert moved.angle == pytest.approx(0.104 * np.sin(2.0 * np.pi * frequency * moved.times), abs=1e-9)
+
+
+modes = st.lists(
+    st.tuples(st.floats(-5.0, 10.0), st.floats(-3.0, 5.5)).map(lambda pair: (10.0 ** pair[0], 10.0 ** pair[1])),
+    min_size=1,
+    max_size=6,
+)
+
+
+@settings(max_examples=50, deadline=None)
+@given(modes, st.floats(1.0, 5.0), st.floats(-4.0, 4.0))
+def test_energy_never_rises_once_the_link_is_let_go(
+    layer: list[tuple[float, float]], structure: float, hold: float
+) -> None:
+    joint = motion.Joint(INERTIA, SPRINGS, 10.0**structure)
+    moved = link.released(joint, layer, 0.1, link.held(joint, layer, 0.1, 10.0**hold))
+    assert np.max(np.diff(moved.energy)) <= 1e-9 * moved.energy[0]
+    assert np.all(moved.energy >= 0.0)
+
+
+def test_energy_lost_is_the_heat_of_the_dashpots() -> None:
+    moved = link.released(JOINT, HALF, 0.1, link.held(JOINT, HALF, 0.1, 10.0))
+    early = moved.times <= 0.2
+    heat = textbook.dissipation(moved.angle, list(moved.internal), JOINT, HALF)[early]
+    lost = moved.energy[0] - moved.energy[early][-1]
+    assert np.trapezoid(heat, moved.times[early]) == pytest.approx(lost, rel=0.01)
+
+
+def test_cold_ring_is_sampled_twenty_times_a_period_as_long_as_it_lives() -> None:
+    moved = link.released(JOINT, HALF, 0.1, link.held(JOINT, HALF, 0.1, 10.0))
+    frequency, ratio = link.swings(JOINT, HALF, 0.1, link.held(JOINT, HALF, 0.1, 10.0)).ringing()
+    alive = 6.0 / (2.0 * np.pi * frequency * ratio)
+    assert np.max(np.diff(moved.times[moved.times < alive])) < 1.0 / (20.0 * frequency)
+
+
+def test_doubling_stretches_end_where_they_are_told() -> None:
+    times = times_of(doubling(1e-4, 100.0))
+    assert times[0] == 0.0
+    assert times[1] == pytest.approx(1e-4)
+    assert times[-1] == pytest.approx(100.0, rel=1e-12)
+    assert np.all(np.diff(times) > 0.0)

@@ -1,0 +1,133 @@
+"""What it takes to stay soft: the steady state against a long simulation and against the first law."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from another_stack import AnotherStack, value_of
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from support import fine
+
+from tvimdesign.device import table_for
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
+from tvimdesign.study import given, read_study
+
+ROOT = Path(__file__).resolve().parents[3]
+
+Array = NDArray[np.float64]
+DESIGNS = ("as it is", "thick", "sink")
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+def test_at_the_hold_current_the_layer_stays_where_the_switch_ended(
+    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> None:
+    # Another integration over hours from the switch's end: the far face comes back to the target and stays.
+    model, cycle = build(design), switch_of(design)
+    phase, amps = model.phases["softening"], cycle.values["hold_current"]
+    jacobian = phase.rates.jacobian()
+    long = solve_ivp(
+        lambda _, y: np.asarray(phase.rates(y, amps, model.start)).ravel(), (0.0, 2e5),
+        cycle.trajectory.states[:, -1], method="BDF", rtol=1e-9, atol=1e-11,
+        jac=lambda _, y: np.asarray(jacobian(y, amps, model.start, 0)[0]),
+    )  # fmt: skip
+    end = long.y[:, -1]
+    gap = float(phase.watch(["response_time"])(end, amps, model.start))
+    assert gap == pytest.approx(0.0, abs=1e-6)  # in hundreds of kelvin
+    assert end == pytest.approx(cycle.balances["softening"][:-1], abs=1e-6)
+    power = float(phase.watch(["hold_power"])(end, amps, model.start))
+    assert cycle.values["hold_power"] == pytest.approx(power, rel=1e-6)
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+def test_what_holds_the_layer_is_what_the_air_takes(
+    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> None:
+    model, cycle = build(design), switch_of(design)
+    phase, balance = model.phases["softening"], cycle.balances["softening"]
+    assert np.max(np.abs(np.asarray(phase.rates(balance[:-1], balance[-1], model.start)))) < 1e-9
+    value, sink = value_of(model), design == "sink"
+    another = AnotherStack(value, sink=sink)
+    seen = np.asarray(phase.temperatures(balance[:-1], balance[-1], model.start)).ravel() - 273.15
+    cold, outer = seen[0], seen[4 + model.cells + int(value("rotor_cells")) - 1]
+    lost = another.rest * another._flux(seen[-3 if sink else -2], value("rotor_coefficient"))
+    lost += _plate_loss(another, outer, 0.5 * value("rotor_thickness") / value("rotor_cells"))
+    if sink:
+        lost += value("sink_area") * another._flux(seen[-1], value("sink_coefficient"))
+    else:
+        lost += another.window * another._flux(cold, value("cold_side_coefficient"))
+    # The pads' power with the rounding of its corner at zero left out; the plate's face radiates at its cell's heat.
+    assert cycle.values["hold_power"] == pytest.approx(lost, rel=2e-3)
+
+
+def _plate_loss(another: AnotherStack, outermost: float, half: float) -> float:
+    face = outermost
+    for _ in range(50):
+        flux = another._flux(face, another.value("rotor_coefficient"))
+        face = 0.5 * face + 0.5 * (outermost - half / another.value("structure_conductivity") * flux)
+    return another.area * flux
+
+
+def test_less_current_lets_the_layer_cool_and_more_heats_it(
+    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> None:
+    model, cycle = build(), switch_of("as it is")
+    phase, balance = model.phases["softening"], cycle.balances["softening"]
+    for share, sign in ((0.95, -1.0), (1.05, 1.0)):
+        found = solve_ivp(
+            lambda _, y, amps=share * balance[-1]: np.asarray(phase.rates(y, amps, model.start)).ravel(),
+            (0.0, 1e4), balance[:-1], method="LSODA", rtol=1e-8, atol=1e-10,
+        )  # fmt: skip
+        gap = float(phase.watch(["response_time"])(found.y[:, -1], share * balance[-1], model.start))
+        assert sign * gap > 0.01
+
+
+def test_holding_takes_less_than_the_switch_does(switch_of: Callable[[str], Cycle]) -> None:
+    for design in DESIGNS:
+        values = switch_of(design).values
+        assert 0.0 < values["hold_power"] < values["peak_power"]
+        assert 0.0 < values["hold_current"] < values["peak_current"]
+
+
+def test_a_switch_that_never_ends_has_no_hold_power(build: Callable[..., DeviceFunctions]) -> None:
+    model = build()
+    inputs = model.start.copy()
+    inputs[model.index["current"]] = 0.4
+    assert fine(model).run(inputs).values["hold_power"] == np.inf
+
+
+@pytest.mark.parametrize("design", ["as it is", "sink"])
+def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(
+    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> None:
+    model = build(design)
+    simulator, place = fine(model), model.index["current"]
+    for amps in (1.8, 4.0, 12.0):
+        inputs = model.start.copy()
+        inputs[place] = amps
+        values = simulator.run(inputs, phases=["softening"]).values
+        for name in ("hold_current", "hold_power"):
+            assert values[name] == pytest.approx(switch_of(design).values[name], rel=1e-8), name
+
+
+def test_a_steady_state_does_not_hang_on_the_last_digits_of_where_the_switch_ended() -> None:
+    # The optimum of studies/compare_shear.yaml, where Newton's method with shortened steps stopped dead now and then.
+    study = read_study(ROOT / "studies/compare_shear.yaml")
+    sizes = {
+        "wire_diameter": 1.8558e-3, "coil_diameter": 8e-3, "coil_count": 3.0, "placement_radius": 25.182e-3,
+        "core_radius": 7.5293e-3, "link_thickness": 5.2372e-3, "rotor_rim": 1e-3, "pcl_inner_radius": 11.929e-3,
+        "pcl_outer_radius": 17.845e-3, "arc_span": 1.31931, "pcl_thickness": 1.87755e-3,
+    }  # fmt: skip
+    table = table_for("shear")
+    model = DeviceFunctions(table, given(study) | sizes, tuple(study.operating_points), study.solver.cells)
+    simulator = Simulator(model)
+    found = []
+    for step in range(40):
+        inputs = model.start.copy()
+        inputs[model.index["pcl_thickness"]] *= 1.0 + 1e-8 * step
+        found.append(simulator.run(inputs, phases=["softening"]).values["hold_current"])
+    assert found == pytest.approx([found[0]] * 40, rel=1e-5)

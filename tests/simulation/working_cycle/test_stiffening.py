@@ -1,0 +1,200 @@
+"""The stage in which the layer freezes: against the same physics written again, on finer grids, and without an end."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from another_stack import CELLS, AnotherStack, value_of
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from support import fine
+
+from tvimdesign.physics import polymer
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
+
+Array = NDArray[np.float64]
+DESIGNS = ("as it is", "thin", "sink")
+
+
+@dataclass
+class AnotherCycle:
+    """A design's cycle as the independent model has it: frozen late, and on the melting curve."""
+
+    heated: float
+    kinetic: float
+    equilibrium: float
+    far_face: float
+
+
+def impedance_of(model: DeviceFunctions, value: Callable[[str], float]) -> Callable[[Array, Array], float]:
+    """Joint's impedance at the cold point's frequency from temperatures [degC] and fractions of the layer's cells."""
+    rheology = model.table.evaluate(
+        {**model.words, **{name: float(model.start[i]) for name, i in model.index.items()}}, ["pcl_rheology"]
+    )["pcl_rheology"]
+    angular = 2.0 * np.pi * value("frequency@cold")
+
+    def at(celsius: Array, frozen: Array) -> float:
+        storage, loss = polymer.moduli(celsius + 273.15, frozen, angular, rheology)
+        compliance = np.mean(1.0 / (storage + 1j * loss)) * value("pcl_thickness") / value("layer_polar_moment")
+        return float(abs(value("spring_stiffness") + 1.0 / (compliance + 1.0 / value("structure_stiffness"))))
+
+    return at
+
+
+def another_cycle(model: DeviceFunctions) -> AnotherCycle:
+    """Heat until the far face is at the target, and cool until the joint is stiff, with and without kinetics."""
+    value, sink = value_of(model), model.words["cold_side"] == "sink"
+    stack = AnotherStack(value, sink=sink)
+    impedance = impedance_of(model, value)
+    target = value("target_temperature") - 273.15
+    stiff = value("joint_impedance@cold") / value("stiffening_band")
+    cold = value("temperature@cold") - 273.15
+
+    def run(phase: AnotherStack, begin: Array, current: float, gap: Callable[[Array], float]) -> tuple[Array, float]:
+        def ends(_: float, y: Array) -> float:
+            return gap(y)
+
+        ends.terminal = True
+        found = solve_ivp(
+            lambda _, y: phase.rates(y, current), (0.0, 3600.0), begin, method="BDF", rtol=1e-6, atol=1e-5,
+            jac_sparsity=phase.neighbours(), events=[ends],
+        )  # fmt: skip
+        time = float(found.t_events[0][0]) if found.t_events[0].size else np.inf
+        return found.y_events[0][0] if np.isfinite(time) else found.y[:, -1], time
+
+    begin = stack.everywhere(value("ambient_temperature") - 273.15)
+    hot, heated = run(stack, begin, value("current"), lambda y: stack.faces(y)[2] - target)
+    freezing = AnotherStack(value, sink=sink, kinetic=True)
+    start, amps = freezing.going_on(hot), -value("cooling_current")
+    _, kinetic = run(freezing, start, amps, lambda y: np.log(impedance(*freezing.layer(y)) / stiff))
+    _, far_face = run(freezing, start, amps, lambda y: cold - freezing.faces(y)[2])
+    _, equilibrium = run(stack, hot, amps, lambda y: np.log(impedance(*stack.layer(y)) / stiff))
+    return AnotherCycle(heated, kinetic, equilibrium, far_face)
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cells(
+    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> None:
+    values, another = switch_of(design).values, another_cycle(build(design))
+    assert 10 * build(design).cells == CELLS
+    assert values["response_time"] == pytest.approx(another.heated, rel=0.01)
+    assert values["stiffening_time"] == pytest.approx(another.kinetic, rel=0.01)
+    assert values["equilibrium_stiffening_time"] == pytest.approx(another.equilibrium, rel=0.01)
+    assert values["far_face_cooling_time"] == pytest.approx(another.far_face, rel=0.01)
+
+
+@pytest.mark.parametrize("design", ["as it is", "sink"])
+def test_stiffening_converges_with_the_square_of_the_cell(design: str, build: Callable[..., DeviceFunctions]) -> None:
+    names = ("stiffening_time", "equilibrium_stiffening_time", "far_face_cooling_time", "stiffening_energy")
+    found = []
+    for cells in (6, 12, 24, 48):
+        model = build(design, cells)
+        values = fine(model).run(model.start).values
+        found.append([values[name] for name in names])
+    changes = np.abs(np.diff(found, axis=0))
+    assert np.log2(changes[:-1] / changes[1:]) == pytest.approx(2.0, abs=0.25)
+    assert np.all(changes[-1] < 2e-4 * np.array(found[-1]))
+
+
+@settings(max_examples=15, deadline=None)
+@given(heating=st.floats(1.3, 3.0), cooling=st.floats(0.0, 1.5), design=st.sampled_from(["as it is", "sink"]))
+def test_a_layer_with_kinetics_never_stiffens_sooner_than_its_melting_curve_claims(
+    heating: float, cooling: float, design: str, simulators: dict[str, Simulator]
+) -> None:
+    simulator = simulators[design]
+    inputs = changed(simulator.model, current=heating, cooling_current=cooling)
+    values = simulator.run(inputs).values
+    assert np.isfinite(values["response_time"])
+    assert values["stiffening_time"] >= values["equilibrium_stiffening_time"]
+
+
+def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., DeviceFunctions]) -> None:
+    model = build("equilibrium")
+    values = fine(model).run(model.start).values
+    assert values["stiffening_time"] == pytest.approx(values["equilibrium_stiffening_time"], rel=1e-8)
+    kinetic = build()
+    other = fine(kinetic).run(kinetic.start).values
+    assert values["stiffening_time"] == pytest.approx(other["equilibrium_stiffening_time"], rel=1e-8)
+
+
+def test_the_layer_starts_to_stiffen_where_the_switch_left_it(
+    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+) -> None:
+    model, cycle = build(), switch_of("as it is")
+    hot, cooling = cycle.trajectories["softening"], cycle.trajectories["stiffening"]
+    before = temperatures(model.phases["softening"], hot.states[:, -1], 1.5, model)
+    after = temperatures(model.phases["stiffening"], cooling.states[:, 0], -0.2, model)
+    assert after == pytest.approx(before, abs=0.01)  # all of the layer is molten here
+    assert cooling.times[0] == 0.0
+    assert np.all(cooling.currents == -0.2)
+
+
+def temperatures(phase: PhaseFunctions, state: Array, current: float, model: DeviceFunctions) -> Array:
+    return np.asarray(phase.temperatures(state, current, model.start)).ravel()
+
+
+def changed(model: DeviceFunctions, **inputs: float) -> Array:
+    """Inputs of a model that are its own but for what is said."""
+    start = model.start.copy()
+    for name, value in inputs.items():
+        start[model.index[name]] = value
+    return start
+
+
+@pytest.fixture(scope="module")
+def simulators(build: Callable[..., DeviceFunctions]) -> dict[str, Simulator]:
+    return {design: fine(build(design)) for design in ("as it is", "sink")}
+
+
+@pytest.mark.parametrize("cooling", [1.0, 3.0, 20.0])
+def test_a_current_that_heats_the_module_never_stiffens_it_and_breaks_nothing(
+    cooling: float,
+    simulators: dict[str, Simulator],
+    switch_of: Callable[[str], Cycle],
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    # With its cold side in free air the module cannot give away what an ampere puts in: it runs away upwards.
+    simulator = simulators["as it is"]
+    cycle = simulator.run(changed(simulator.model, cooling_current=cooling))
+    for name in ("stiffening_time", "equilibrium_stiffening_time", "far_face_cooling_time"):
+        assert cycle.values[name] == np.inf
+    values = simulator.model.values(simulator.model.start, cycle.values)
+    assert values["cycle_time"] == np.inf
+    assert all(np.all(np.isfinite(line.states)) for line in cycle.trajectories.values())
+    assert cycle.values["response_time"] == switch_of("as it is").values["response_time"]
+    assert "NaN" not in capfd.readouterr().err
+
+
+def test_a_switch_that_never_ends_has_no_stiffening(simulators: dict[str, Simulator]) -> None:
+    simulator = simulators["as it is"]
+    cycle = simulator.run(changed(simulator.model, current=0.4))
+    assert set(cycle.trajectories) == {"softening"}
+    assert cycle.values["stiffening_time"] == np.inf
+    assert cycle.balances == {}
+
+
+def test_only_the_stages_that_are_asked_for_and_those_before_them_are_simulated(
+    simulators: dict[str, Simulator], switch_of: Callable[[str], Cycle]
+) -> None:
+    simulator = simulators["as it is"]
+    cycle = simulator.run(simulator.model.start, phases=["stiffening"])
+    assert set(cycle.trajectories) == {"softening", "stiffening"}
+    assert cycle.values["stiffening_time"] == switch_of("as it is").values["stiffening_time"]
+    assert cycle.values["equilibrium_stiffening_time"] == np.inf
+
+
+def test_with_a_sink_more_current_stiffens_sooner_and_in_free_air_it_does_not(simulators: dict[str, Simulator]) -> None:
+    times = {}
+    for design, simulator in simulators.items():
+        for cooling in (0.2, 0.8):
+            values = simulator.run(changed(simulator.model, cooling_current=cooling), phases=["stiffening"]).values
+            times[design, cooling] = values["stiffening_time"]
+    assert times["sink", 0.8] < 0.8 * times["sink", 0.2]
+    assert times["as it is", 0.8] > times["as it is", 0.2]

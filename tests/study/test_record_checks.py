@@ -1,0 +1,47 @@
+"""Records that contradict themselves are named where people look: in `check` and at the end of a run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.report.run.check_study import describe
+from tvimdesign.study import Study, read_study
+from tvimdesign.study.record_checks import record_checks
+
+STUDY = "tvimdesign: 1\nname: Doubt\nmode: shear\ncatalog: records\nmodule: {peltier_module: bench}\n"
+
+
+@pytest.fixture
+def shipped() -> Path:
+    return Path(str(Catalog().path("peltiers", "teci_12706")))
+
+
+def _study(folder: Path, record: str) -> Study:
+    (folder / "records" / "peltiers").mkdir(parents=True)
+    (folder / "records" / "peltiers" / "bench.yaml").write_text(record, encoding="utf-8")
+    (folder / "study.yaml").write_text(STUDY, encoding="utf-8")
+    return read_study(folder / "study.yaml")
+
+
+def test_a_sheet_whose_cooling_power_does_not_follow_from_its_other_ratings_is_named(
+    shipped: Path, tmp_path: Path
+) -> None:
+    study = _study(tmp_path, shipped.read_text(encoding="utf-8").replace("form: rigid", "form: flexible"))
+    (said,) = record_checks(study)
+    # S^2 T^2/(2 R) is V_max^2/(2 R) at the sheet's own 27 degC: 15.8^2/(2 * 2.0455) = 61.0 W.
+    assert "61 W, the sheet says 51 W" in said
+    assert said in describe(study).splitlines()
+
+
+def test_a_sheet_that_agrees_is_not(shipped: Path, tmp_path: Path) -> None:
+    text = shipped.read_text(encoding="utf-8").replace("form: rigid", "form: flexible")
+    study = _study(tmp_path, text.replace("value: 51, unit: W", "value: 58, unit: W"))
+    assert record_checks(study) == []
+
+
+def test_a_record_without_that_rating_is_not() -> None:
+    study = read_study(Path(__file__).parents[2] / "studies" / "paper_shear.yaml")
+    assert record_checks(study) == []

@@ -1,0 +1,78 @@
+"""What a record holds: values and tables in SI, each with where it comes from and how well it is known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from typing import Any
+
+from tvimdesign.base.errors import CatalogError
+
+STATUSES = ("measured", "datasheet", "handbook", "calibrated", "assumed")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One value in SI, with the unit it was written in, its source, its status and its range (SI) where it has one."""
+
+    value: float
+    unit: str
+    source: str
+    status: str
+    low: float | None = None
+    high: float | None = None
+
+
+@dataclass(frozen=True)
+class RecordTable:
+    """One table in SI, with the units its columns were written in, source and status; `range` says how sure it is."""
+
+    columns: Mapping[str, str]
+    rows: tuple[tuple[float, ...], ...]
+    source: str
+    status: str
+    range: str = ""
+
+
+@dataclass(frozen=True)
+class Record:
+    """One thing of a category: a material, a wire table, a Peltier module."""
+
+    category: str
+    name: str
+    title: str
+    entries: Mapping[str, Entry] = field(default_factory=dict)
+    tables: Mapping[str, RecordTable] = field(default_factory=dict)
+    words: Mapping[str, str] = field(default_factory=dict)
+    file: str = ""
+
+    def value(self, name: str) -> float:
+        """Return a value in SI; raises CatalogError where the record lacks it."""
+        return self.entry(name).value
+
+    def entry(self, name: str) -> Entry:
+        """Return a value with its source and status; raises CatalogError where the record lacks it."""
+        found: Entry = self._find("values", self.entries, name)
+        return found
+
+    def table(self, name: str) -> list[dict[str, float]]:
+        """Return a table's rows by column, in SI; raises CatalogError where the record lacks it.
+
+        The columns convert by their units, which in `strength` makes the coefficient pascal while its exponent keeps
+        going with d in millimetres: S_ut = coefficient / (d / 1 mm)^exponent.
+        """
+        sheet: RecordTable = self._find("tables", self.tables, name)
+        return [dict(zip(sheet.columns, row, strict=True)) for row in sheet.rows]
+
+    def word(self, name: str) -> str:
+        """Return a plain word such as a module's form; raises CatalogError where the record lacks it."""
+        found: str = self._find("words", self.words, name)
+        return found
+
+    def _find(self, section: str, where: Mapping[str, Any], name: str) -> Any:
+        if name in where:
+            return where[name]
+        close = get_close_matches(name, where, n=1)
+        hint = f"did you mean {close[0]}?" if close else f"it has {', '.join(where) or 'none'}"
+        raise CatalogError(f"{self.file or self.category + '/' + self.name}: {section}.{name} is missing; {hint}")

@@ -1,0 +1,157 @@
+"""What the motion tests share: the joint at each temperature and history, and numbers that carry their interval."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+
+from tvimdesign.physics import motion
+from tvimdesign.physics.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.trial import Finding
+from tvimdesign.simulation.working_cycle.melt_history import fractions_at
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.study.study import STANDARD_POINTS
+
+LINEAR = (
+    "The PCL is linear at every strain: it neither softens with strain nor slips, tears or yields; the structure is "
+    "elastic without loss, so that a frozen joint rings longer here than a printed one will."
+)
+PUSHES = (
+    "Blocks push and never pull: those ahead act against positive angles, those behind against negative ones, and the "
+    "springs alone act where neither touches."
+)
+HISTORY = (
+    "Inside the melting range the PCL's history decides: low is cooled from the melt and still liquid, nominal is "
+    "the equilibrium on heating, high is heated with the record's highest melting range; "
+    "a finding's ends are the least and the most between low and high."
+)
+MELTING_POINT = {"temperature": 333.15, "frequency": 1.0}
+"""The paper's third temperature, 60 degC, which joins cold and hot where a study names no points of its own."""
+BETWEEN = 3
+"""Solid fractions between the least and the most that are tried for a finding's interval, and not shown."""
+
+
+@dataclass(frozen=True)
+class History:
+    """One way to have come to a temperature, with its solid fraction; not shown, it counts in intervals only."""
+
+    name: str
+    label: str
+    fraction: float
+    shown: bool = True
+
+
+@dataclass(frozen=True)
+class Case:
+    """The joint at one operating point, with one history of its layer."""
+
+    point: str
+    temperature: float
+    history: History
+    joint: motion.Joint
+    one_sided: bool
+    """Whether the polymer only pushes: blocks against either sense, of `modes` each."""
+    modes: motion.Modes
+
+    @property
+    def name(self) -> str:
+        """The point's name, with the history's where there is more than one."""
+        return "_".join(part for part in (self.point, self.history.name) if part)
+
+    @property
+    def label(self) -> str:
+        """The same for people."""
+        place = f"{self.point}, {self.temperature - ZERO_CELSIUS:.0f} °C"
+        return f"{place}, {self.history.label}" if self.history.label else place
+
+    def rows(self, resolved: ResolvedModule, names: Sequence[str]) -> dict[str, Any]:
+        """Rows of the table at this point, as this history leaves it, by plain name."""
+        values = {**resolved.values, f"solid_fraction@{self.point}": self.history.fraction}
+        found = resolved.table.evaluate(values, [f"{name}@{self.point}" for name in names])
+        return {name: found[f"{name}@{self.point}"] for name in names}
+
+
+def joint_of(resolved: ResolvedModule) -> motion.Joint:
+    """Inertia, springs and structure of the module on the bench."""
+    return motion.Joint(
+        *(resolved.quantity(name) for name in ("moving_inertia", "spring_stiffness", "elastic_support"))
+    )
+
+
+def with_paper_points(resolved: ResolvedModule) -> ResolvedModule:
+    """Return the rig, with the paper's third temperature where the study has only the standard points."""
+    if dict(resolved.study.operating_points) != STANDARD_POINTS:
+        return resolved
+    cold, hot = STANDARD_POINTS["cold"], STANDARD_POINTS["hot"]
+    study = resolved.study.model_copy(update={"operating_points": {"cold": cold, "melting": MELTING_POINT, "hot": hot}})
+    added = {f"{name}@melting": value for name, value in MELTING_POINT.items()}
+    return replace(resolved, study=study, values={**resolved.values, **added})
+
+
+def histories_at(resolved: ResolvedModule, temperature: float) -> tuple[History, ...]:
+    """Return the ways to have come to a temperature [K], nominal first; one where they are all the same."""
+    low, nominal, high = fractions_at(resolved, temperature)
+    if low == high:
+        return (History("", "", nominal),)
+    return (
+        History("nominal", "heated, equilibrium", nominal),
+        History("low", "cooled from the melt", low),
+        History("high", "heated, melting late", high),
+        *(History("", "", float(x), shown=False) for x in np.linspace(low, high, BETWEEN + 2)[1:-1]),
+    )
+
+
+def cases(resolved: ResolvedModule) -> list[Case]:
+    """The joint at every operating point, once for each history that matters there, the nominal one first."""
+    joint, one_sided = joint_of(resolved), float(resolved.quantity("parting_share")) > 0.0
+    found = []
+    for point in resolved.points:
+        temperature = float(resolved.quantity(f"temperature@{point}"))
+        for history in histories_at(resolved, temperature):
+            case = Case(point, temperature, history, joint, one_sided, ())
+            modes = case.rows(resolved, ("pcl_modes",))["pcl_modes"]
+            found.append(replace(case, modes=[(float(time), float(k)) for time, k in modes]))
+    return found
+
+
+class _HasCase(Protocol):
+    @property
+    def case(self) -> Case: ...
+
+
+_Tested = TypeVar("_Tested", bound=_HasCase)
+
+
+def by_point(found: Sequence[_Tested]) -> list[tuple[str, list[_Tested]]]:
+    """What was tested, operating point after operating point."""
+    points = dict.fromkeys(one.case.point for one in found)
+    return [(point, [one for one in found if one.case.point == point]) for point in points]
+
+
+def finding(name: str, unit: str, meaning: str, numbers: Sequence[float]) -> Finding:
+    """One number of a point from those of its histories, the nominal first: an interval where there are several."""
+    if len(numbers) == 1:
+        return Finding(name, numbers[0], unit, meaning)
+    return Finding(name, numbers[0], unit, meaning, low=min(numbers), high=max(numbers))
+
+
+def notes_for(found: Sequence[Case]) -> tuple[str, ...]:
+    """What a reader of these cases must know."""
+    pushes = (PUSHES,) if any(case.one_sided for case in found) else ()
+    history = (HISTORY,) if any(case.history.name for case in found) else ()
+    return (LINEAR, *pushes, *history)
+
+
+def overload_notes(resolved: ResolvedModule, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
+    """Where a test asks more torque [N*m] of a joint than it bears: the points, in a sentence; nothing otherwise."""
+    most = float(resolved.quantity("holding_torque"))
+    beyond = " and ".join(dict.fromkeys(case.point for case, torque in torques if torque > most))
+    if not beyond:
+        return ()
+    return (
+        f"At {beyond} the test asks for more torque than the {most:.3g} N·m the joint bears: there the curves are "
+        "those of a joint that does not break, to be read as shares.",
+    )

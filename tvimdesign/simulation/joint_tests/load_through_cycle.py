@@ -1,0 +1,142 @@
+"""A constant load on the link while the layer melts or freezes: slices in series, each as its temperature leaves it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.errors import InputError, SimulationError
+from tvimdesign.physics import motion, polymer, slices
+from tvimdesign.simulation.joint_tests.case import joint_of
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+Array = NDArray[np.float64]
+TOLERANCE = 1e-6
+SAMPLES = 100  # of each stretch of the simulated cycle
+FIRST_CELL = 3  # in a phase's `temperatures`, after cold side, hot side and near face
+
+
+@dataclass(frozen=True)
+class SliceHistory:
+    """Temperature [K] and solid fraction of each slice, one row a slice, over times [s] that rise."""
+
+    times: Array
+    temperatures: Array
+    fractions: Array
+
+    def __post_init__(self) -> None:
+        """Refuse times that do not rise, and arrays that do not fit them."""
+        if len(self.times) < 2 or not np.all(np.diff(self.times) > 0.0):
+            raise InputError("the times of a layer's history must rise, and be two at least")
+        shape = (len(self.temperatures), len(self.times))
+        if self.temperatures.shape != shape or self.fractions.shape != shape:
+            raise InputError("a layer's history wants one row of temperatures and of solid fractions a slice")
+
+
+@dataclass(frozen=True)
+class Carried:
+    """A load carried through a history: angle [rad], torque of the layer [N*m] and stored energy [J] over time."""
+
+    times: Array
+    angle: Array
+    layer_torque: Array
+    energy: Array
+    torques: Array
+    """Torque of each mode of each slice [N*m]: mode, slice, time."""
+    unloaded_angle: float
+    """Angle right after the load is taken off at the end [rad], of a layer that is bonded."""
+    set_angle: float
+    """Angle at which the layer is free of stress at the end [rad]."""
+
+
+def slice_histories(resolved: ResolvedModule) -> SliceHistory:
+    """Temperatures and solid fractions of the layer's cells over the working cycle: softening, then stiffening."""
+    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
+    cycle = Simulator(model, steps=SAMPLES).run(model.start, resolved.current_profiles, ["stiffening"])
+    begins = 0.0
+    pieces: list[tuple[Array, Array, Array]] = []
+    for name, trajectory in cycle.trajectories.items():
+        count, phase = len(trajectory.times), model.phases[name]
+        arguments = (trajectory.states, trajectory.currents[None, :], np.repeat(model.start[:, None], count, axis=1))
+        stack = np.asarray(phase.temperatures.map(count)(*arguments))
+        fractions = np.asarray(phase.fractions.map(count)(*arguments))
+        first = 1 if pieces else 0  # a phase begins where the one before has ended
+        pieces.append(
+            (begins + trajectory.times[first:], stack[FIRST_CELL:][: model.cells, first:], fractions[:, first:])
+        )
+        begins += trajectory.times[-1]
+    times, cells, solid = (np.concatenate([piece[k] for piece in pieces], axis=-1) for k in range(3))
+    return SliceHistory(times, cells, np.clip(solid, 0.0, 1.0))
+
+
+class Changing:
+    """Stiffness and relaxation time of every mode of every slice over a history, smooth between its times."""
+
+    def __init__(self, logarithms: Array, times: Array) -> None:
+        """`logarithms` of (relaxation time, stiffness): what, mode, slice, time."""
+        from scipy.interpolate import PchipInterpolator
+
+        self._curves = PchipInterpolator(times, logarithms, axis=-1)
+        self._slopes = self._curves.derivative()
+
+    def at(self, time: float) -> slices.Slices:
+        """The slices at one time."""
+        relaxation_times, stiffnesses = np.exp(self._curves(time))
+        return slices.Slices(list(relaxation_times), list(stiffnesses), list(self._slopes(time)[1]))
+
+
+def changing(resolved: ResolvedModule, history: SliceHistory) -> Changing:
+    """The slices of a module's layer over a history, all of one thickness."""
+    rheology, moment, thickness = (resolved.quantity(n) for n in ("pcl_rheology", "pcl_moment", "pcl_depth"))
+    spectrum = polymer.spectrum(history.temperatures, history.fractions, rheology)
+    modes = motion.layer_modes(spectrum, moment, thickness / len(history.temperatures))
+    both = [[time for time, _ in modes], [stiffness for _, stiffness in modes]]
+    return Changing(np.log(np.array(both)), history.times)
+
+
+def carry(layer: Changing, support: slices.Support, load: float, times: Array) -> Carried:
+    """Put a load [N*m] on the link of a layer free of stress and keep it there over the times; inertia left out.
+
+    Raises SimulationError where the integration fails.
+    """
+    from scipy.integrate import solve_ivp
+
+    begin = layer.at(float(times[0]))
+    angle, torques = slices.loaded_start(load, begin, support)
+    shape = np.shape(torques)
+
+    def rates(time: float, state: Array) -> Array:
+        speed, changes = slices.loaded_rates(list(state[1:].reshape(shape)), 0.0, layer.at(time), support)
+        return np.concatenate([[speed], np.ravel(changes)])
+
+    def jacobian(time: float, _: Array) -> Array:
+        now = slices.Slices(*([row[:, None] for row in field] for field in layer.at(time)))
+        inner = np.eye(1 + shape[0] * shape[1])[1:].reshape(*shape, -1)
+        speed, changes = slices.loaded_rates(list(inner), 0.0, now, support)
+        return np.concatenate([speed[None, :], np.reshape(changes, (-1, inner.shape[-1]))])
+
+    solved = solve_ivp(
+        rates, (times[0], times[-1]), np.append(angle, np.ravel(torques)), method="BDF", t_eval=times, jac=jacobian,
+        rtol=TOLERANCE, atol=TOLERANCE * 1e-2 * abs(load),
+    )  # fmt: skip
+    if not solved.success:
+        raise SimulationError(f"the loaded layer cannot be followed through its switch ({solved.message})")
+    inner = solved.y[1:].reshape(*shape, -1)
+    states = [layer.at(float(time)) for time in times]
+    energies = [
+        float(slices.stored_energy(solved.y[0, i], list(inner[..., i]), now, support)) for i, now in enumerate(states)
+    ]
+    given_back, _ = slices.loaded_start(load, states[-1], support)
+    layer_torque, last = np.sum(inner, axis=0)[0], solved.y[0, -1]
+    free = last - layer_torque[-1] * slices.compliance(states[-1], support)
+    return Carried(times, solved.y[0], layer_torque, np.array(energies), inner, float(last - given_back), float(free))
+
+
+def support_of(resolved: ResolvedModule) -> slices.Support:
+    """Springs and structure of the module on the bench."""
+    joint = joint_of(resolved)
+    return slices.Support(joint.spring_stiffness, joint.structure_stiffness)

@@ -1,0 +1,245 @@
+"""The perturbation test: the link held off its rest and let go, at each temperature."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tvimdesign.device.table.quantity import TOUCHING
+from tvimdesign.physics.one_sided import Touching
+from tvimdesign.simulation.joint_tests import joint_motion
+from tvimdesign.simulation.joint_tests.case import (
+    Case,
+    by_point,
+    cases,
+    finding,
+    notes_for,
+    overload_notes,
+    with_paper_points,
+)
+from tvimdesign.simulation.link_motion import link
+from tvimdesign.simulation.link_motion.contact_simulation import TURNS_OF_A_SWING, OneSided, turns_of
+from tvimdesign.simulation.link_motion.link import Array, Motion
+from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+ANGLE = 0.1  # rad, the paper's perturbation
+ANGLE_PANEL = "Released"
+"""How the titles of the panels begin that show the angle over time."""
+SETTLED = 0.05  # share of the angle within which the link counts as back
+
+
+@dataclass(frozen=True)
+class Simple:
+    """The same release with one spring and one dashpot (Kelvin-Voigt), at the same times."""
+
+    angle: Array
+    torque: Array
+    settling: float
+    difference: float
+    """Root mean square over time of the angle's difference from the full model's, over that of its angle."""
+
+
+@dataclass(frozen=True)
+class Released:
+    """One release with what is read off it."""
+
+    case: Case
+    found: OneSided
+    backlash: float
+    """Angle over which nothing touches right after the hold [rad]."""
+    frequency: float
+    damping_ratio: float
+    settling: float
+    simple: Simple | None
+
+    @property
+    def motion(self) -> Motion:
+        """The motion itself."""
+        return self.found.motion
+
+    @property
+    def contact_lost(self) -> float:
+        """Share of the first swing in which nothing touches."""
+        return self.found.lost_share(0.0, self.found.first_swing())
+
+
+def release(
+    resolved: ResolvedModule, angle: float = ANGLE, hold: float | None = None, kelvin_voigt: bool = True
+) -> Trial:
+    """Hold the link at an angle [rad] for `hold` seconds, else `hold_time`, let go, and follow it.
+
+    Gives angle and torque over time and the torque-angle loop at every operating point; with `kelvin_voigt` also those
+    of one spring and one dashpot, stiffness and damping as at the point's frequency, where the layer is bonded. Blocks
+    that only push are left and met on the way.
+    """
+    hold = float(resolved.quantity("hold_time")) if hold is None else hold
+    resolved = with_paper_points(resolved)
+    found = [_released(resolved, case, angle, hold, kelvin_voigt) for case in cases(resolved)]
+    shown = [one for one in found if one.case.history.shown]
+    return Trial(
+        test="release",
+        title=f"Released from {angle:g} rad",
+        sheets=tuple(sheet for one in shown for sheet in _sheets(one)),
+        panels=(
+            *(Panel(f"{ANGLE_PANEL}, {point}", "Time after release (s)", "Angle (rad)", _lines(here, "time", "angle"),
+                    log_x=True) for point, here in by_point(shown)),
+            *(Panel(f"First swing, {point}", "Angle (rad)", "Torque on the link (N·m)",
+                    _lines(here, "angle", "torque")) for point, here in by_point(shown)),
+        ),
+        findings=tuple(_findings(resolved, found)),
+        notes=(
+            f"The PCL was free of strain, was turned to {angle:g} rad at once and held there for {hold:g} s: of a hold "
+            "of seconds the melt keeps nothing, frozen PCL nearly all.",
+            "Torque is that of the module on the link.",
+            *notes_for([one.case for one in found]),
+            *overload_notes(resolved, [(one.case, float(abs(one.motion.torque[0]))) for one in found]),
+            *_unsettled(found),
+        ),
+    )  # fmt: skip
+
+
+def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
+    """Where a link that rattles between its blocks was not followed until it settles."""
+    points = " and ".join(dict.fromkeys(one.case.point for one in found if not np.isfinite(one.settling)))
+    if not points:
+        return ()
+    return (f"At {points} the link still swings where its curve ends: it settles later, if it does.",)
+
+
+def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tuple[float, float, float]]:
+    """Nominal, least and largest value of every row that a first swing shows, by full name, after `hold_time`."""
+    seen: dict[str, list[float]] = {}
+    for case in cases(resolved):
+        for name, value in _first_swing_of(resolved, case, angle).items():
+            seen.setdefault(f"{name}@{case.point}", []).append(value)
+    return {name: (values[0], min(values), max(values)) for name, values in seen.items()}
+
+
+def _first_swing_of(resolved: ResolvedModule, case: Case, angle: float) -> dict[str, float]:
+    """Mean of every row of a swing over the first one; a bonded layer is in contact whatever the link does."""
+    names = [row.name for row in resolved.table.first_oscillations]
+    if not case.one_sided:
+        bonded = resolved.table.evaluate_instant({**resolved.values, TOUCHING: Touching(1.0, 1.0)}, names)
+        return {name: float(value) for name, value in bonded.items()}
+    found = joint_motion.released(
+        case, angle, joint_motion.held(case, angle, float(resolved.quantity("hold_time"))), TURNS_OF_A_SWING
+    )
+    touching = Touching(*found.touching.astype(float))
+    instants = resolved.table.evaluate_instant({**resolved.values, TOUCHING: touching}, names)
+    return {name: found.average(values, 0.0, found.first_swing()) for name, values in instants.items()}
+
+
+def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
+    internal = joint_motion.held(case, angle, hold)
+    found = joint_motion.released(case, angle, internal)
+    moved, gap = found.motion, joint_motion.gap(case, internal)
+    settling = link.settling_time(moved.times, moved.angle, SETTLED)
+    if case.one_sided:
+        return Released(case, found, gap, *_first_ringing(found), settling, None)
+    swings = link.swings(case.joint, case.modes, angle, internal)
+    if not np.isfinite(settling):
+        settling = swings.fading_time(SETTLED * abs(angle))
+    simple = _simple(resolved, case, angle, moved) if kelvin_voigt else None
+    return Released(case, found, gap, *swings.ringing(), settling, simple)
+
+
+def _first_ringing(found: OneSided) -> tuple[float, float]:
+    """Frequency [Hz] of the first swing and the damping ratio that would take as much of it; 0 and 1 if there is none.
+
+    From the decrement d of one period: z = d/sqrt(4 pi^2 + d^2) (textbook).
+    """
+    moved = found.motion
+    turns = turns_of(moved.speed)
+    if len(turns) < TURNS_OF_A_SWING:
+        return 0.0, 1.0
+    left = abs(moved.angle[turns[TURNS_OF_A_SWING - 1]] / moved.angle[0])
+    decrement = -np.log(max(left, np.finfo(float).tiny))
+    return 1.0 / found.first_swing(), float(decrement / np.hypot(2.0 * np.pi, decrement))
+
+
+def _simple(resolved: ResolvedModule, case: Case, angle: float, moved: Motion) -> Simple:
+    rows = case.rows(resolved, ("joint_damping", "joint_stiffness"))
+    damping, stiffness = float(rows["joint_damping"]), float(rows["joint_stiffness"])
+    other, torque = link.kelvin_voigt(case.joint, damping, stiffness, angle, moved)
+    apart = np.trapezoid((moved.angle - other) ** 2, moved.times) / np.trapezoid(moved.angle**2, moved.times)
+    swings = link.kelvin_voigt_swings(case.joint, damping, stiffness, angle)
+    return Simple(other, torque, swings.fading_time(SETTLED * abs(angle)), float(np.sqrt(apart)))
+
+
+def _sheets(one: Released) -> tuple[CurveTable, ...]:
+    name, moved = f"release_{one.case.name}", one.motion
+    columns = [
+        Column("time", "s", moved.times),
+        Column("angle", "rad", moved.angle),
+        Column("torque", "N*m", moved.torque),
+        Column("stored_energy", "J", moved.energy),
+        *joint_motion.contact_columns(one.case, one.found),
+    ]
+    if one.simple:
+        columns += [
+            Column("angle_kelvin_voigt", "rad", one.simple.angle),
+            Column("torque_kelvin_voigt", "N*m", one.simple.torque),
+        ]
+    events = joint_motion.event_sheets(name, one.found)
+    return (CurveTable(name, tuple(columns)), *_first_swing(one, columns), *events)
+
+
+def _first_swing(one: Released, columns: Sequence[Column]) -> tuple[CurveTable]:
+    """The first swing alone, whose loop shows loss and backlash; later ones lie over it."""
+    count = int(np.searchsorted(one.motion.times, one.found.first_swing(), side="right"))
+    return (CurveTable(_loop_name(one), tuple(replace(column, values=column.values[:count]) for column in columns)),)
+
+
+def _loop_name(one: Released) -> str:
+    return f"release_{one.case.name}_first_swing"
+
+
+def _lines(found: Sequence[Released], x: str, y: str) -> tuple[PlottedLine, ...]:
+    lines = []
+    for one in found:
+        sheet = _loop_name(one) if x == "angle" else f"release_{one.case.name}"
+        lines.append(PlottedLine(sheet, x, y, one.case.label))
+        if one.simple and not one.case.history.name:
+            across = "angle_kelvin_voigt" if x == "angle" else x
+            lines.append(
+                PlottedLine(sheet, across, f"{y}_kelvin_voigt", f"{one.case.point}, Kelvin-Voigt", dashed=True)
+            )
+    return tuple(lines)
+
+
+def _findings(resolved: ResolvedModule, found: Sequence[Released]) -> list[Finding]:
+    numbers: list[Finding] = []
+    for point in resolved.points:
+        here = [one for one in found if one.case.point == point]
+        energies = [one.motion.energy for one in here]
+        rows = [
+            ("held_torque", "N*m", "Torque that holds the link just before it is let go",
+             [abs(float(one.motion.torque[0])) for one in here]),
+            ("backlash", "rad", "Angle over which nothing but the springs acts right after the hold",
+             [one.backlash for one in here]),
+            ("contact_lost", "1", "Share of the first swing, up to its second turn, in which no PCL is in contact",
+             [one.contact_lost for one in here]),
+            ("ringing_frequency", "Hz", "Frequency at which the link swings; 0 where it creeps back",
+             [one.frequency for one in here]),
+            ("ringing_damping_ratio", "1", "Damping ratio of that swing; 1 where it creeps back",
+             [one.damping_ratio for one in here]),
+            ("settling_time", "s", f"Time until the link stays within {100 * SETTLED:g} % of its angle",
+             [one.settling for one in here]),
+            ("energy_dissipated", "J", "Energy the layer turned into heat over the motion shown",
+             [float(energy[0] - energy[-1]) for energy in energies]),
+            ("energy_gain", "1", "Largest growth of the stored energy over its start; rounding",
+             [max(0.0, float(np.max(np.diff(energy)) / energy[0])) for energy in energies]),
+        ]  # fmt: skip
+        simple = [one.simple for one in here if one.simple]
+        if simple:
+            rows += [
+                ("kelvin_voigt_settling_time", "s", "The same time in the Kelvin-Voigt model",
+                 [one.settling for one in simple]),
+                ("kelvin_voigt_difference", "1", "Its angle against the full model's, rms over rms; near 1 and above it"
+                 " says nothing", [one.difference for one in simple]),
+            ]  # fmt: skip
+        numbers += [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
+    return numbers

@@ -1,0 +1,147 @@
+"""The link turned to and fro as a sine: the module's torque, its loop, and stiffness and damping read off in time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tvimdesign.simulation.joint_tests import joint_motion
+from tvimdesign.simulation.joint_tests.case import (
+    Case,
+    by_point,
+    cases,
+    finding,
+    notes_for,
+    overload_notes,
+    with_paper_points,
+)
+from tvimdesign.simulation.link_motion.contact_simulation import OneSided
+from tvimdesign.simulation.link_motion.link import Array, Motion
+from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+PERIODS = 10
+SAMPLES = 240  # of one period
+ROUNDING = 1e-9
+"""Share of a period by which its first sample may be early, and of a stiffness below which its phase is none."""
+
+
+@dataclass(frozen=True)
+class Swung:
+    """One sine with what its last period shows."""
+
+    case: Case
+    frequency: float
+    found: OneSided
+    stiffness: float
+    damping: float
+    dissipated: float
+    apart: float
+    """Distance of the complex stiffness from the frequency domain's, over its magnitude."""
+    contact_lost: float
+    """Share of the last period in which nothing touches."""
+
+    @property
+    def motion(self) -> Motion:
+        """The motion itself."""
+        return self.found.motion
+
+
+def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
+    """Turn the link as a sine of the stroke's amplitude at each point's frequency, from rest."""
+    resolved = with_paper_points(resolved)
+    found = [_swung(resolved, case, periods) for case in cases(resolved)]
+    shown = [one for one in found if one.case.history.shown]
+    frequencies = ", ".join(dict.fromkeys(f"{one.frequency:g} Hz" for one in found))
+    return Trial(
+        test="sine",
+        title=f"Turned as a sine of {float(resolved.quantity('stroke')):g} rad ({frequencies})",
+        sheets=tuple(sheet for one in shown for sheet in _sheets(one)),
+        panels=tuple(
+            Panel(f"{place}, {point}", label, "Torque on the link (N·m)", _lines(here, x))
+            for x, label, place in (("time", "Time (s)", "Last period"), ("angle", "Angle (rad)", "Loop"))
+            for point, here in by_point(shown)
+        ),
+        findings=tuple(_findings(resolved, found)),
+        notes=(
+            "The angle is prescribed, so the link's inertia takes no part; torque is that of the module on the link.",
+            f"The PCL is free of strain at first; the loops and numbers are those of period {periods}.",
+            *notes_for([one.case for one in found]),
+            *overload_notes(resolved, [(one.case, float(np.max(np.abs(one.motion.torque)))) for one in found]),
+        ),
+    )  # fmt: skip
+
+
+def _swung(resolved: ResolvedModule, case: Case, periods: int) -> Swung:
+    frequency = float(resolved.quantity(f"frequency@{case.point}"))
+    found = joint_motion.swung(case, float(resolved.quantity("stroke")), frequency, periods, SAMPLES)
+    moved = found.motion
+    complex_stiffness = complex_stiffness_of(moved, frequency)
+    lossy = complex_stiffness.imag
+    rows = case.rows(resolved, ("joint_stiffness", "joint_damping"))
+    omega = 2.0 * np.pi * frequency
+    expected = complex(rows["joint_stiffness"], omega * rows["joint_damping"])
+    loop = last_period(moved, frequency)
+    return Swung(
+        case, frequency, found,
+        stiffness=complex_stiffness.real,
+        damping=lossy / omega if abs(lossy) > ROUNDING * abs(complex_stiffness) else 0.0,
+        dissipated=-float(np.trapezoid(moved.torque[loop], moved.angle[loop])),
+        apart=abs(complex_stiffness - expected) / abs(expected),
+        contact_lost=found.lost_share(float(moved.times[loop][0]), float(moved.times[-1])),
+    )  # fmt: skip
+
+
+def last_period(moved: Motion, frequency: float) -> slice:
+    """The samples of the last period, both its ends included; more than elsewhere where blocks are left and met."""
+    begin = moved.times[-1] - (1.0 + ROUNDING) / frequency
+    return slice(int(np.searchsorted(moved.times, begin)), None)
+
+
+def complex_stiffness_of(moved: Motion, frequency: float) -> complex:
+    """Complex stiffness [N*m/rad] from the first harmonics of torque and angle over the last period."""
+    loop = last_period(moved, frequency)
+    times = moved.times[loop]
+    wave: Array = np.exp(-2j * np.pi * frequency * times)
+    torque, angle = (np.trapezoid(values[loop] * wave, times) for values in (moved.torque, moved.angle))
+    return complex(-torque / angle)
+
+
+def _sheets(one: Swung) -> tuple[CurveTable, ...]:
+    moved = one.motion
+    columns = (
+        Column("time", "s", moved.times),
+        Column("angle", "rad", moved.angle),
+        Column("torque", "N*m", moved.torque),
+        *joint_motion.contact_columns(one.case, one.found),
+    )
+    name, loop = f"sine_{one.case.name}", last_period(moved, one.frequency)
+    return (
+        CurveTable(name, columns),
+        CurveTable(f"{name}_loop", tuple(replace(column, values=column.values[loop]) for column in columns)),
+        *joint_motion.event_sheets(name, one.found),
+    )
+
+
+def _lines(found: Sequence[Swung], x: str) -> tuple[PlottedLine, ...]:
+    """The torque of the last period; all before it are like it once the layer has forgotten how it began."""
+    return tuple(PlottedLine(f"sine_{one.case.name}_loop", x, "torque", one.case.label) for one in found)
+
+
+def _findings(resolved: ResolvedModule, found: Sequence[Swung]) -> list[Finding]:
+    numbers = []
+    for point in resolved.points:
+        here = [one for one in found if one.case.point == point]
+        for name, unit, meaning, values in (
+            ("stiffness", "N*m/rad", "Stiffness of the joint, from its motion", [one.stiffness for one in here]),
+            ("damping", "N*m*s/rad", "Damping of the joint, from its motion", [one.damping for one in here]),
+            ("contact_lost", "1", "Share of the last period in which no PCL is in contact",
+             [one.contact_lost for one in here]),
+            ("cycle_energy", "J", "Energy turned into heat in one cycle", [one.dissipated for one in here]),
+            ("frequency_domain_difference", "1", "Complex stiffness as seen against that of small motions, of its size",
+             [one.apart for one in here]),
+        ):  # fmt: skip
+            numbers.append(finding(f"{name}@{point}", unit, meaning, values))
+    return numbers

@@ -1,0 +1,129 @@
+"""The polymer as a rheometer holds it: one spectrum at each temperature, or several where its history decides.
+
+Inside the melting range every number comes with the least and largest value over all solid fractions that history
+allows; they are the columns `..._low` and `..._high` of a sheet, and `low` and `high` of a finding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tvimdesign.physics import polymer
+from tvimdesign.physics.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.rheometer.spectrum_checks import check_rising, check_spectrum
+from tvimdesign.simulation.trial import Array, Column, Finding, PlottedLine
+from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, melting_range
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.study.study import STANDARD_POINTS
+
+PAPER = (303.15, 333.15, 373.15)
+"""The temperatures of the paper's rheometer tests [K]."""
+
+
+@dataclass(frozen=True)
+class State:
+    """The polymer at one temperature and one solid fraction."""
+
+    fraction: float
+    modes: tuple[tuple[float, float], ...]
+    """Relaxation spectrum: (time [s], modulus [Pa])."""
+    linear_strain: float
+    """Strain at which the storage modulus has fallen 5 % [1]."""
+
+    def left(self, strain: float | Array) -> float | Array:
+        """Share of the linear modulus that is left at a strain."""
+        share: float | Array = polymer.damping_function(strain, self.linear_strain)
+        return share
+
+
+@dataclass(frozen=True)
+class Specimen:
+    """The polymer at one temperature: the nominal state, and the others its history may have left it in."""
+
+    temperature: float
+    nominal: State
+    others: tuple[State, ...]
+
+    @property
+    def states(self) -> tuple[State, ...]:
+        """Every state, the nominal one first."""
+        return (self.nominal, *self.others)
+
+    @property
+    def point(self) -> str:
+        """The temperature as a part of a name."""
+        return f"{_celsius(self.temperature)}_degC"
+
+    @property
+    def label(self) -> str:
+        """The temperature for people."""
+        return f"{_celsius(self.temperature)} °C"
+
+    def columns(self, name: str, unit: str, of: Callable[[State], Array]) -> tuple[Column, ...]:
+        """A quantity of the nominal state; where history decides, its least and largest values beside it."""
+        nominal = Column(name, unit, of(self.nominal))
+        if not self.others:
+            return (nominal,)
+        every = np.array([of(state) for state in self.states])
+        return nominal, Column(f"{name}_low", unit, every.min(axis=0)), Column(f"{name}_high", unit, every.max(axis=0))
+
+    def finding(self, name: str, unit: str, meaning: str, of: Callable[[State], float]) -> Finding:
+        """A number read off; where history decides, with its least and largest value."""
+        value = float(of(self.nominal))
+        if not self.others:
+            return Finding(f"{name}@{self.point}", value, unit, meaning)
+        every = [float(of(state)) for state in self.states]
+        return Finding(f"{name}@{self.point}", value, unit, meaning, min(every), max(every))
+
+    def line(self, sheet: str, x: str, y: str, label: str | None = None, *, dashed: bool = False) -> PlottedLine:
+        """A quantity of `columns` drawn over another, with its band where it has one."""
+        band = (f"{y}_low", f"{y}_high") if self.others else None
+        return PlottedLine(sheet, x, y, self.label if label is None else label, band, dashed)
+
+
+def at_fraction(resolved: ResolvedModule, temperature: float, fraction: float) -> State:
+    """The polymer of a rig's module at a temperature [K] and a solid fraction. Raises InputError for no spectrum."""
+    spectrum = polymer.spectrum(temperature, fraction, resolved.quantity("pcl_rheology"))
+    modes = tuple((float(time), float(modulus)) for time, modulus in spectrum)
+    check_spectrum(modes, f"pcl_grade {resolved.values['pcl_grade'].name} at {_celsius(temperature)} °C")
+    return State(fraction, modes, float(polymer.linear_strain(fraction, resolved.quantity("pcl_linear_range"))))
+
+
+def specimen(resolved: ResolvedModule, temperature: float) -> Specimen:
+    """The polymer of a rig's module at a temperature [K], in every state its history allows."""
+    low, nominal, high = fractions_at(resolved, temperature)
+    others = np.linspace(low, high, HISTORIES) if high > low else np.array([])
+    return Specimen(
+        temperature,
+        at_fraction(resolved, temperature, nominal),
+        tuple(at_fraction(resolved, temperature, float(fraction)) for fraction in others),
+    )
+
+
+def specimens(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> list[Specimen]:
+    """The polymer at rising temperatures [K]; at those of the study's operating points where none are given.
+
+    A study that has only the standard points, at their temperatures, gets the paper's three.
+    """
+    if temperatures is None:
+        own = {point["temperature"] for point in resolved.study.operating_points.values()}
+        standard = {point["temperature"] for point in STANDARD_POINTS.values()}
+        temperatures = PAPER if own == standard else sorted(own)
+    check_rising([at - ZERO_CELSIUS for at in temperatures], "the temperatures of the test", "°C")
+    return [specimen(resolved, temperature) for temperature in temperatures]
+
+
+def history_note(resolved: ResolvedModule) -> str:
+    """What the bands mean, in one sentence."""
+    first, last = (_celsius(at) for at in melting_range(resolved))
+    return (
+        f"Between {first} and {last} °C the answer depends on history: the line is the equilibrium curve on heating; "
+        "the band reaches from still liquid, cooled from the melt, to melting as late as the record allows."
+    )
+
+
+def _celsius(temperature: float) -> str:
+    return f"{temperature - ZERO_CELSIUS:.6g}"

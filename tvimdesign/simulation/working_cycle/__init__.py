@@ -1,0 +1,1 @@
+"""The device as compiled functions, and its working cycle simulated with them."""

@@ -1,0 +1,135 @@
+"""How much of the layer is frozen at a temperature: one number outside melting, an interval inside it.
+
+Inside the melting range the solid fraction depends on what came before. Cooled from the melt the layer is still liquid;
+heated it follows the equilibrium curve, which the record knows to some kelvin only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.device import Table
+from tvimdesign.physics import crystallization, polymer
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+Array = NDArray[np.float64]
+HISTORIES = 5
+"""Solid fractions, equally spaced from the least to the largest, of which the extremes are taken."""
+
+
+class Fractions(NamedTuple):
+    """Solid fractions [1] at one temperature."""
+
+    low: float
+    """Cooled from the melt, still liquid."""
+    nominal: float
+    """Heated, on the equilibrium curve."""
+    high: float
+    """Heated, melting as late as the record allows."""
+
+
+def melting_range(resolved: ResolvedModule) -> tuple[float, float]:
+    """Temperatures [K] between which the solid fraction depends on history: earliest start and latest end."""
+    melting: polymer.Melting = resolved.quantity("pcl_melting")
+    return melting.start + _off(resolved, "melting_start")[0], melting.end + _off(resolved, "melting_end")[1]
+
+
+def fractions_at(resolved: ResolvedModule, temperature: float) -> Fractions:
+    """Least, nominal and largest solid fraction at a temperature [K]; outside the melting range all are the same."""
+    melting: polymer.Melting = resolved.quantity("pcl_melting")
+    nominal = _on_heating(temperature, melting)
+    first, last = melting_range(resolved)
+    if not first <= temperature <= last:
+        return Fractions(nominal, nominal, nominal)
+    late = melting._replace(
+        start=melting.start + _off(resolved, "melting_start")[1], end=melting.end + _off(resolved, "melting_end")[1]
+    )
+    return Fractions(0.0, nominal, max(nominal, _on_heating(temperature, late)))
+
+
+def frozen_on_cooling(resolved: ResolvedModule, rate: float) -> Callable[[float], float]:
+    """Solid fraction [1] at a temperature [K] that a melt comes down to at a steady rate [K/s]: Nakamura's integral."""
+    kinetics: crystallization.Kinetics = resolved.quantity("pcl_kinetics")
+    temperatures = np.linspace(kinetics.equilibrium_melting + 20.0, 240.0, 4001)
+    slowness = crystallization.rate_constant(temperatures, kinetics) / rate
+    steps = 0.5 * (slowness[1:] + slowness[:-1]) * -np.diff(temperatures)
+    extended = np.concatenate([[0.0], np.cumsum(steps)])
+
+    def fraction(temperature: float) -> float:
+        psi = np.interp(temperature, temperatures[::-1], extended[::-1])
+        return float(crystallization.solid_fraction(psi, kinetics))
+
+    return fraction
+
+
+def intervals(
+    resolved: ResolvedModule,
+    model: DeviceFunctions,
+    inputs: Array,
+    cycle: Mapping[str, float],
+    current_profiles: Mapping[str, CurrentProfile] | None = None,
+) -> dict[str, tuple[float, float]]:
+    """Least and largest value (SI) of every output that a point inside the melting range leaves open, by full name.
+
+    Damping peaks between the least and the largest solid fraction, so fractions between are tried too. Where the point
+    says what soft or stiff means, the cycle is simulated for each of them.
+    """
+    found: dict[str, tuple[float, float]] = {}
+    for point in resolved.points:
+        low, nominal, high = fractions_at(resolved, float(inputs[model.index[f"temperature@{point}"]]))
+        if low == high:
+            continue
+        runs = []
+        for share in (nominal, *np.linspace(low, high, HISTORIES)):
+            seen = (
+                _as_left(resolved, model, point, float(share), current_profiles)
+                if _sets_a_target(model.table, point)
+                else cycle
+            )
+            outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
+            runs.append(np.asarray(outputs(inputs, [seen[name] for name in model.switch_names])).ravel())
+        least, most = np.min(runs, axis=0), np.max(runs, axis=0)
+        for name, a, b in zip(model.output_names, least, most, strict=True):
+            if not (np.isnan(a) or np.isclose(a, b, rtol=1e-9, atol=0.0)):
+                other = found.get(name, (a, b))
+                found[name] = (float(min(a, other[0])), float(max(b, other[1])))
+        found[f"solid_fraction@{point}"] = (low, high)
+    return found
+
+
+def _sets_a_target(table: Table, point: str) -> bool:
+    """Whether what soft or stiff means is read off at a point."""
+    return any(f"joint_impedance@{point}" in row.needs for row in table.outputs)
+
+
+def _as_left(
+    resolved: ResolvedModule,
+    model: DeviceFunctions,
+    point: str,
+    share: float,
+    current_profiles: Mapping[str, CurrentProfile] | None,
+) -> Mapping[str, float]:
+    """The cycle's values where a point has a given solid fraction."""
+    other = DeviceFunctions(
+        resolved.table, {**resolved.values, f"solid_fraction@{point}": share}, resolved.points, model.cells
+    )
+    return Simulator(other).run(other.start, current_profiles).values
+
+
+def _on_heating(temperature: float, melting: polymer.Melting) -> float:
+    return float(polymer.solid_fraction(polymer.enthalpy(temperature, melting), melting))
+
+
+def _off(resolved: ResolvedModule, field: str) -> tuple[float, float]:
+    """How far [K] the record's range reaches below and above its value; a study's own value is taken to be as sure."""
+    entry = resolved.values["pcl_grade"].entry(field)
+    low = entry.value if entry.low is None else entry.low
+    high = entry.value if entry.high is None else entry.high
+    return low - entry.value, high - entry.value

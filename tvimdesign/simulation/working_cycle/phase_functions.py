@@ -1,0 +1,119 @@
+"""One phase of the working cycle, compiled: heat equation and instants as functions of (state, current, inputs)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
+from typing import Any
+
+from tvimdesign.device import Event, Path, Phase, Steady, Table
+from tvimdesign.device.table.quantity import DRIVE, PHASE, STATE
+from tvimdesign.physics import heat
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import symbols
+
+_BY_JACOBIAN = {"enable_forward": False}
+"""Derivatives of what is mapped over the points go by its sparse Jacobian: a fifth of IPOPT's time less than by
+directions."""
+
+SHOWN = {"joint_stiffness": "stiffness_now", "joint_damping": "damping_now", "electrical_power": "electrical_power"}
+"""Quantities of an instant that a phase is drawn with, by the name of their column."""
+
+
+class PhaseFunctions:
+    """One phase of a device with its records chosen. Functions are built when first asked for and kept."""
+
+    def __init__(self, table: Table, phase: Phase, inputs: Any, known: dict[str, Any], cells: int) -> None:
+        """`known` holds every given quantity, numbers as entries of the symbol `inputs`; `cells` divides the
+        polymer."""
+        self.table = table
+        self.phase = phase
+        self.events = tuple(row for row in table.supplied if isinstance(row, Event) and row.phase == phase.name)
+        self.paths = tuple(row for row in table.supplied if isinstance(row, Path) and row.phase == phase.name)
+        self.steadies = tuple(row for row in table.supplied if isinstance(row, Steady) and row.phase == phase.name)
+        self._inputs = inputs
+        self._drive = ca.SX.sym("drive_current")
+        self._known = {**known, PHASE: phase, DRIVE: symbols(self._drive)[0]}
+        self._cells = cells
+
+    @cached_property
+    def _stack(self) -> heat.Stack:
+        stack: heat.Stack = self.table.evaluate_instant(self._known, ["stack_now"])["stack_now"]
+        return stack
+
+    @cached_property
+    def _instant(self) -> dict[str, Any]:
+        state = ca.SX.sym("state", self.state_size)
+        known = {**self._known, "stack_now": self._stack, STATE: symbols(state)}
+        rows = [row.name for row in (*self.events, *self.paths, *self.steadies)]
+        wanted = ("stack_profile", "state_rates", "impedance_now", *SHOWN.values(), *rows)
+        return {"state": state, **self.table.evaluate_instant(known, wanted)}
+
+    def _function(self, name: str, values: Iterable[Any]) -> Any:
+        arguments = [self._instant["state"], self._drive, self._inputs]
+        return ca.Function(name, arguments, [ca.vertcat(*values)])
+
+    @cached_property
+    def initial(self) -> Any:
+        """The function inputs -> state with everything at ambient temperature."""
+        return ca.Function("initial", [self._inputs], [ca.vertcat(self._initial(self._stack))])
+
+    def _initial(self, stack: heat.Stack) -> Any:
+        return heat.initial_state(stack, self._cells, self._known["ambient_temperature"])
+
+    @cached_property
+    def state_size(self) -> int:
+        """Count of the state's entries."""
+        return len(self._initial(self._stack))
+
+    @cached_property
+    def begin(self) -> Any:
+        """The function (state at the end of the phase before, inputs) -> state this one starts from."""
+        before = ca.SX.sym("before", len(self._initial(self._stack._replace(freezing=None))))
+        state = heat.with_history(symbols(before), self._stack) if self._stack.freezing else before
+        return ca.Function("begin", [before, self._inputs], [ca.vertcat(state)])
+
+    @cached_property
+    def rates(self) -> Any:
+        """The function (state, current, inputs) -> time derivative of the state."""
+        return self._function("rates", [self._instant["state_rates"]])
+
+    def watch(self, wanted: Sequence[str]) -> Any:
+        """Return the function (state, current, inputs) -> what the wanted quantities of this phase are at an
+        instant."""
+        return self._function("watch", [self._instant[name] for name in wanted])
+
+    @cached_property
+    def temperatures(self) -> Any:
+        """The function -> temperatures [K]: cold, hot, near face, cells, far face, plate, beside, sink."""
+        seen = self._instant["stack_profile"]
+        ends = [seen.plate, seen.beside, seen.sink]
+        return self._function("temperatures", [seen.cold, seen.hot, seen.near, seen.cells, seen.far, *ends])
+
+    @cached_property
+    def fractions(self) -> Any:
+        """The function -> solid fraction of each cell of the polymer."""
+        return self._function("fractions", [self._instant["stack_profile"].fractions])
+
+    @cached_property
+    def impedance_now(self) -> Any:
+        """The function -> magnitude of the joint's dynamic stiffness [N*m/rad]."""
+        return self._function("impedance_now", [self._instant["impedance_now"]])
+
+    def per_phase(self, function: Callable[..., Any]) -> tuple[Any, Any]:
+        """Split a function (state, current, inputs) in what is the same all through the phase, and what is not.
+
+        Returns inputs -> constants, and (state, current, constants) -> the function's value. A collocation evaluates
+        the first once and the second at every point.
+        """
+        state, profile = self._instant["state"], self._drive
+        expression = function(state, profile, self._inputs)
+        value, symbols, constants = ca.extract_parametric(expression, self._inputs)
+        # Inputs that meet the state as they are stay in the expression; they are constants too.
+        left = ca.symvar(value)
+        moved = ca.which_depends(ca.vertcat(*left), self._inputs, 1, True) if left else []
+        bare = [symbol for symbol, depends in zip(left, moved, strict=True) if depends]
+        return (
+            ca.Function("constants", [self._inputs], [ca.vertcat(*constants, *bare)]),
+            ca.Function("varying", [state, profile, ca.vertcat(*symbols, *bare)], [value], _BY_JACOBIAN),
+        )

@@ -1,0 +1,246 @@
+"""One phase of the working cycle simulated: the heat equation through CVODES until the event that ends it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.base.errors import SimulationError
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Array, Trajectory
+
+FIRST_STRETCH = 120.0  # s; each after it is twice as long
+MOST_STEPS = 50  # of Newton; a steady state takes less than ten
+STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
+
+
+@dataclass
+class _Found:
+    """What the simulation of a phase has come to so far."""
+
+    times: dict[str, float]
+    """Of every event; infinite where it has not happened."""
+    end: Array | None = None
+    """State, integrals last, at the event that ends the phase."""
+
+
+class PhaseSimulator:
+    """Simulates one phase. Time is scaled by the length of a stretch; integrals ride along as states."""
+
+    def __init__(self, model: DeviceFunctions, phase: PhaseFunctions, tolerance: float, steps: int) -> None:
+        """Nothing is integrated yet; `tolerance` is CVODES's, `steps` divides each stretch of time."""
+        self.model = model
+        self.phase = phase
+        self._shares = np.linspace(0.0, 1.0, steps + 1)
+        self._integrals = [row.name for row in phase.paths if row.reduce == "integral"]
+        self._events = [row.name for row in phase.events]
+        state, current = ca.SX.sym("state", phase.state_size), ca.SX.sym("current")
+        integrals = ca.SX.sym("integrals", len(self._integrals))
+        length, first, last, time = (ca.SX.sym(name) for name in ("length", "first", "last", "time"))
+        profile = first + (last - first) * time
+        self._constants, varying = phase.per_phase(self._everything)
+        constants = ca.SX.sym("constants", self._constants.size1_out(0))
+        size = phase.state_size + len(self._integrals)
+        watched = varying(state, current, constants)[size:]
+        self._watched = ca.Function("watched", [state, current, constants], [watched])
+        self._of_stretch = self._watched.map(steps + 1)
+        self._integrator = ca.integrator(
+            phase.phase.name,
+            "cvodes",
+            {
+                "x": ca.vertcat(state, integrals),
+                "p": ca.vertcat(constants, length, first, last),
+                "t": time,
+                "ode": length * varying(state, profile, constants)[:size],
+            },
+            0.0,
+            self._shares[1:],
+            {
+                "reltol": tolerance,
+                "abstol": tolerance * 1e-2,
+                "max_num_steps": 100_000,
+                # A phase that cannot be simulated raises; what CVODES and CasADi say meanwhile is not for people.
+                "show_eval_warnings": False,
+                "disable_internal_warnings": True,
+            },
+        )
+
+    def _everything(self, state: Any, profile: Any, inputs: Any) -> Any:
+        """Rates of the state and of the integrals, then what is watched: events and paths."""
+        watched = [*self._integrals, *self._events, *(row.name for row in self.phase.paths)]
+        return ca.vertcat(self.phase.rates(state, profile, inputs), self.phase.watch(watched)(state, profile, inputs))
+
+    def run(
+        self,
+        inputs: Array,
+        profile: CurrentProfile,
+        before: Array | None,
+        stretch: float,
+        wanted: Collection[str] | None,
+    ) -> tuple[dict[str, float], Trajectory]:
+        """Simulate until every event that is wanted has happened, nothing changes any more, or the horizon is over."""
+        ends = self.phase.phase.ends
+        sought = [name for name in self._events if wanted is None or name in wanted or name == ends]
+        found = _Found(dict.fromkeys(sought, np.inf))
+        horizon = float(inputs[self.model.index["horizon"]])
+        begin, constants = self._begin(inputs, before)
+        time, length = 0.0, stretch
+        pieces: list[tuple[Array, Array, Array]] = []
+        while time < horizon and not all(np.isfinite(moment) for moment in found.times.values()):
+            length = min(length, profile.next_corner(time) - time, horizon - time)
+            currents = profile.at(time + length * self._shares)
+            states = self._stretch(begin, constants, length, currents)
+            watched = self._watch(states, constants, currents)
+            self._look(found, (time, length, currents), states, watched, constants)
+            pieces.append((time + length * self._shares, states, watched))
+            begin, time = states[:, -1], time + length
+            rate = np.asarray(self.phase.rates(begin[: self.phase.state_size], currents[-1], inputs)).ravel()
+            constant = np.isinf(profile.next_corner(time))
+            if constant and np.max(np.abs(rate)) * (horizon - time) < STALLED:
+                break
+            length = 2.0 * length if length >= FIRST_STRETCH else stretch
+        return self._summary(found, pieces, constants, profile)
+
+    def trace(self, inputs: Array, profile: CurrentProfile, before: Array | None, end: float) -> Trajectory:
+        """Simulate one stretch of a constant current, whatever happens in it."""
+        times = end * self._shares
+        begin, constants = self._begin(inputs, before)
+        currents = profile.at(times)
+        states = self._stretch(begin, constants, end, currents)
+        return Trajectory(times, states[: self.phase.state_size], currents)
+
+    def _begin(self, inputs: Array, before: Array | None) -> tuple[Array, Array]:
+        """State at the start, integrals last, and what stays the same all through the phase."""
+        start = self.phase.initial(inputs) if before is None else self.phase.begin(before, inputs)
+        begin = np.append(np.asarray(start).ravel(), np.zeros(len(self._integrals)))
+        return begin, np.asarray(self._constants(inputs)).ravel()
+
+    def _stretch(self, begin: Array, constants: Array, length: float, currents: Array) -> Array:
+        """States at equally spaced times from `begin` over `length` seconds; the current runs straight."""
+        parameters = np.append(constants, [length, currents[0], currents[-1]])
+        try:
+            after = np.asarray(self._integrator(x0=begin, p=parameters)["xf"])
+        except RuntimeError as error:
+            reason = str(error).strip().splitlines()[-1]
+            raise SimulationError(
+                f"the {self.phase.phase.name} of this design cannot be simulated; check its inputs ({reason})"
+            ) from error
+        return np.column_stack([begin, after])
+
+    def _watch(self, stretch: Array, constants: Array, currents: Array) -> Array:
+        columns = np.repeat(constants[:, None], stretch.shape[1], axis=1)
+        return np.asarray(self._of_stretch(stretch[: self.phase.state_size], currents[None, :], columns))
+
+    def _look(
+        self, found: _Found, when: tuple[float, float, Array], stretch: Array, watched: Array, constants: Array
+    ) -> None:
+        """Note the events that happen within a stretch. Those that wait for the same thing are looked at once."""
+        time = when[0]
+        seen: list[tuple[Array, float, Array]] = []
+        for i, name in enumerate(self._events):
+            if np.isfinite(found.times.get(name, 0.0)) or not np.any(watched[i] >= 0.0):
+                continue
+            same = [known[1:] for known in seen if np.array_equal(known[0], watched[i])]
+            share, state = same[0] if same else self._crossing(stretch, constants, when, i, watched[i])
+            seen.append((watched[i], share, state))
+            found.times[name] = time + share
+            if name == self.phase.phase.ends:
+                found.end = state
+
+    def _crossing(
+        self, stretch: Array, constants: Array, when: tuple[float, float, Array], event: int, gap: Array
+    ) -> tuple[float, Array]:
+        """Time within a stretch at which a gap passes zero, and the state there: looked at once more, then linear."""
+        _, length, currents = when
+        if gap[0] >= 0.0:
+            return 0.0, stretch[:, 0]
+        first = int(np.argmax(gap >= 0.0))
+        steps = len(self._shares) - 1
+        within = np.linspace(currents[first - 1], currents[first], steps + 1)
+        close = self._stretch(stretch[:, first - 1], constants, length / steps, within)
+
+        def near(place: int) -> float:
+            return float(self._watched(close[: self.phase.state_size, place], within[place], constants)[event])
+
+        # Looking at a sample costs as much as integrating up to it, so few are looked at: by halves.
+        low, high = (0, near(0)), (steps, near(steps))
+        while high[0] - low[0] > 1:
+            middle = (low[0] + high[0]) // 2
+            value = near(middle)
+            low, high = (low, (middle, value)) if value >= 0.0 else ((middle, value), high)
+        part = low[1] / (low[1] - high[1])
+        share = (first - 1 + (low[0] + part) / steps) / steps
+        return float(share * length), close[:, low[0]] + part * (close[:, high[0]] - close[:, low[0]])
+
+    def _summary(
+        self, found: _Found, pieces: list[tuple[Array, Array, Array]], constants: Array, profile: CurrentProfile
+    ) -> tuple[dict[str, float], Trajectory]:
+        """Values of the phase's events and paths, and its trajectory up to the event that ends it."""
+        # The last sample of a stretch is the first of the next.
+        times = np.concatenate([pieces[0][0][:1], *(piece[0][1:] for piece in pieces)])
+        states, watched = (
+            np.concatenate([pieces[0][k][:, :1], *(piece[k][:, 1:] for piece in pieces)], axis=1) for k in (1, 2)
+        )
+        if found.end is not None:
+            end = found.times[self.phase.phase.ends]
+            keep = times < end
+            now = self._watched(found.end[: self.phase.state_size], profile.at(np.array([end])), constants)
+            times = np.append(times[keep], end)
+            states = np.column_stack([states[:, keep], found.end])
+            watched = np.column_stack([watched[:, keep], np.asarray(now).ravel()])
+        size = self.phase.state_size
+        integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
+        values = dict.fromkeys(self._events, np.inf) | found.times
+        for row, sampled in zip(self.phase.paths, watched[len(self._events) :], strict=True):
+            whole = sampled[-1] if row.reduce == "end" else integrals.get(row.name, np.max(sampled))
+            # Of a phase that never ends there is a maximum; what it adds up to, or is at its end, there is not.
+            values[row.name] = np.inf if row.reduce != "maximum" and found.end is None else float(whole)
+        return values, Trajectory(times=times, states=states[:size], currents=profile.at(times))
+
+    @cached_property
+    def _standing(self) -> Any:
+        """The function (state and current, inputs) that is zero where everything stays and the ending event is due."""
+        size = self.phase.state_size
+        unknowns = ca.SX.sym("unknowns", size + 1)
+        inputs = ca.SX.sym("inputs", len(self.model.names))
+        state, profile = unknowns[:size], unknowns[size]
+        gap = self.phase.watch([self.phase.phase.ends])(state, profile, inputs)
+        equations = ca.vertcat(self.phase.rates(state, profile, inputs), gap)
+        return ca.Function("standing", [unknowns, inputs], [equations])
+
+    @cached_property
+    def _by_full_steps(self) -> Any:
+        """Newton's method as it is: with shorter steps it may stop dead where half of the layer has molten."""
+        options = {"line_search": False, "max_iter": MOST_STEPS}
+        return ca.rootfinder("balance", "newton", self._standing, options)
+
+    @cached_property
+    def _by_shorter_steps(self) -> Any:
+        return ca.rootfinder("balance", "newton", self._standing)
+
+    def stays(self, wanted: Collection[str] | None) -> bool:
+        """Whether a steady state at the phase's end is of use."""
+        return any(wanted is None or row.name in wanted for row in self.phase.steadies)
+
+    def balance(self, inputs: Array, trajectory: Trajectory) -> Array | None:
+        """State and current that stay where the phase ended; None where none exists."""
+        begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
+        with suppress(RuntimeError):
+            return np.asarray(self._by_full_steps(begin, inputs)).ravel()
+        with suppress(RuntimeError):  # Newton finds none: with such a cold side there is none
+            return np.asarray(self._by_shorter_steps(begin, inputs)).ravel()
+        return None
+
+    def steady_values(self, inputs: Array, balance: Array) -> dict[str, float]:
+        """Values of the steady quantities."""
+        names = [row.name for row in self.phase.steadies]
+        numbers = np.asarray(self.phase.watch(names)(balance[:-1], balance[-1], inputs)).ravel()
+        return dict(zip(names, (float(number) for number in numbers), strict=True))

@@ -1,0 +1,51 @@
+"""What a virtual test is given: a study, resolved, and the table its quantities are evaluated with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from tvimdesign.device import Table
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.study import Study, given
+from tvimdesign.study.design import Design
+
+
+@dataclass(frozen=True)
+class ResolvedModule:
+    """A module on the bench. `values` holds every input in SI by full name, and every choice as record or word."""
+
+    study: Study
+    values: Mapping[str, Any]
+    current_profiles: Mapping[str, CurrentProfile] = field(default_factory=dict)
+    """Currents that follow a profile, by phase."""
+
+    @property
+    def table(self) -> Table:
+        """The quantities of its mode."""
+        return self.study.table
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """Names of the operating points."""
+        return tuple(self.study.operating_points)
+
+    def quantity(self, name: str) -> Any:
+        """Value of one quantity by full name; hidden quantities too."""
+        return self.table.evaluate(self.values, [name])[name]
+
+
+def resolve_study(study: Study) -> ResolvedModule:
+    """Resolve a study for testing; what it varies stands at its start. Raises InputError for what has no value."""
+    return ResolvedModule(study, given(study))
+
+
+def resolve_design(design: Design) -> ResolvedModule:
+    """The module of a design, with the currents found for it. Raises InputError for what has no value."""
+    study = Study.model_validate({**design.study, "vary": {}, "profile": {}})
+    study = study.model_copy(update={"module": {**study.module, **design.choices}})
+    values = given(study)
+    numbers = {name: design.values[name] for name, value in values.items() if isinstance(value, float | int)}
+    current_profiles = {phase: CurrentProfile.from_plain(plain) for phase, plain in design.current_profiles.items()}
+    return ResolvedModule(study, {**values, **numbers}, current_profiles)

@@ -1,1 +1,0 @@
-"""Virtual tests of the polymer and of the joint, as a laboratory would run them."""
