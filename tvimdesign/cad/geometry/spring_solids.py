@@ -7,12 +7,13 @@ away from the rotor's axis. The left-hand spring is its mirror image in the plan
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import asin, atan, atan2, cos, hypot, isfinite, pi, sin, sqrt
+from math import atan, cos, hypot, isfinite, pi, sin, sqrt
 
 import cadquery as cq
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.physics.transmission import leg_direction
 
 VOLUME_TOLERANCE = 1e-3
 
@@ -125,16 +126,7 @@ def _leg_azimuth(dims: Dimensions, rotor_angle: float, diameter: float) -> float
     reach = dims.placement_radius - dims.pin_radius
     if not 0.0 < offset < reach:
         raise GeometryError(f"spring: its leg, {offset:.4g} mm beside its axis, cannot reach a pin {reach:.4g} mm away")
-    p, r = dims.pin_radius, dims.placement_radius
-    # Measured from the inward radius, so that the branch of atan2 is never crossed.
-    inward = atan2(p * sin(rotor_angle), r - p * cos(rotor_angle))
-    return pi - inward + asin(offset / pin_distance(dims, rotor_angle))
-
-
-def pin_distance(dims: Dimensions, rotor_angle: float) -> float:
-    """From the coil's axis to its pin, which turns with the rotor; by the law of cosines, as quantities have it."""
-    p, r = dims.pin_radius, dims.placement_radius
-    return sqrt(p**2 + r**2 - 2.0 * p * r * cos(rotor_angle))
+    return float(leg_direction(dims.pin_radius, dims.placement_radius, rotor_angle, offset))
 
 
 def _directions(azimuth: float) -> tuple[cq.Vector, cq.Vector]:

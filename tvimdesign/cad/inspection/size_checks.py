@@ -18,7 +18,8 @@ from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, TURNING, kind_of
-from tvimdesign.cad.geometry.spring_solids import installed_coil, pin_distance
+from tvimdesign.cad.geometry.spring_solids import installed_coil
+from tvimdesign.physics.transmission import pin_distance
 from tvimdesign.study.design import Design
 
 MODEL_TOLERANCE = 1e-5
@@ -106,7 +107,7 @@ def bearing_checks(dims: Dimensions) -> Iterator[SolidCheck]:
     for angle in (-dims.stroke, 0.0, dims.stroke):
         coil = installed_coil(dims, angle)
         offset = 0.5 * (coil.diameter + coil.wire_diameter + dims.pin_diameter)
-        distance = pin_distance(dims, angle)
+        distance = pin_distance(dims.pin_radius, dims.placement_radius, angle)
         beyond = coil.leg_length - float(sqrt(distance**2 - offset**2))
         text = f"the springs' legs reach {beyond:.3g} mm beyond their pins at {angle:+.4f} rad"
         yield SolidCheck(f"leg beyond pin at {angle:+.4f} rad", beyond, 0.0, beyond > 0.0, text)
