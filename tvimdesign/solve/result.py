@@ -54,6 +54,8 @@ class ConstraintCheck:
     """The least margin over what history leaves open; the margin itself where there is one value."""
     origin: str
     """`require`, or the reason the machine has the limit."""
+    part_of: str = ""
+    """The output of the requirement that is put on several at once."""
 
 
 @dataclass(frozen=True)
@@ -213,6 +215,7 @@ def _check(
         text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
         scale=limit.scale, absolute=limit.absolute, kept=kept(limit, value, table),
         worst=-max(float(limit.residual(end)) for end in ends), origin=limit.origin,
+        part_of=limit.part_of,
     )  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from tvimdesign.base.errors import InputError
@@ -28,6 +28,8 @@ class Constraint:
     """What a hundredth of the scale is, in words."""
     absolute: bool = False
     """Whether the limit has no size of its own, so that distances from it are said in its unit."""
+    part_of: str = ""
+    """The output a requirement names that is put on several at once, which move together: `spring_stiffness`."""
 
     @property
     def name(self) -> str:
@@ -49,7 +51,7 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     said = study.module if chosen is None else chosen
     options = {row.name: said.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
     asked = [
-        make_constraint(table, output, r.sense, r.limit, "require")
+        replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(table, r.output))
         for r in study.require
         for output in _behind(table.output(r.output), r.output, r.sense, options)
     ]
@@ -68,6 +70,10 @@ def _behind(row: Output, name: str, sense: str, options: Mapping[str, Any]) -> t
     apart = row.parts_differ_with
     alike = apart is not None and options.get(apart.choice) == apart.without
     return rows[:1] if alike else rows
+
+
+def _part_of(table: Table, name: str) -> str:
+    return name if table.output(name).also_limited else ""
 
 
 def on_cycle(table: Table, output: str) -> bool:
