@@ -15,7 +15,7 @@ import pytest
 from support import ROOT, Command
 
 from tvimdesign.cli.folders import default_folder, name_of
-from tvimdesign.simulation.registry import TESTS
+from tvimdesign.report.virtual_tests import TESTS
 
 HEAVY = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy", "numpy", "pint")
 

@@ -61,6 +61,7 @@ def test_a_study_that_is_not_changed_is_kept_as_it_was_written(tvimdesign: Comma
     assert (tmp_path / "out/study.yaml").read_bytes() == source.read_bytes()
 
 
+@pytest.mark.slow
 def test_a_setting_changes_what_is_tested(tvimdesign: Command, tmp_path: Path) -> None:
     def tested(name: str, *settings: str) -> list[float]:
         done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "step", *settings, "--json",

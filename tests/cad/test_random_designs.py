@@ -31,6 +31,7 @@ def test_a_random_design_is_sound_or_refused_by_a_named_rule() -> None:
     assert found.refused["rotor_spring_gap"] > 0
 
 
+@pytest.mark.slow
 def test_a_design_that_is_not_sound_is_told() -> None:
     draws = random_designs.Draws(read_study(ROOT / "studies/wrist_joint.yaml"), seed=20)
     good = next(draws.keeping_rules(1, random_designs.Tally()))

@@ -36,6 +36,7 @@ solver: {starts: 7, seed: 1}
 """
 
 
+@pytest.mark.slow
 def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
     solution = optimize(read_study_text(SMALL, "test"), lambda _: None)
     assert solution.status == "optimal"

@@ -121,6 +121,7 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
     assert all(profile.steepest == pytest.approx(0.5, rel=1e-9) for profile in solution.current_profiles.values())
 
 
+@pytest.mark.slow
 def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
     solution = solve(CYCLE)
     again = Simulator(solution.model, tolerance=1e-9, steps=200).run(solution.inputs, solution.current_profiles)
@@ -156,6 +157,7 @@ def one(solution: Solution, name: str) -> ActiveConstraint:
     return held
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "name", "written", "step", "shares"),
     [

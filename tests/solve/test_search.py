@@ -140,6 +140,7 @@ def test_a_bound_s_price_is_what_moving_it_saves() -> None:
     assert 100.0 * (before.objective - after.objective) / before.objective == pytest.approx(held.shadow_price, rel=0.1)
 
 
+@pytest.mark.slow
 def test_listed_sizes_are_as_good_as_solving_each_on_its_own() -> None:
     listed = SMALL.replace("[1.5 mm, 3 mm]", "{choose: [1.8 mm, 2 mm, 2.2 mm, 2.5 mm]}")
     best = _solve(_study(listed))

@@ -29,6 +29,7 @@ def liquid_impedance(found: StudyResult, celsius: float) -> complex:
     return complex(value("spring_stiffness") + 1.0 / (1.0 / layer + 1.0 / value("structure_stiffness")))
 
 
+@pytest.mark.slow
 def test_softening_to_a_point_in_the_melting_range_takes_from_to_and_not_one_time() -> None:
     found = answered("current: 1.5 A", hot=60.0)
     low, high = found.intervals["softening_time"]

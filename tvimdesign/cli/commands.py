@@ -8,11 +8,11 @@ from typing import Annotated
 
 import typer
 
-from tvimdesign.base.errors import InputError, RenamedWarning
+from tvimdesign.base.errors import RenamedWarning
 from tvimdesign.cli import completions
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.cli.options import AsJson, Out, Overwrite, Settings, StudyFile, StudyOrDesign
-from tvimdesign.simulation.registry import TESTS
+from tvimdesign.report.virtual_tests import TESTS
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -78,18 +78,9 @@ def check(
     json: AsJson = False,
 ) -> None:
     """Read a study and say everything that is wrong with it, limits that cannot hold together included."""
-    from tvimdesign.report.run.check_study import describe, refuse_what_cannot_be
-    from tvimdesign.study import read_tree
-    from tvimdesign.study.tree import tree_of_file
+    from tvimdesign.report.run.check_study import check_study
 
-    found = read_tree(tree_of_file(study, settings or ()))
-    if deep:
-        from tvimdesign.report.run.diagnostics import check_deep
-
-        check_deep(found, as_json=json)
-        return
-    refuse_what_cannot_be(found)
-    typer.echo(found.model_dump_json(indent=2) if json else describe(found))
+    check_study(study, settings or (), deep=deep, as_json=json)
 
 
 @app.command()
@@ -103,30 +94,20 @@ def new(
     list_all: Annotated[bool, typer.Option("--list", help="List the shipped studies.")] = False,
 ) -> None:
     """Write a commented study to start from, or a copy of a shipped one."""
-    from tvimdesign.study.template import example_text, examples, template_text
+    from tvimdesign.report.study_files import list_examples, write_new_study
 
     if list_all:
-        for name, about in examples().items():
-            typer.echo(f"{name}\n    {about}")
-        return
-    text = example_text(example) if example else template_text()
-    file = file or Path(f"{example or 'study'}.yaml")
-    try:
-        with file.open("x", encoding="utf-8") as stream:
-            stream.write(text)
-    except FileExistsError as error:
-        raise InputError(f"{file}: exists already; name another file") from error
-    except OSError as error:
-        raise InputError(f"{file}: cannot be written: {error.strerror}") from error
-    typer.echo(f"{file} written; next: tvimdesign run {file}")
+        list_examples()
+    else:
+        write_new_study(file, example)
 
 
 @app.command()
 def schema() -> None:
     """Print the JSON Schema of studies, with which an editor knows names, units and descriptions."""
-    from tvimdesign.study.schema import schema_text
+    from tvimdesign.report.study_files import print_schema
 
-    typer.echo(schema_text(), nl=False)
+    print_schema()
 
 
 @app.command()

@@ -20,16 +20,16 @@ def designs_and_studies(incomplete: str) -> list[str]:
 
 def tests(incomplete: str) -> list[str]:
     """Virtual tests."""
-    from tvimdesign.simulation.registry import TESTS
+    from tvimdesign.report.virtual_tests import TESTS
 
     return _beginning(TESTS, incomplete)
 
 
 def examples(incomplete: str) -> list[str]:
     """Shipped studies."""
-    from tvimdesign.study.template import examples
+    from tvimdesign.report.study_files import example_names
 
-    return _beginning(examples(), incomplete)
+    return _beginning(example_names(), incomplete)
 
 
 def modes(incomplete: str) -> list[str]:

@@ -22,7 +22,7 @@ from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import head
 from tvimdesign.report.output.tables import curves_csv, number
-from tvimdesign.simulation.registry import find_test
+from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import Study, read_tree

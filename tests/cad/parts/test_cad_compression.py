@@ -107,6 +107,7 @@ def test_a_vane_in_a_block_is_found(rest: dict[str, cq.Solid]) -> None:
     assert {f"rotor | pcl_block_{index} here" for index in range(1, 12, 2)} <= failed(moved)
 
 
+@pytest.mark.slow
 def test_a_housing_vane_in_a_pad_is_found(rest: dict[str, cq.Solid]) -> None:
     moved = rest | {"housing": turned(rest["housing"], 0.01)}
     assert {f"housing | peltier_pad_{index} here" for index in range(1, 12, 2)} <= failed(moved)

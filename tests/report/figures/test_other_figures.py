@@ -12,7 +12,7 @@ from tests.helpers.figures import faults, signed
 from tvimdesign.report.figures import comparison_figures, front_figure, paper_figures, tolerance_figure
 from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
 from tvimdesign.report.simulate_study import figure_data
-from tvimdesign.simulation.registry import TESTS, find_test
+from tvimdesign.report.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 

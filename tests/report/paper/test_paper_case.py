@@ -107,6 +107,7 @@ def test_what_has_no_range_hardly_moves_the_ratio() -> None:
         assert abs(compression - shear) < 0.05, name
 
 
+@pytest.mark.slow
 def test_the_ledger_says_that_it_validates_nothing() -> None:
     (row,) = (row for row in claims()["rows"] if row["row"] == "case")
     assert row["verdict"].startswith("consistent with, not validated by")

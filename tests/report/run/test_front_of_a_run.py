@@ -70,6 +70,7 @@ def test_the_figure_has_something_on_it(run: Path) -> None:
     assert picture[..., :3].std() > 0.02
 
 
+@pytest.mark.slow
 def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(
     tvimdesign: Command, run: Path, tmp_path: Path
 ) -> None:

@@ -10,6 +10,7 @@ from support import ROOT
 
 from tvimdesign.physics import one_sided
 from tvimdesign.report.output.tables import results
+from tvimdesign.report.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.joint_tests import joint_motion, step_test
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.joint_tests.case import Case, cases
@@ -17,7 +18,6 @@ from tvimdesign.simulation.joint_tests.load_through_cycle import SliceHistory
 from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.link_motion import contact, link
 from tvimdesign.simulation.link_motion.contact_simulation import OneSided
-from tvimdesign.simulation.registry import TESTS, find_test
 from tvimdesign.simulation.trial import CurveTable, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.result import answer

@@ -115,6 +115,7 @@ def test_every_slice_carries_what_the_springs_leave(
     assert np.sum(carried.torques, axis=0) == pytest.approx(np.tile(left, (2, 1)), abs=1e-5 * LOAD)
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(st.floats(2.0, 20.0), st.floats(2.0, 20.0), st.integers(1, 4))
 def test_melting_and_freezing_under_load_only_lose_energy(start: float, wait: float, count: int) -> None:
@@ -145,6 +146,7 @@ def test_freezing_under_load_leaves_a_layer_that_does_not_relax_as_it_is() -> No
     assert carried.layer_torque == pytest.approx(carried.layer_torque[0], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_module_heated_under_load_lets_go_before_the_switch_ends_and_freezes_where_it_is() -> None:
     resolved = resolve_study(read_study_text("mode: shear\n", "a test"))
     history = slice_histories(resolved)

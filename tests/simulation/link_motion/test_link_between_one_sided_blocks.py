@@ -95,7 +95,7 @@ def radau(blocks: Blocks, angle: float, hold: float, times: Array) -> tuple[Arra
 
 
 @NAMED
-@pytest.mark.parametrize("hold", [0.02, 10.0])
+@pytest.mark.parametrize("hold", [0.02, pytest.param(10.0, marks=pytest.mark.slow)])
 def test_release_and_its_events_are_those_of_radau(pair: str, hold: float) -> None:
     blocks = PAIRS[pair]
     moved = contact.released(JOINT, blocks, 0.1, contact.held(JOINT, blocks, 0.1, hold))

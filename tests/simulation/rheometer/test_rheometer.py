@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics import polymer
-from tvimdesign.simulation.registry import TESTS, find_test
+from tvimdesign.report.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.rheometer import oscillation, transient
 from tvimdesign.simulation.rheometer.specimen import specimen, specimens
 from tvimdesign.simulation.trial import Finding, Trial

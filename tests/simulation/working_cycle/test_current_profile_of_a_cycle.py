@@ -75,6 +75,7 @@ def test_a_profile_comes_back_from_plain_data(duration: float, sizes: tuple[floa
     assert CurrentProfile.from_plain(profile.plain()) == profile
 
 
+@pytest.mark.slow
 def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., DeviceFunctions]) -> None:
     model = build()
     profile = evenly(100.0, (0.8, 2.4, 1.2, 2.0, 1.6))

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "thick", "aluminium", "sink")
 
 
-LONG = {"thick", "aluminium", "sink"}
+LONG = {"as it is", "thick", "aluminium", "sink"}
 
 
 @pytest.fixture(

@@ -121,6 +121,7 @@ def test_a_re_solve_takes_a_few_iterations(found: Solution) -> None:
     assert work.warm_iterations <= 8 * work.warm
 
 
+@pytest.mark.slow
 def test_solving_every_combination_finds_the_same_and_says_so(
     found: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:
@@ -233,6 +234,7 @@ def test_records_and_sizes_are_chosen_together() -> None:
     assert _chosen(both).combinations == 2 * _chosen(alone[0]).combinations
 
 
+@pytest.mark.slow
 def test_where_no_combination_has_a_design_that_is_said() -> None:
     none = _solve(listed(LISTED.replace('">= 5 N.m/rad"', '">= 5 N.m/rad"\n  response_time: "<= 2 s"')))
     assert none.status.startswith("infeasible")

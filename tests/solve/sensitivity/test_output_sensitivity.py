@@ -122,6 +122,7 @@ def test_the_compression_module_is_differentiated_alike() -> None:
     assert 0.0 < (by["response_time", "block_depth"] or 0.0) < 2.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["block_height", "pcl_outer_radius"])
 def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -> None:
     """Newton's whole steps do not converge there; shorter ones do."""

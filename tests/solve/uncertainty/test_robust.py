@@ -56,6 +56,7 @@ def _share(spread: Spread, output: str) -> float:
     return next(kept.share.share for kept in spread.kept if kept.limit.output == output)
 
 
+@pytest.mark.slow
 def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price() -> None:
     nominal, spread = _solved(ALGEBRAIC)
     assert _share(spread, "spring_stiffness") == pytest.approx(0.5, abs=0.01)
@@ -72,6 +73,7 @@ def test_a_yield_asks_for_the_same_as_its_deviations() -> None:
     assert _share(spread, "spring_stiffness") == pytest.approx(0.9, abs=5e-3)
 
 
+@pytest.mark.slow
 def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
     """A uniform tolerance ends at 1.73 deviations: 2.33 of them keep every module, at a price nobody asked for."""
     uniform = ALGEBRAIC.replace("0.05 mm", "{plus_minus: 0.12 mm, distribution: uniform}", 1)

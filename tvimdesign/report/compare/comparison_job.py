@@ -28,8 +28,8 @@ from tvimdesign.report.output.thresholds import soft_in_words
 from tvimdesign.report.run.infeasible_report import above_rating, complaint
 from tvimdesign.report.run.why import binding
 from tvimdesign.report.simulate_study import figure_data, findings
+from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
-from tvimdesign.simulation.registry import find_test
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer

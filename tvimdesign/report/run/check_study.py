@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
+
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.study import Study
+from tvimdesign.study import Study, read_tree
 from tvimdesign.study.record_checks import record_checks
+from tvimdesign.study.tree import tree_of_file
+
+
+def check_study(path: Path, settings: Sequence[str] = (), *, deep: bool, as_json: bool) -> None:
+    """Print what a study asks, or what is wrong with it; with `deep` what its problem is like for the solver.
+
+    Raises StudyError with every mistake, and what `refuse_what_cannot_be` raises.
+    """
+    study = read_tree(tree_of_file(path, settings))
+    if deep:
+        from tvimdesign.report.run.diagnostics import check_deep
+
+        check_deep(study, as_json=as_json)
+        return
+    refuse_what_cannot_be(study)
+    print(study.model_dump_json(indent=2) if as_json else describe(study))
 
 
 def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:

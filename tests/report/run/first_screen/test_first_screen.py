@@ -200,7 +200,9 @@ def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_i
     assert "Where the solver ended" in (tmp_path / "out/summary.txt").read_text()
 
 
-@pytest.mark.parametrize("text", [SHEAR, COMPRESSION], ids=["shear", "compression"])
+@pytest.mark.parametrize(
+    "text", [SHEAR, pytest.param(COMPRESSION, marks=pytest.mark.slow)], ids=["shear", "compression"]
+)
 def test_no_library_warns_on_standard_error(
     tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
 ) -> None:
