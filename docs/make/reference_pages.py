@@ -92,7 +92,15 @@ def _cells(quantity: Quantity, modes: list[str]) -> list[str]:
     default = "" if quantity.default is None else _number(quantity.default, quantity.unit)
     if quantity.record:
         default = f"from `{quantity.record[0]}`"
-    return [name, kind, unit, default, _ends(quantity), _text(meaning), _text(quantity.source)]
+    return [name, kind, unit, default, _ends(quantity), _text(meaning), _text(quantity.source + _known(quantity))]
+
+
+def _known(quantity: Input) -> str:
+    """How well a default is known that nobody has measured."""
+    if quantity.low is None or quantity.high is None:
+        return ""
+    low, high = (_number(end, quantity.unit) for end in (quantity.low, quantity.high))
+    return f"; known within {low} to {high}"
 
 
 def _ends(quantity: Input) -> str:

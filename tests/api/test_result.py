@@ -57,6 +57,20 @@ def test_what_its_study_accepts_is_told(result: tvim.Result) -> None:
     assert result.above_rating == ()
 
 
+@pytest.mark.slow
+def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result) -> None:
+    table = result.intervals()
+    asked = {limit["output"] for limit in result.design.study["require"]}
+    assert asked | {"module_mass", "softening_time", "frozen_time"} <= set(table.index)
+    assert (table.low <= table.value + 1e-12 * table.value.abs()).all()
+    assert (table.value <= table.high + 1e-12 * table.high.abs()).all()
+    soft = table.loc["softening_time"]
+    assert soft.low < soft.alone_low < soft["value"] < soft.alone_high < soft.high
+    assert soft.measure_first in {one["name"] for one in result.uncertainty()["unmeasured"]}
+    assert result.uncertainty() is result.data["uncertainty"]
+    assert result.uncertainty()["parts_yield"] != result.uncertainty()["ranges_hold"]
+
+
 def test_why_names_what_binds(result: tvim.Result) -> None:
     why = result.why()
     assert any("spring_stiffness" in sentence and "costs" in sentence for sentence in why.sentences)

@@ -207,3 +207,31 @@ def test_a_screw_names_the_insert_of_its_own_thread() -> None:
             assert insert.value("nominal_diameter") == pytest.approx(screw.value("nominal_diameter"))
 
     of_every(CATALOG.names("screws"), check)
+
+
+def test_what_is_assumed_is_told_with_its_range() -> None:
+    def check(item: tuple[str, str]) -> None:
+        record = CATALOG.record(*item)
+        for name, entry in record.entries.items():
+            if entry.status == "assumed":
+                assert entry.low is not None and entry.high is not None, name  # noqa: PT018
+                assert entry.low <= entry.value <= entry.high, name
+                assert entry.low < entry.high or "no limit" in entry.source, name
+        for name, table in record.tables.items():
+            assert table.status != "assumed" or table.range, name
+
+    of_every(EVERY_RECORD, check)
+
+
+def test_a_data_sheet_is_that_of_the_type() -> None:
+    """A sheet's source names the type or grade that the record's title names: a figure printed for another is none."""
+    in_doubt = {"flexural_modulus", "reference_temperature"}  # of the polymers: one figure for two grades
+
+    def check(item: tuple[str, str]) -> None:
+        record = CATALOG.record(*item)
+        types = {word.strip("(),.") for word in record.title.split() if any(letter.isdigit() for letter in word)}
+        for name, entry in {**record.entries, **record.tables}.items():
+            if entry.status == "datasheet" and not (record.category == "polymers" and name in in_doubt):
+                assert any(one in entry.source for one in types), f"{item}: {name}: {entry.source}"
+
+    of_every(EVERY_RECORD, check)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from tvimdesign.api import html
 from tvimdesign.api.quantity import Quantity
 from tvimdesign.api.shown_progress import shown_progress
-from tvimdesign.api.tables import constraint_table, value_table
+from tvimdesign.api.tables import constraint_table, interval_table, value_table
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import from_si
 from tvimdesign.report.output.results_folder import ResultsFolder
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from tvimdesign.report.output.results_format import LimitEntry, RunResults
+    from tvimdesign.report.output.results_format import LimitEntry, RunResults, UncertaintyEntry
 
 
 class NoDesignError(InfeasibleError):
@@ -157,6 +157,26 @@ class Result:
         """Every requirement and rule of the machine: what is asked, what came out, what is left, whether it holds."""
         return constraint_table(self._answered)
 
+    def uncertainty(self) -> UncertaintyEntry:
+        """How sure the design is: its yield, and intervals over what nobody has measured, as `results.json` has it.
+
+        Computed when first asked for, in some seconds.
+        """
+        if "uncertainty" not in self.data:
+            from tvimdesign.report.run.answered_study import note_uncertainty
+            from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
+
+            note_uncertainty(self._answered, Uncertainty(self._answered.study).data(self.design))
+        return self.data["uncertainty"]
+
+    def intervals(self) -> pd.DataFrame:
+        """What headlines and requirements may be, given what nobody has measured, and what to measure first.
+
+        Columns: value; low and high with all unmeasured inputs anywhere in their ranges (95 %); the same with one at a
+        time; unit; the input that carries most of it and its share; which to measure for half the width.
+        """
+        return interval_table(self.uncertainty()["intervals"])
+
     def why(self) -> Reasons:
         """What holds the design back, and what easing it would buy."""
         found, table = self._answered.result, self._answered.study.table
@@ -195,7 +215,7 @@ class Result:
 
         with ResultsFolder(Path(folder), overwrite) as written:
             write_answer(written, self._answered)
-            write_summary(self._answered, written, {})
+            write_summary(self._answered, written, dict(self.data.get("uncertainty", {})))
             asked = drawings(self._answered) if plots else []
             if asked:
                 with PlotProcess() as drawing:

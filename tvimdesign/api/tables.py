@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from tvimdesign.report.output.tables import NOTHING, check_row
@@ -11,6 +12,8 @@ from tvimdesign.study.design import Design
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from tvimdesign.report.output.results_format import IntervalEntry, NumberEntry
 
 
 def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
@@ -42,6 +45,29 @@ def constraint_table(answered: AnsweredStudy) -> pd.DataFrame:
     import pandas as pd
 
     return pd.DataFrame([check_row(check, answered.study.table) for check in answered.result.checks])
+
+
+def interval_table(intervals: Mapping[str, IntervalEntry]) -> pd.DataFrame:
+    """What each output may be, by name: all together and one at a time; infinite where it may never happen."""
+    import pandas as pd
+
+    def ends(entry: NumberEntry, before: str = "") -> dict[str, float]:
+        return {f"{before}{end}": _never(entry[end]) for end in ("low", "high")}
+
+    rows = {
+        name: {
+            "value": _never(one["value"]), **ends(one), **ends(one["one_at_a_time"], "alone_"), "unit": one["unit"],
+            "measure_first": next(iter(one["shares"]), ""), "share": next(iter(one["shares"].values()), 0.0),
+            "to_halve": ", ".join(one["to_halve"]),
+        }
+        for name, one in intervals.items()
+    }  # fmt: skip
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("name")
+
+
+def _never(number: float | None) -> float:
+    """In JSON what never happens is null."""
+    return float("inf") if number is None else number
 
 
 def _stands(answered: AnsweredStudy) -> dict[str, str]:

@@ -23,6 +23,13 @@ class Entry:
     low: float | None = None
     high: float | None = None
 
+    @property
+    def share_of_range(self) -> tuple[float, float] | None:
+        """The range over the value; None where there is none."""
+        if self.low is None or self.high is None or self.value == 0.0:
+            return None
+        return self.low / self.value, self.high / self.value
+
 
 @dataclass(frozen=True)
 class RecordTable:

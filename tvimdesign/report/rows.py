@@ -135,7 +135,8 @@ def _facts(plain: dict[str, Any]) -> str:
     kind, default, unit = plain["kind"], plain["default"], plain["unit"]
     if not default or default.startswith("from "):
         return ", ".join(filter(None, (f"{kind} in {unit}" if unit else kind, default)))
-    return f"{kind}, {default} {unit}".rstrip()
+    known = f" (known within {plain['range']})" if plain["range"] else ""
+    return f"{kind}, {default} {unit}".rstrip() + known
 
 
 def _plain(row: Quantity) -> dict[str, Any]:
@@ -173,4 +174,14 @@ def _entry(row: Quantity, kind: str, unit: str, default: str, allowed: str, name
         "group": row.group,
         "description": row.description + _only_with(row),
         "source": row.source if isinstance(row, Input) else "",
+        "range": _range(row) if isinstance(row, Input) else "",
     }
+
+
+def _range(row: Input) -> str:
+    """How well the table's own default is known, where nobody has measured it."""
+    if row.range_of is not None:
+        return f"the range of {row.range_of[1]} of {row.range_of[0]}"
+    if row.low is None or row.high is None:
+        return ""
+    return " to ".join(number(from_si(end, row.unit)) for end in (row.low, row.high))

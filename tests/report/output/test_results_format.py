@@ -116,7 +116,7 @@ def test_what_is_no_record_s_says_whose_it_is(rows: dict[str, dict[str, str]]) -
     assert rows["temperature@hot"]["status"] == "study"
     assert rows["module_mass"]["status"] == "computed"
     # As inputs.yaml has it: the default's status, and its source apart from that.
-    assert rows["softening_band"]["status"] == "assumed"
+    assert rows["softening_band"]["status"] == "chosen"
     assert rows["softening_band"]["source"] == "half to twice is what a hand tells apart"
 
 

@@ -29,7 +29,8 @@ def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tu
 
 def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
     folder, reported, _ = results
-    expected = {"contributors.csv", "limits.csv", "manifest.json", "outputs.csv", "spread.pdf", "spread.png",
+    expected = {"contributors.csv", "limits.csv", "manifest.json", "not_known.csv",
+                "outputs.csv", "spread.pdf", "spread.png",
                 "spread.svg", "tolerances.json",
                 "tolerated.yaml"}  # fmt: skip
     assert {path.name for path in folder.iterdir()} == expected
@@ -62,6 +63,27 @@ def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, Any], 
     # d ln K/d ln d = 4: with 2.413 mm and 5.609 N.m/rad that is 9.3 N.m/rad for each millimetre.
     (wire,) = [row for row in mine if row["contributor"] == "wire_diameter"]
     assert (float(wire["derivative"]), wire["derivative_unit"]) == (pytest.approx(9.3, rel=0.01), "N·m/rad / mm")
+
+
+def test_what_varies_and_what_nobody_knows_are_two_blocks(results: tuple[Path, dict[str, Any], str]) -> None:
+    folder, reported, _ = results
+    unknown, contributors = reported["not_known"], {row["contributor"] for row in reported["contributors"]}
+    assert 0.0 <= unknown["holds"]["share"] <= 1.0
+    assert unknown["holds"] != reported["yield"]
+    # The rate of a spring follows its Young's modulus, 193 to 210 GPa in the record of the paper's wire.
+    rate = unknown["intervals"]["spring_stiffness"]
+    assert next(iter(rate["shares"])) == "spring_youngs_modulus"
+    drawn = 210e9 * 2.413e-3**4 / (64 * 24.4094e-3 * 3.25) * 4
+    assert rate["one_at_a_time"]["low"] == pytest.approx(drawn * 193 / 210, rel=1e-3)
+    assert rate["one_at_a_time"]["high"] == pytest.approx(drawn, rel=1e-3)
+    assert rate["low"] == pytest.approx(drawn * (193 + 0.025 * 17) / 210, rel=2e-3)
+    assert "wire_diameter" in contributors
+    assert "wire_diameter" not in unknown["unmeasured"]
+    said = [sentence for sentence in reported["sentences"] if sentence.startswith("What ")]
+    assert said[0].startswith("What varies from part to part: ")
+    assert said[1].startswith("What nobody knows: ")
+    rows = list(csv.DictReader((folder / "not_known.csv").read_text("utf-8-sig").splitlines()))
+    assert {row["output"] for row in rows} == set(unknown["intervals"])
 
 
 def test_the_sentences_say_what_to_do(results: tuple[Path, dict[str, Any], str]) -> None:

@@ -67,6 +67,11 @@ class Input:
     per_point: bool = False
     source: str = ""
     """Where the default comes from: `status: source`."""
+    low: float | None = None
+    high: float | None = None
+    """The range within which the default is known, where nobody has measured it."""
+    range_of: tuple[str, str] | None = None
+    """(choice, field) of the chosen record's value that the quantity is a factor of: its range is the factor's."""
     record: tuple[str, str] | None = None
     """(choice, field): where the default comes from when the study does not set it."""
     mode: str | None = None

@@ -39,7 +39,17 @@ def provenance(name: str, design: Design, table: Table, find_record: FindRecord)
     if row.record:
         return _of_record(*row.record, row, design, table, find_record)
     status, _, source = row.source.partition(": ")
-    return Provenance(status, source)
+    return Provenance(status, source, *(_of_factor(row, design, table, find_record) or (row.low, row.high)))
+
+
+def _of_factor(row: Input, design: Design, table: Table, find_record: FindRecord) -> Ends | None:
+    """The range of a factor of a chosen record's value, as the record has it."""
+    if row.range_of is None:
+        return None
+    chosen = table.quantity(row.range_of[0])
+    assert isinstance(chosen, Choice)
+    entry = find_record(chosen.category or "", design.choices[row.range_of[0]]).entries.get(row.range_of[1])
+    return entry.share_of_range if entry else None
 
 
 def _of_record(

@@ -14,7 +14,15 @@ from tvimdesign.device import Input, Output, Table
 from tvimdesign.report.output.choices_tables import choosing_data
 from tvimdesign.report.output.number_entry import finite, number_entry
 from tvimdesign.report.output.provenance import FindRecord, provenance
-from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, ValueEntry, Yield, head
+from tvimdesign.report.output.results_format import (
+    Answered,
+    BestConstant,
+    CheckEntry,
+    IntervalEntry,
+    ValueEntry,
+    Yield,
+    head,
+)
 from tvimdesign.report.output.thresholds import meaning, notes
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
@@ -215,15 +223,21 @@ def _all_finite(data: Any) -> Any:
     return finite(data) if isinstance(data, float) else data
 
 
-def results_csv(entries: Mapping[str, ValueEntry]) -> str:
-    """The values of `results` as CSV, in the units people read: what each is, how well it is known, and from where."""
+def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, IntervalEntry] | None = None) -> str:
+    """The values of `results` as CSV, in the units people read: what each is, how well it is known, and from where.
+
+    `may_be_low` to `may_be_high` are the intervals over what nobody has measured; `measure_first` carries most of one.
+    """
     stream = io.StringIO()
     columns = ["name", "value", "unit", "status", "low", "high", "source", "kind", "group", "description", "note",
-               "idealized"]  # fmt: skip
+               "idealized", "may_be_low", "may_be_high", "measure_first"]  # fmt: skip
     writer = csv.DictWriter(stream, columns, lineterminator="\n", extrasaction="ignore")
     writer.writeheader()
     for name, entry in entries.items():
-        writer.writerow({"name": name, **entry})
+        one = (intervals or {}).get(name)
+        may_be = one and {"may_be_low": one["low"], "may_be_high": "never" if one["high"] is None else one["high"],
+                          "measure_first": next(iter(one["shares"]), "")}  # fmt: skip
+        writer.writerow({"name": name, **entry, **(may_be or {})})
     return stream.getvalue()
 
 

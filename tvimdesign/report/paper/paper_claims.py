@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -23,3 +24,21 @@ def from_paper(name: str) -> float:
     """SI value of a number the paper states."""
     entry = claims()["numbers"][name]
     return to_si(float(entry["value"]), entry["unit"])
+
+
+@dataclass(frozen=True)
+class Instrument:
+    """What a measuring instrument can do, with its range [SI], and where that comes from."""
+
+    value: float
+    low: float
+    high: float
+    status: str
+    source: str
+
+
+def instrument(name: str) -> Instrument:
+    """A limit of the paper's rheometer [SI]."""
+    entry = claims()["instrument"][name]
+    value, low, high = (to_si(float(entry[key]), entry["unit"]) for key in ("value", "low", "high"))
+    return Instrument(value, low, high, entry["status"], entry["source"])

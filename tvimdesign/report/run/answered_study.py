@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, cast
@@ -12,7 +12,7 @@ from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.results_format import RunResults
+from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
@@ -98,6 +98,15 @@ def _differentiate(answered: AnsweredStudy) -> None:
     answered.sensitivities = sensitivities_csv(derivatives, resolved)
     answered.reported["sensitivities_left_out"] = list(derivatives.left_out)
     answered.heat_map = heat_map(derivatives, resolved)
+
+
+def note_uncertainty(answered: AnsweredStudy, data: Mapping[str, Any]) -> None:
+    """Add to what is reported how sure the design is, without what only the screen needs."""
+    if data:
+        answered.reported["uncertainty"] = cast("UncertaintyEntry", {name: data[name] for name in _OF_RESULTS})
+
+
+_OF_RESULTS = tuple(UncertaintyEntry.__annotations__)
 
 
 def drawings(answered: AnsweredStudy) -> list[Drawing]:

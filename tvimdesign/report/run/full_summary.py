@@ -60,6 +60,7 @@ def print_full_summary(
         grid.add_row(name, value, unit, description)
     console.print(grid)
     _print_checks(answer, table, console)
+    _print_intervals((uncertainty or {}).get("intervals", {}), console)
     _print_assumptions((uncertainty or {}).get("assumptions", {}), console)
     _print_prices(answer, table, console)
 
@@ -264,6 +265,33 @@ def _print_warnings(answer: StudyResult, warnings: Sequence[tuple[str, str]], co
         console.print(
             f"Another optimum, objective {start.objective:.5g}, reached by {count} of {all_} starts: {where}."
         )
+
+
+def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Console) -> None:
+    """What each headline and requirement may be, given what nobody has measured; what to measure first, and how many
+    values for half the width (results.json names them).
+    """
+    heads = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    grid = _grid("What may be, over the ranges of what is not measured (95 %, all together)", heads, right=(1, 2, 3, 7))
+    for output, one in intervals.items():
+        if one["low"] == one["high"]:
+            continue
+        value, low, high, least, most = (
+            "never" if end is None else number(end)
+            for end in (
+                one["value"],
+                one["low"],
+                one["high"],
+                one["one_at_a_time"]["low"],
+                one["one_at_a_time"]["high"],
+            )
+        )
+        first = next(iter(one["shares"]), "")
+        share = f"{100.0 * one['shares'][first]:.0f} %" if first else ""
+        half = f"{len(one['to_halve'])}" if one["to_halve"] else "many"
+        grid.add_row(output, value, low, high, f"{least} to {most}", one["unit"], first, share, half)
+    if grid.row_count:
+        console.print(grid)
 
 
 def _print_assumptions(assumptions: Mapping[str, Sequence[Mapping[str, Any]]], console: Console) -> None:

@@ -25,7 +25,13 @@ def run_study(
 ) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     from tvimdesign.report.figures.plot_process import PlotProcess
-    from tvimdesign.report.run.answered_study import answer_study, done_in_part, drawings, noting
+    from tvimdesign.report.run.answered_study import (
+        answer_study,
+        done_in_part,
+        drawings,
+        note_uncertainty,
+        noting,
+    )
     from tvimdesign.report.run.first_screen.run_screen import RunScreen, look_first, show
     from tvimdesign.report.run.infeasible_report import above_rating, complaint
     from tvimdesign.report.run.refusal import leaving_the_reason
@@ -47,6 +53,7 @@ def run_study(
         if drawing and found.found:
             vector = parts or study.write.vector
             drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
+        note_uncertainty(answered, screen.uncertainty())
         design = write_answer(folder, answered)
         progress("")
         screen.tell(answered, folder, None if as_json else wide_console(), full=full)

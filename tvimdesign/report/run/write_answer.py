@@ -20,7 +20,8 @@ def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     folder.write("study.yaml", study_file(answered.tree))
     folder.write("study.resolved.json", answered.study.model_dump_json(indent=2) + "\n")
     folder.write_json("results.json", reported)
-    folder.write("results.csv", results_csv(reported["values"]))
+    intervals = reported["uncertainty"]["intervals"] if "uncertainty" in reported else None
+    folder.write("results.csv", results_csv(reported["values"], intervals))
     if found.solution and found.found:
         folder.write("why.csv", why_csv(found, table))
     if answered.sensitivities:

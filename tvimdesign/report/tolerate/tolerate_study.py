@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
 from rich.markup import escape
-from rich.table import Table as Grid
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import from_si, pretty
@@ -20,21 +17,20 @@ from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.thresholds import soft_of_module
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.tolerate.tolerance_plot_data import figure_data
+from tvimdesign.report.tolerate.tolerance_screen import print_tolerances, print_unknown
 from tvimdesign.report.tolerate.tolerance_tables import (
     as_csv,
     contributor_rows,
     limit_rows,
     output_rows,
     reported,
-    spreads,
 )
-from tvimdesign.report.tolerate.words import of_concern, sentences
+from tvimdesign.report.tolerate.unknown import unknown_data, unknown_rows, unknown_sentences, what_nobody_knows
+from tvimdesign.report.tolerate.words import sentences
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread, Tolerancing
@@ -71,8 +67,11 @@ def tolerate_study(path: Path, out: Path, samples: int, workers: int, *, overwri
         found, preload = _analysed(subject.resolved, count, threads, progress)
         table, study = subject.resolved.table, subject.resolved.study
         data = reported(found, preload, table, study, count)
+        progress("moving what nobody has measured")
+        unknown = what_nobody_knows(subject.resolved, found, threads)
+        data["not_known"] = unknown_data(unknown, table)
         data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]
-        data["sentences"] = sentences(found, preload, table)
+        data["sentences"] = [*sentences(found, preload, table), *unknown_sentences(unknown, found)]
         if subject.nominal is not None:
             before, _ = _analysed(subject.nominal, count, threads, progress)
             data["cost_of_robustness"] = _price(before, found, table, study)
@@ -87,7 +86,8 @@ def tolerate_study(path: Path, out: Path, samples: int, workers: int, *, overwri
         if as_json:
             print(json.dumps(data | {"folder": str(out)}, indent=2, allow_nan=False))
         else:
-            _print(found, data, table, wide_console())
+            print_tolerances(found, data, table, wide_console())
+            print_unknown(data["not_known"], wide_console())
             wide_console().print(f"\nTables and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
 
 
@@ -160,54 +160,5 @@ def _write(
     folder.write_json("tolerances.json", data)
     folder.write("outputs.csv", as_csv(list(output_rows(found, table))))
     folder.write("limits.csv", as_csv(list(limit_rows(found, table))))
+    folder.write("not_known.csv", as_csv(unknown_rows(data["not_known"])))
     folder.write("contributors.csv", as_csv(list(contributor_rows(found, table, subject.resolved.study))))
-
-
-def _print(found: Spread, data: dict[str, Any], table: Table, console: Console) -> None:
-    for note in data["notes"]:
-        console.print(f"[dim]{escape(note)}[/dim]")
-    grid = _grid(
-        "What spreads", ("", "as drawn", "worst case", "rss sd", "mc mean", "mc sd", "99.73 %", "unit", "most by")
-    )
-    for i, row in enumerate(data["outputs"]):
-        if row["output"] in found.asked and spreads(found, i):
-            most = int(found.shares[i].argmax())
-            by = f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
-            grid.add_row(
-                row["output"], _shown(row["as_drawn"]), _span(row["worst_low"], row["worst_high"]),
-                _shown(row["deviation_rss"]), _shown(row["mean"]), _shown(row["deviation"]),
-                _span(row["low"], row["high"]), row["unit"], by,
-            )  # fmt: skip
-    console.print(grid)
-    concern = of_concern(found)
-    if concern:
-        grid = _grid("Limits that too many modules break", ("", "yield", "C_pk", "most by"))
-        for kept in concern:
-            i = found.outputs.index(kept.limit.output)
-            most = int(found.shares[i].argmax())
-            by = f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
-            grid.add_row(in_words(kept.limit, table), f"{100.0 * kept.share.share:.4g} %", f"{kept.capability:.2f}", by)
-        console.print(grid)
-    if "cost_of_robustness" in data:
-        grid = _grid("What robustness costs", ("", "nominal optimum", "robust optimum", "unit"))
-        for row in data["cost_of_robustness"]:
-            grid.add_row(row["output"], number(row["nominal"]), number(row["robust"]), row["unit"])
-        console.print(grid)
-    for sentence in data["sentences"]:
-        console.print(escape(sentence))
-
-
-def _grid(title: str, columns: Sequence[str]) -> Grid:
-    grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0),
-                header_style="dim")  # fmt: skip
-    for i, name in enumerate(columns):
-        grid.add_column(name, justify="left" if i in (0, len(columns) - 1) or name == "unit" else "right")
-    return grid
-
-
-def _shown(value: float | None) -> str:
-    return "never" if value is None else number(value)
-
-
-def _span(low: float | None, high: float | None) -> str:
-    return f"{_shown(low)} to {_shown(high)}"

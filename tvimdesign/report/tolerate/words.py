@@ -27,7 +27,10 @@ def sentences(found: Spread, preload: Preload | None, table: Table) -> list[str]
     """What people should know, the most important first."""
     worst = [kept for kept in found.kept if _broken_at_worst(found, kept)]
     corners = "no limit is broken" if not worst else f"{len(worst)} of {len(found.kept)} limits are broken"
-    said = [f"{_percent(found.together)} of the modules keep every limit; in the worst case {corners}."]
+    said = [
+        f"What varies from part to part: {_percent(found.together)} of the modules keep every limit; in the worst case "
+        f"{corners}."
+    ]
     said += _what_first(found, table)
     if preload is not None:
         said.append(free_angle(preload))

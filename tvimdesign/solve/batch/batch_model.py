@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,12 +45,15 @@ class BatchModel:
         ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
         return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
 
-    def __call__(self, columns: Array, workers: int = 1, pace: Pace | None = None) -> Array:
+    def __call__(
+        self, columns: Array, workers: int = 1, pace: Pace | None = None, only: Collection[str] | None = None
+    ) -> Array:  # fmt: skip
         """One row for each output; infinite or no number where something never happens.
 
-        `pace` is that of another design than the one it was compiled at, where the columns are modules of that.
+        `pace` is that of another design than the one it was compiled at, where the columns are modules of that. With
+        `only` some phases of the cycle, by name, outputs of the others mean nothing.
         """
         pace = pace or self._pace
         if self.cycle is None or pace is None:
             return self._arithmetic(columns, workers)
-        return self._arithmetic(stacked(columns, self.cycle(columns, pace, workers)), workers)
+        return self._arithmetic(stacked(columns, self.cycle(columns, pace, workers, only)), workers)

@@ -71,14 +71,19 @@ class CycleKernel:
         after = [other.phase for other in self.model.phases.values() if other.phase.after == name]
         return mine or any(self._must_end(s.name, rows) or any(r.phase == s.name for r in rows) for s in after)
 
-    def __call__(self, columns: Array, pace: Pace, workers: int = 1) -> Array:
-        """Values of `names`, one row each, for designs whose moving inputs are the columns; infinite where never."""
+    def __call__(
+        self, columns: Array, pace: Pace, workers: int = 1, only: Collection[str] | None = None
+    ) -> Array:  # fmt: skip
+        """Values of `names`, one row each, for designs whose moving inputs are the columns; infinite where never.
+
+        With `only` some phases, by name, what belongs to the others is infinite.
+        """
         count = columns.shape[1]
         found = np.empty((len(self.names), count))
         starts = range(0, count, BLOCK)
 
         def fill(start: int) -> None:
-            values = self._block(np.ascontiguousarray(columns[:, start : start + BLOCK]), pace)
+            values = self._block(np.ascontiguousarray(columns[:, start : start + BLOCK]), pace, only)
             for i, name in enumerate(self.names):
                 found[i, start : start + BLOCK] = values[name]
 
@@ -87,11 +92,13 @@ class CycleKernel:
                 pass
         return found
 
-    def _block(self, columns: Array, pace: Pace) -> dict[str, Array]:
+    def _block(self, columns: Array, pace: Pace, only: Collection[str] | None) -> dict[str, Array]:
         never = np.full(columns.shape[1], np.inf)
         values = dict.fromkeys(self.names, never)
         passed: dict[str, Passage] = {}
         for name, phase in self.phases.items():
+            if only is not None and name not in only:
+                continue
             before = passed[phase.after].end if phase.after else None
             passed[name] = phase.run(columns, before, pace.times[name], pace.balances.get(name))
             ended = ~np.isnan(before[0]) if before is not None else np.ones(columns.shape[1], dtype=bool)

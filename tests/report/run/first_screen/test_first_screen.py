@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import csv
+import json
+import math
 import re
 from functools import cache
 from pathlib import Path
@@ -160,6 +163,34 @@ def test_what_holds_it_back_has_the_largest_shadow_prices() -> None:
     assert all(match and match[1] in held for match in found)
 
 
+@each
+def test_every_headline_and_requirement_is_told_with_what_it_may_be(name: str) -> None:
+    one = case(name)
+    intervals, text = one.told.uncertainty["intervals"], "\n".join(one.screen(140))
+    asked = {requirement.output for requirement in one.study.require}
+    assert asked | {"module_mass", "softening_time", "stiffening_time", "frozen_time", "peak_power"} <= set(intervals)
+    for output, interval in intervals.items():
+        low, high = (math.inf if interval[end] is None else interval[end] for end in ("low", "high"))
+        value = math.inf if interval["value"] is None else interval["value"]
+        assert low <= value <= high, output
+    soft = intervals["softening_time"]
+    ends = ["never" if soft[end] is None else f"{soft[end]:.3g}" for end in ("low", "high")]
+    assert f"({ends[0]} to {ends[1]})" in text
+    assert f"measure first: {next(iter(soft['shares']))}" in text
+    lines = {line.name: line for line in lines_of(one.found, one.table, {}, intervals)}
+    told = [line for line in lines.values() if line.may_be]
+    assert told or not one.study.require
+    assert name == "many" or all(re.search(rf"^{line.name}\s.*{line.may_be}", text, re.MULTILINE) for line in told)
+
+
+def test_the_yield_and_what_is_not_known_are_two_lines() -> None:
+    data, text = case("paper_shear").told.uncertainty, case("paper_shear").screen(140)
+    (parts,) = [line for line in text if line.startswith("Yield ")]
+    (unknown,) = [line for line in text if line.startswith("Not known ")]
+    assert f"{100.0 * data['parts_yield']['share']:.3g} %" in parts
+    assert f"hold in {100.0 * data['ranges_hold']['share']:.3g} % of the ranges" in unknown
+
+
 def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(tvimdesign: Command, tmp_path: Path) -> None:
     study = ROOT / "studies/paper_as_published.yaml"
     short = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "short", spread="on")
@@ -172,6 +203,15 @@ def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(tvimdesign:
         assert table in (tmp_path / "short/summary.txt").read_text()
     # What a run took is in its manifest: the same study leaves the same file.
     assert (tmp_path / "short/summary.txt").read_bytes() == (tmp_path / "full/summary.txt").read_bytes()
+    reported = json.loads((tmp_path / "short/results.json").read_text())
+    assert reported["format"] == 1
+    soft = reported["uncertainty"]["intervals"]["softening_time"]
+    text = (tmp_path / "short/results.csv").read_text("utf-8-sig")
+    rows = {row["name"]: row for row in csv.DictReader(text.splitlines())}
+    may_be = [float(rows["softening_time"][f"may_be_{end}"]) for end in ("low", "high")]
+    assert may_be == pytest.approx([soft["low"], soft["high"]])
+    assert rows["softening_time"]["measure_first"] == next(iter(soft["shares"]))
+    assert soft["si"]["low"] == soft["low"] < soft["one_at_a_time"]["low"]
 
 
 INFEASIBLE = (

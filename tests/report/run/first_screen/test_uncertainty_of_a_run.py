@@ -14,8 +14,9 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel, assumed_inputs
+from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
+from tvimdesign.solve.uncertainty.unmeasured import unmeasured_inputs
 from tvimdesign.study import read_study_text, standard_tolerances
 
 TABLE = table_for("shear")
@@ -40,7 +41,7 @@ def test_the_yield_is_what_tolerate_says(found: StudyResult, module: ResolvedMod
     said = Uncertainty(STUDY).data(found.design, SAMPLES)
     expected = Tolerancing(module, lambda _: None).analyse(SAMPLES, STUDY.solver.seed)
     assert 0.02 < expected.together.share < 0.98
-    assert said["yield"]["share"] == expected.together.share
+    assert said["parts_yield"]["share"] == expected.together.share
     assert (said["limits"], said["tolerances"]) == (len(expected.kept), "standard")
 
 
@@ -50,16 +51,18 @@ def test_a_kernel_for_the_study_says_the_same_of_a_design_as_one_for_the_design(
     alone = UncertaintyModel(module, ASKED).at(module, SAMPLES)
     said = Uncertainty(STUDY).data(found.design, SAMPLES)
     assert alone.together is not None
-    assert said["yield"]["share"] == alone.together.share
+    assert said["parts_yield"]["share"] == alone.together.share
 
 
 def test_what_is_assumed_is_what_the_chosen_records_assume(module: ResolvedModule) -> None:
-    names = {one.name for one in assumed_inputs(module)}
+    names = {one.name for one in unmeasured_inputs(module)}
     assert {"pcl_bond_strength", "peltier_resistance", "structure_layer_strength"} <= names
-    # A datasheet's value, a value without a range, one that the study sets.
-    assert not names & {"pcl_density_solid", "spring_youngs_modulus", "stroke"}
+    # What surrounds the module is no record's, and is known no better.
+    assert {"ambient_temperature", "hot_contact", "melt_viscosity_factor"} <= names
+    # A value without a range, one that the study sets, one that is drawn.
+    assert not names & {"pcl_reference_temperature", "stroke", "wall_thickness"}
     own = replace(module, values={**module.values, "pcl_bond_strength": 3e6})
-    assert "pcl_bond_strength" not in {one.name for one in assumed_inputs(own)}
+    assert "pcl_bond_strength" not in {one.name for one in unmeasured_inputs(own)}
 
 
 @pytest.mark.parametrize("output", ["holding_torque", "impedance_range"])
@@ -69,19 +72,19 @@ def test_the_assumed_input_shown_is_the_one_that_moves_an_algebraic_output_most(
     def at(name: str, value: float) -> float:
         return float(TABLE.evaluate({**module.values, name: value}, [output])[output])
 
-    every = {one.name: abs(at(one.name, one.high) - at(one.name, one.low)) for one in assumed_inputs(module)}
-    swing = UncertaintyModel(module, ASKED).at(module, 4).swings[output][0]
-    assert swing.assumed.name == max(every, key=lambda name: every[name])
-    assert swing.assumed.name in TABLE.ancestors(output)
-    assert swing.at_low == pytest.approx(at(swing.assumed.name, swing.assumed.low), rel=1e-9)
-    assert swing.at_high == pytest.approx(at(swing.assumed.name, swing.assumed.high), rel=1e-9)
+    every = {one.name: abs(at(one.name, one.high) - at(one.name, one.low)) for one in unmeasured_inputs(module)}
+    swing = UncertaintyModel(module, ASKED).at(module, 4, 8).intervals[output].swings[0]
+    assert swing.moved.name == max(every, key=lambda name: every[name])
+    assert swing.moved.name in TABLE.ancestors(output)
+    assert swing.at_low == pytest.approx(at(swing.moved.name, swing.moved.low), rel=1e-9)
+    assert swing.at_high == pytest.approx(at(swing.moved.name, swing.moved.high), rel=1e-9)
 
 
 def test_an_assumed_input_moves_the_switch_as_a_simulation_says(module: ResolvedModule) -> None:
-    swings = UncertaintyModel(module, ASKED).at(module, 4).swings["response_time"]
+    swings = UncertaintyModel(module, ASKED).at(module, 4, 8).intervals["response_time"].swings
     for swing in swings[:3]:
-        for value, expected in ((swing.assumed.low, swing.at_low), (swing.assumed.high, swing.at_high)):
-            values = {**module.values, swing.assumed.name: value}
+        for value, expected in ((swing.moved.low, swing.at_low), (swing.moved.high, swing.at_high)):
+            values = {**module.values, swing.moved.name: value}
             model = DeviceFunctions(TABLE, values, module.points, module.study.solver.cells)
             time = Simulator(model).run(model.start).values["response_time"]
             assert expected == pytest.approx(time, rel=0.01)
@@ -92,8 +95,8 @@ def test_limits_on_what_follows_a_profile_are_left_out_and_named(found: StudyRes
     profiled = STUDY.model_copy(update={"profile": STUDY.profile.model_copy(update={"softening": 2})})
     study = profiled.model_copy(update={"tolerances": standard_tolerances(TABLE)})
     resolved = ResolvedModule(study, resolve_design(found.design).values)
-    said = UncertaintyModel(resolved, ASKED).at(resolved, 256)
+    said = UncertaintyModel(resolved, ASKED).at(resolved, 256, 8)
     assert said.left_out == ("response_time <=",)
-    assert "response_time" not in said.swings
+    assert "response_time" not in said.intervals
     assert said.together is not None
     assert np.isfinite(said.together.share)

@@ -36,9 +36,10 @@ def yield_lines(answer: StudyResult, data: Mapping[str, Any], width: int, *, tim
     if not data:
         return block("Yield", "not computed: `tvimdesign tolerate` says why", width)
     tolerances = "the study's tolerances" if data["tolerances"] == "study" else "the usual tolerances"
-    share = data["yield"]
+    share = data["parts_yield"]
     if share is None:
-        return block("Yield", f"no limit depends on what spreads under {tolerances}", width)
+        none = block("Yield", f"no limit depends on what spreads under {tolerances}", width)
+        return [*none, *_over_ranges(data, width)]
     low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
     said = f"{100.0 * share['share']:.3g} % ({low} to {high}) of modules keep the {data['limits']} limits"
     said = f"{said} that {tolerances} can move"
@@ -48,7 +49,21 @@ def yield_lines(answer: StudyResult, data: Mapping[str, Any], width: int, *, tim
         said += f"; {data['modules']} drawn in {data['seconds']:.1f} s"
     lines = block("Yield", said, width)
     hint = _to_raise(answer, data)
-    return [*lines, *block("", hint, width)] if hint and share["share"] < _GOOD else lines
+    raised = block("", hint, width) if hint and share["share"] < _GOOD else []
+    return [*lines, *raised, *_over_ranges(data, width)]
+
+
+def _over_ranges(data: Mapping[str, Any], width: int) -> list[str]:
+    """Apart from the yield: in how much of the ranges of what nobody has measured the limits are kept."""
+    holds = data["ranges_hold"]
+    if holds is None:
+        return []
+    count = len(data["unmeasured"])
+    said = f"the limits hold in {100.0 * holds['share']:.3g} % of the ranges of {count} values nobody has measured"
+    if data["held"]:
+        limit, share = next(iter(data["held"].items()))
+        said += f", least {limit.split()[0]} in {100.0 * share:.3g} %"
+    return block("Not known", said, width)
 
 
 _GOOD = 0.9973

@@ -31,14 +31,24 @@ class Line:
     rests_on: tuple[str, str]
     """`pcl_bond_strength 2 MPa (1 to 5)` and, shorter, `pcl_bond_strength 1 to 5 MPa`; empty where nothing assumed
     matters."""
+    may_be: str = ""
+    """`38 to 104`: what it may be, given what nobody has measured; empty where that says no more than the value."""
 
 
-def lines_of(answer: StudyResult, table: Table, assumptions: Mapping[str, Sequence[Mapping[str, Any]]]) -> list[Line]:
+def lines_of(
+    answer: StudyResult,
+    table: Table,
+    assumptions: Mapping[str, Sequence[Mapping[str, Any]]],
+    intervals: Mapping[str, Mapping[str, Any]] | None = None,
+) -> list[Line]:
     """A line for each output the study requires something of, by the study's name; then the machine's broken rules."""
     asked: dict[str, list[Mapping[str, Any]]] = {}
     for one in answer.design.study["require"]:
         asked.setdefault(one["output"], []).append(one)
-    found = [_line(answer, table, name, limits, assumptions) for name, limits in asked.items()]
+    found = [
+        replace(_line(answer, table, name, limits, assumptions), may_be=may_be((intervals or {}).get(name)))
+        for name, limits in asked.items()
+    ]
     rules = sorted(
         (check for check in answer.checks if check.origin != "require" and not check.kept),
         key=lambda check: check.worst,
@@ -135,6 +145,15 @@ def margin_words(check: ConstraintCheck, table: Table) -> str:
     )
 
 
+def may_be(interval: Mapping[str, Any] | None, digits: int = 3) -> str:
+    """`38 to 104`; empty where the ends are the value, in as many digits."""
+    if interval is None:
+        return ""
+    value, low, high = ("never" if end is None else number(end, digits)
+                        for end in (interval["value"], interval["low"], interval["high"]))  # fmt: skip
+    return "" if low == high == value else f"{low} to {high}"
+
+
 def assumption(row: Mapping[str, Any]) -> tuple[str, str]:
     """An assumed input with its value and its range, and with its range alone."""
     ends = f"{number(row['low'], 3)} to {number(row['high'], 3)}"
@@ -143,7 +162,8 @@ def assumption(row: Mapping[str, Any]) -> tuple[str, str]:
 
 
 _NOTHING_ASSUMED = ("", "")
-_HEAD = ("", "asked", "got", "margin")
+_HEAD = ("", "asked", "got", "may be", "margin")
+_MAY_BE = 3
 _RESTS_ON = "rests on (assumed)"
 
 
@@ -158,24 +178,35 @@ def screen_lines(lines: Sequence[Line], width: int) -> list[str]:
             return beside
     named = list(dict.fromkeys(line.rests_on for line in lines if line.rests_on[0]))
     marks = dict(zip(named, _MARKS, strict=False))
-    rows = [(*_figures(line), marks.get(line.rests_on, "")) for line in lines]
+    rows: list[Sequence[str]] = [(*_figures(line), marks.get(line.rests_on, "")) for line in lines]
     marked = _table(rows, "")
+    if max(map(len, marked)) > width:  # what each may be stands in summary.txt, too
+        rows = [(*row[:_MAY_BE], "", *row[_MAY_BE + 1 :]) for row in rows]
+        marked = _table(rows, "")
     if max(map(len, marked)) > width:
         marked = _narrow(rows)
     return [*marked, *joined("  assumed", (f"{mark} {text[0]}" for text, mark in marks.items()), width)]
 
 
-def _figures(line: Line) -> tuple[str, str, str, str]:
-    return line.name, line.asked, line.got, line.stands
+def _figures(line: Line) -> tuple[str, str, str, str, str]:
+    return line.name, line.asked, line.got, line.may_be, line.stands
 
 
 def _table(rows: Sequence[Sequence[str]], last: str) -> list[str]:
-    return columns([(*_HEAD, last), *rows], right=(2,))
+    return columns(_told([(*_HEAD, last), *rows]), right=(2,))
+
+
+def _told(rows: Sequence[Sequence[str]]) -> Sequence[Sequence[str]]:
+    """The rows without the column of what may be, where it says nothing."""
+    if any(row[_MAY_BE] for row in rows[1:]):
+        return rows
+    return [(*row[:_MAY_BE], *row[_MAY_BE + 1 :]) for row in rows]
 
 
 def _narrow(rows: Sequence[Sequence[str]]) -> list[str]:
     """A name on a line of its own, its figures below it."""
-    head, *cells = columns([(*_HEAD[1:], ""), *(row[1:] for row in rows)], right=(1,))
+    every = _told([(*_HEAD, ""), *rows])
+    head, *cells = columns([row[1:] for row in every], right=(1,))
     indent = " " * (LABEL // 2)
     figures = [line for row, one in zip(rows, cells, strict=True) for line in (row[0], indent + one)]
     return [indent + head, *figures]

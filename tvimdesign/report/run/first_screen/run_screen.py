@@ -44,7 +44,7 @@ class RunScreen:
         self._began = time.perf_counter()
         self._process = UncertaintyProcess(study) if os.environ.get(SPREAD) != "off" else None
         self._asked = False
-        self._lines: list[str] = []
+        self._uncertainty: dict[str, Any] | None = None
 
     def __enter__(self) -> RunScreen:
         """Return itself."""
@@ -61,9 +61,15 @@ class RunScreen:
             self._process.begin(answer.design)
             self._asked = True
 
+    def uncertainty(self) -> dict[str, Any]:
+        """How sure the design is, once that is known; empty where nobody asked, or nothing came of it."""
+        if self._uncertainty is None:
+            self._uncertainty = self._process.finish() if self._process and self._asked else {}
+        return self._uncertainty
+
     def tell(self, answered: AnsweredStudy, folder: ResultsFolder, console: Console | None, *, full: bool) -> None:
         """Write summary.txt, and print the first screen, or everything."""
-        uncertainty = self._process.finish() if self._process and self._asked else {}
+        uncertainty = self.uncertainty()
         told = Told(time.perf_counter() - self._began, uncertainty, answered.reported["doubts"], answered.front.front)
         write_summary(answered, folder, uncertainty)
         if console is not None and full:

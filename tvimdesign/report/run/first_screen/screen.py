@@ -37,11 +37,12 @@ class Told:
 def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> list[str]:
     """Lines of plain text, none wider than `width` but a name that is."""
     assumptions = told.uncertainty.get("assumptions", {})
-    requirements = lines_of(answer, table, assumptions)
+    intervals = told.uncertainty.get("intervals", {})
+    requirements = lines_of(answer, table, assumptions, intervals)
     top = [*header(answer, told.seconds, width), *_some(requirements, width)]
     if answer.found:
         top += qualification_lines(answer, table, width)
-        top += module_lines(answer, table, assumptions, width)
+        top += module_lines(answer, table, intervals, width)
         top += chosen_lines(answer, table, width) + current_lines(answer, width)
         top += trade_lines(told.front, table, width)
         top += held_back_lines(answer, width)

@@ -1,4 +1,4 @@
-"""How sure a study's designs are, as plain data: the yield, and the assumed inputs that requirements rest on."""
+"""How sure a study's designs are, as plain data: what varies from part to part, and what nobody has measured."""
 
 from __future__ import annotations
 
@@ -9,23 +9,32 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
+from tvimdesign.report.output.number_entry import finite, number_entry
+from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.solve.uncertainty.design_uncertainty import Swing, UncertaintyModel
+from tvimdesign.solve.nlp.spread import Yield
+from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel
+from tvimdesign.solve.uncertainty.intervals import Interval, Swing
+from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
 
 MODULES = 1 << 12
 """Modules drawn for the yield."""
 _NAMED = 3
-"""Assumed inputs that are named for each output."""
+"""Unmeasured inputs that are named for each output."""
 _LEAST = 5e-3
-"""Change of an output, as a share of it, below which it does not rest on an assumed input."""
-TOLD = ("softening_time",)
-"""Outputs whose assumptions are told whether or not the study requires anything of them."""
+"""Change of an output, as a share of it, below which it does not rest on an unmeasured input."""
+FIRST_SCREEN = (
+    "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
+    "frozen_time", "peak_voltage", "stiffening_peak_voltage", "peak_current", "stiffening_peak_current", "peak_power",
+    "switch_energy", "cycle_energy",
+)  # fmt: skip
+"""Outputs that the first screen tells of every module."""
 
 
 class Uncertainty:
-    """The yield of a study's designs and what their requirements rest on, as plain data in the units people read.
+    """The yield of a study's designs and the intervals of what is told of them, as plain data.
 
     The tolerances are the study's, else the standard ones.
     """
@@ -34,7 +43,8 @@ class Uncertainty:
         """Compile the module the study starts from, whose numbers under `vary` may change."""
         self.study, self.table = study, study.table
         self.own = bool(study.tolerances)
-        self.asked = list(dict.fromkeys([*(one.output for one in study.require), *TOLD]))
+        required = [one.output for one in study.require]
+        self.asked = list(dict.fromkeys([*required, *study.minimize, *FIRST_SCREEN]))
         start = resolve_study(study)
         self.model = UncertaintyModel(self._tolerant(start), self.asked, list(study.vary))
 
@@ -43,42 +53,72 @@ class Uncertainty:
         tolerances = resolved.study.tolerances if self.own else standard_tolerances(self.table)
         return replace(resolved, study=resolved.study.model_copy(update={"tolerances": tolerances}))
 
-    def data(self, design: Design, modules: int = MODULES) -> dict[str, Any]:
-        """What there is to say of one design; `yield` is None where no limit depends on what spreads."""
-        began = time.perf_counter()
+    def of(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> DesignUncertainty:
+        """What there is to say of one design; `modules` and `draws` are powers of two."""
         resolved = self._tolerant(resolve_design(design))
         if not self.model.fits(resolved):  # another record was chosen
             self.model = UncertaintyModel(resolved, self.asked)
-        found = self.model.at(resolved, modules)
-        share = found.together
+        return self.model.at(resolved, modules, draws)
+
+    def data(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> dict[str, Any]:
+        """That in the units people read: `entry` for results.json, what the screen needs beside it, and the seconds."""
+        began = time.perf_counter()
+        found = self.of(design, modules, draws)
+        rows = {name: _rows(name, one.swings, one.nominal, self.table) for name, one in found.intervals.items()}
         return {
-            "yield": None if share is None else {"share": share.share, "low": share.low, "high": share.high},
+            **self.entry(found, modules, draws),
+            "assumptions": {name: rows.get(name, []) for name in self.asked},
+            "seconds": time.perf_counter() - began,
+        }
+
+    def entry(self, found: DesignUncertainty, modules: int, draws: int) -> UncertaintyEntry:
+        """Plain data for results.json."""
+        return {
+            "parts_yield": _share(found.together),
             "modules": modules,
             "limits": found.limits,
             "left_out": list(found.left_out),
             "tolerances": "study" if self.own else "standard",
-            "assumptions": {name: _rows(name, found.swings.get(name, ()), design, self.table) for name in self.asked},
-            "seconds": time.perf_counter() - began,
+            "ranges_hold": _share(found.holds),
+            "draws": draws,
+            "held": found.held,
+            "intervals": {name: interval_entry(name, one, self.table) for name, one in found.intervals.items()},
+            "unmeasured": [_unmeasured(one, self.table) for one in found.unmeasured],
         }
 
 
-def _rows(output: str, swings: Sequence[Swing], design: Design, table: Table) -> list[dict[str, Any]]:
-    """The assumed inputs that an output rests on most, the most important first; none that hardly moves it."""
+def interval_entry(name: str, one: Interval, table: Table) -> IntervalEntry:
+    """An interval in the unit people read, and in SI."""
+    unit = table.unit(name)
+    return {
+        **number_entry(one.nominal, unit, (one.low, one.high)),
+        "one_at_a_time": number_entry(one.nominal, unit, one.one_at_a_time),
+        "shares": one.shares,
+        "to_halve": list(one.to_halve),
+    }
+
+
+def _unmeasured(one: UnmeasuredInput, table: Table) -> UnmeasuredEntry:
+    ends = (one.low, one.high)
+    return {"name": one.name, **number_entry(one.value, table.unit(one.name), ends), "status": one.status}
+
+
+def _share(share: Yield | None) -> ShareEntry | None:
+    return None if share is None else {"share": share.share, "low": share.low, "high": share.high}
+
+
+def _rows(output: str, swings: Sequence[Swing], nominal: float, table: Table) -> list[dict[str, Any]]:
+    """The unmeasured inputs that an output rests on most, the most important first; none that hardly moves it."""
     rows = []
-    size = abs(design.values.get(output, 0.0))
     for swing in swings[:_NAMED]:
-        one, unit = swing.assumed, table.unit(swing.assumed.name)
-        if swing.size < _LEAST * size:
+        one, unit = swing.moved, table.unit(swing.moved.name)
+        if swing.size < _LEAST * abs(nominal):
             continue
         rows.append({
             "input": one.name, "unit": pretty(unit), "description": table.quantity(one.name).description,
             **{key: from_si(getattr(one, key), unit) for key in ("value", "low", "high")},
-            "output_unit": pretty(table.unit(output)),
-            "output_at_low": _finite(from_si(swing.at_low, table.unit(output))),
-            "output_at_high": _finite(from_si(swing.at_high, table.unit(output))),
+            "status": one.status, "output_unit": pretty(table.unit(output)),
+            "output_at_low": finite(from_si(swing.at_low, table.unit(output))),
+            "output_at_high": finite(from_si(swing.at_high, table.unit(output))),
         })  # fmt: skip
     return rows
-
-
-def _finite(value: float) -> float | None:
-    return value if abs(value) < float("inf") else None

@@ -19,7 +19,7 @@ from typing import Any
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 
-TIME_LIMIT = 30.0  # s
+TIME_LIMIT = 120.0  # s, many times what it takes where processors are shared
 
 
 class UncertaintyProcess:

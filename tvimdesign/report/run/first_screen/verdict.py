@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from tvimdesign.base.units import format_quantity, from_si, pretty
@@ -11,6 +11,7 @@ from tvimdesign.device import Table
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.first_screen.layout import block, joined
+from tvimdesign.report.run.first_screen.requirements import may_be
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3
@@ -70,15 +71,18 @@ def starts(answer: StudyResult) -> Iterator[str]:
         yield f"found by 1 of {len(free)} starts" if agree == 1 else f"{agree} of {len(free)} starts agree"
 
 
-def module_lines(answer: StudyResult, table: Table, assumptions: Mapping[str, Sequence[Any]], width: int) -> list[str]:
-    """What it weighs and measures, when it is soft and stiff, and what it draws from the supply."""
-    said = _Values(answer, table)
+def module_lines(answer: StudyResult, table: Table, intervals: Mapping[str, Any], width: int) -> list[str]:
+    """What it weighs and measures, when it is soft and stiff, and what it draws from the supply.
+
+    In brackets what each may be, given what nobody has measured.
+    """
+    said = _Values(answer, table, intervals)
     peaks = (said.most("peak_voltage", "stiffening_peak_voltage"), said.most("peak_current", "stiffening_peak_current"))
     measures = f"{said('envelope_diameter')} diameter x {said('envelope_height')} high"
     energy = f"{said('switch_energy')} to soften, {said('cycle_energy')} a cycle"
     return [
         *joined("Weighs", [said("module_mass"), measures, said("envelope_volume")], width),
-        *joined("Soft after", _soft(answer, said, assumptions), width),
+        *joined("Soft after", _soft(answer, said), width),
         *joined("Stiff again", _stiff(answer, said), width),
         *joined("Needs", [f"{', '.join(peaks)}, {said('peak_power')} at most", energy], width),
     ]
@@ -87,28 +91,31 @@ def module_lines(answer: StudyResult, table: Table, assumptions: Mapping[str, Se
 class _Values:
     """Values of a design for people, in three digits."""
 
-    def __init__(self, answer: StudyResult, table: Table) -> None:
-        self.values, self.table = answer.design.values, table
+    def __init__(self, answer: StudyResult, table: Table, intervals: Mapping[str, Any]) -> None:
+        self.values, self.table, self.intervals = answer.design.values, table, intervals
 
     def __call__(self, name: str) -> str:
-        """One value with its unit."""
+        """One value with its unit, and what it may be."""
         value, unit = self.values[name], self.table.unit(name)
-        return "never" if math.isinf(value) else f"{number(from_si(value, unit), _DIGITS)} {pretty(unit)}".rstrip()
+        said = "never" if math.isinf(value) else f"{number(from_si(value, unit), _DIGITS)} {pretty(unit)}".rstrip()
+        ends = may_be(self.intervals.get(name))
+        return f"{said} ({ends})" if ends else said
+
+    def first(self, name: str) -> str:
+        """What to measure first for a narrower interval, and what it carries; empty where nothing stands out."""
+        shares = self.intervals.get(name, {}).get("shares", {})
+        return next((f"measure first: {one}, {100.0 * share:.0f} %" for one, share in shares.items()), "")
 
     def most(self, *names: str) -> str:
         """The largest of some that happen."""
         return self(max(names, key=lambda name: self.values[name] if math.isfinite(self.values[name]) else -1.0))
 
 
-def _soft(answer: StudyResult, said: _Values, assumptions: Mapping[str, Sequence[Any]]) -> Iterator[str]:
-    """When the joint is soft, what soft means, and over what it ranges."""
+def _soft(answer: StudyResult, said: _Values) -> Iterator[str]:
+    """When the joint is soft, what soft means, and what to measure first."""
     yield said("softening_time")
     yield soft_in_words(answer.design, said.table)
-    row = next(iter(assumptions.get("softening_time", ())), None)
-    if row:
-        ends = sorted((row["output_at_low"], row["output_at_high"]), key=lambda end: math.inf if end is None else end)
-        low, high = ("never" if end is None else number(end, _DIGITS) for end in ends)
-        yield f"{low} to {high} s over {row['input']} {number(row['low'], 3)} to {number(row['high'], 3)} {row['unit']}"
+    yield from filter(None, [said.first("softening_time")])
 
 
 def _stiff(answer: StudyResult, said: _Values) -> Iterator[str]:

@@ -1,0 +1,67 @@
+"""What nobody has measured has a range that is data, and what has none is a decision with its reason."""
+
+from __future__ import annotations
+
+from every import of_every
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import Choice, Input, table_for
+from tvimdesign.device.table.quantity_group import _all_inputs
+
+ENTRIES = [(name, entry) for group in _all_inputs().values() for name, entry in group.items()]
+TABLES = [table_for(mode) for mode in ("shear", "compression")]
+INPUTS = {row.name: row for table in TABLES for row in table.inputs}
+
+
+def test_an_assumed_default_has_its_range_as_data() -> None:
+    def check(item: tuple[str, dict[str, object]]) -> None:
+        name, entry = item
+        if entry.get("status") == "assumed":
+            assert {"low", "high"} <= entry.keys() or "range_of" in entry, name
+
+    of_every(ENTRIES, check)
+
+
+def test_a_choice_has_a_reason_and_no_range() -> None:
+    def check(item: tuple[str, dict[str, object]]) -> None:
+        name, entry = item
+        if entry.get("status") == "chosen":
+            assert len(str(entry["source"])) > 3, name
+            assert "low" not in entry, name
+
+    of_every(ENTRIES, check)
+
+
+def test_what_surrounds_a_module_is_not_chosen() -> None:
+    # Air, contacts, friction and a supply are not drawn: their ranges are what a result rests on.
+    for name in ("ambient_temperature", "sink_contact", "hot_contact", "rotor_contact", "cold_side_coefficient",
+                 "sink_coefficient", "rotor_coefficient", "surface_emissivity", "adjuster_friction"):  # fmt: skip
+        row = INPUTS[name]
+        assert row.low is not None and row.high is not None, name  # noqa: PT018
+        assert row.low < row.high, name
+
+
+def test_a_default_lies_within_its_range_and_that_within_the_limits() -> None:
+    def check(row: Input) -> None:
+        if row.low is None or row.high is None:
+            return
+        assert row.lower <= row.low <= row.default <= row.high <= row.upper, row.name
+
+    of_every(list(INPUTS.values()), check)
+
+
+def test_a_range_is_read_in_the_unit_of_the_default() -> None:
+    air = INPUTS["ambient_temperature"]
+    assert (air.low, air.high) == (293.15, 298.15)
+    assert INPUTS["coil_gap"].high == 0.2e-3
+
+
+def test_a_factor_has_the_range_of_the_record_s_value() -> None:
+    factor = INPUTS["melt_viscosity_factor"]
+    assert factor.range_of == ("pcl_grade", "zero_shear_viscosity")
+    choice = TABLES[0].quantity("pcl_grade")
+    assert isinstance(choice, Choice)
+    entry = Catalog().record(choice.category or "", choice.default).entry("zero_shear_viscosity")
+    assert entry.share_of_range is not None
+    assert entry.low is not None and entry.high is not None  # noqa: PT018
+    assert entry.share_of_range == (entry.low / entry.value, entry.high / entry.value)

@@ -1,0 +1,215 @@
+"""Intervals over what nobody has measured, against plain loops over the table and the simulation, and closed forms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from comparable import SHEAR
+from scipy.stats import qmc
+
+from tvimdesign.device import table_for
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
+from tvimdesign.solve.uncertainty.intervals import draw, intervals, share_of_variance
+from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, unmeasured_inputs
+from tvimdesign.study import read_study_text, standard_tolerances
+
+TABLE = table_for("shear")
+ALGEBRAIC = "impedance_range"
+ASKED = (ALGEBRAIC, "module_mass", "softening_time", "stiffening_time")
+
+
+def unknown(name: str, low: float, high: float, value: float = math.nan) -> UnmeasuredInput:
+    return UnmeasuredInput(name, 0.5 * (low + high) if math.isnan(value) else value, low, high, "assumed")
+
+
+@cache
+def module() -> ResolvedModule:
+    resolved = resolve_study(read_study_text(SHEAR, "a test"))
+    return replace(resolved, study=resolved.study.model_copy(update={"tolerances": standard_tolerances(TABLE)}))
+
+
+@cache
+def model() -> UncertaintyModel:
+    return UncertaintyModel(module(), ASKED)
+
+
+@cache
+def found() -> DesignUncertainty:
+    return model().at(module(), 16, 512)
+
+
+@cache
+def simulator() -> Simulator:
+    return Simulator(DeviceFunctions(TABLE, module().values, module().points, module().study.solver.cells))
+
+
+def simulated(output: str, **changes: float) -> float:
+    """One output by the simulator alone, no kernel."""
+    inputs, phases = simulator().model.start.copy(), ["softening"] if output == "softening_time" else None
+    for name, value in changes.items():
+        inputs[simulator().model.index[name]] = value
+    return float(simulator().run(inputs, phases=phases).values[output])
+
+
+def test_an_interval_is_that_of_a_plain_loop_through_the_table() -> None:
+    moved = [one for one in unmeasured_inputs(module()) if one.name in TABLE.ancestors(ALGEBRAIC)]
+    points = qmc.Sobol(len(moved), rng=7).random(256)
+    looped = []
+    for point in points:
+        values = dict(module().values)
+        for one, share in zip(moved, point, strict=True):
+            even = one.low + share * (one.high - one.low)
+            values[one.name] = one.low * (one.high / one.low) ** share if one.logarithmic else even
+        looped.append(float(TABLE.evaluate(values, [ALGEBRAIC])[ALGEBRAIC]))
+    low, high = np.quantile(looped, [0.025, 0.975])
+    interval = found().intervals[ALGEBRAIC]
+    assert interval.low == pytest.approx(low, rel=0.08)
+    assert interval.high == pytest.approx(high, rel=0.08)
+    assert interval.low < interval.nominal < interval.high
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("output", ["softening_time", "stiffening_time"])
+def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output: str) -> None:
+    interval = found().intervals[output]
+    moved = [one for one in unmeasured_inputs(module()) if one.name in {s.moved.name for s in interval.swings}]
+    points = qmc.LatinHypercube(len(moved), rng=3).random(48)
+    looped = [
+        simulated(output, **{one.name: float(one.ppf(share)) for one, share in zip(moved, point, strict=True)})
+        for point in points
+    ]
+    # Of 48, the quartiles are sure to a tenth; between the ends lie nearly all.
+    drawn = draw(found().unmeasured, 512, module().study.solver.seed)
+    kernel = model()._rows(module(), drawn, [one.name for one in found().unmeasured], 1)[model().outputs.index(output)]
+    for share in (0.25, 0.5, 0.75):
+        assert np.quantile(looped, share, method="lower") == pytest.approx(np.quantile(kernel, share), rel=0.15)
+    inside = np.mean([interval.low <= value <= interval.high for value in looped])
+    assert inside >= 0.875
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_one_at_a_time_is_what_a_simulation_says_at_both_ends(place: int) -> None:
+    swing = found().intervals["softening_time"].swings[place]
+    for end, expected in ((swing.moved.low, swing.at_low), (swing.moved.high, swing.at_high)):
+        assert simulated("softening_time", **{swing.moved.name: end}) == pytest.approx(expected, rel=0.01)
+
+
+def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
+    interval = found().intervals["softening_time"]
+    half = interval.to_halve
+    assert interval.first in half
+    assert list(interval.shares.values()) == sorted(interval.shares.values(), reverse=True)
+    assert interval.high - interval.low > 0.5 * interval.nominal
+
+    def width(known: tuple[str, ...]) -> float:
+        rest = [one for one in found().unmeasured if one.name not in known]
+        columns = draw(rest, 512, 11)
+        row = model().outputs.index("softening_time")
+        low, high = np.quantile(model()._rows(module(), columns, [one.name for one in rest], 1)[row], [0.025, 0.975])
+        return float(high - low)
+
+    every = width(())
+    assert width(half) < 0.62 * every  # half, within what 512 draws and a bent function leave
+    shares = interval.shares
+    others = [name for name, share in shares.items() if share < 0.5 * shares[interval.first]]
+    assert width((interval.first,)) < min(width((name,)) for name in others[:3])
+
+
+def test_shares_are_those_of_a_sum() -> None:
+    inputs = [unknown("a", 0.0, 3.0), unknown("b", 0.0, 1.0), unknown("c", 10.0, 10.5)]
+    drawn = draw(inputs, 1024, 1)
+    (one,) = intervals(lambda x: x.sum(axis=0, keepdims=True), inputs, drawn, drawn.sum(axis=0, keepdims=True), 0.0)
+    # Variances of even distributions: width squared over twelve.
+    for name, width in (("a", 3.0), ("b", 1.0), ("c", 0.5)):
+        assert one.shares.get(name, 0.0) == pytest.approx(width**2 / 10.25, abs=0.05)
+    assert one.first == "a"
+    assert one.to_halve == ("a",)
+    assert one.one_at_a_time == (10.75, 13.75)
+    assert [swing.moved.name for swing in one.swings] == ["a", "b", "c"]
+
+
+def test_the_interval_of_one_even_input_leaves_out_a_fortieth_at_each_end() -> None:
+    inputs = [unknown("a", 0.0, 1.0)]
+    drawn = draw(inputs, 1024, 1)
+    (one,) = intervals(lambda x: 4.0 * x, inputs, drawn, 4.0 * drawn, 0.0)
+    assert one.low == pytest.approx(0.1, abs=0.01)
+    assert one.high == pytest.approx(3.9, abs=0.01)
+    assert one.shares["a"] == pytest.approx(1.0, abs=0.03)
+
+
+def test_what_is_known_by_its_order_only_is_drawn_evenly_in_its_logarithm() -> None:
+    contact = unknown("contact", 1e3, 1e5, 1e4)
+    assert contact.logarithmic
+    assert contact.ppf([0.0, 0.5, 1.0]) == pytest.approx([1e3, 1e4, 1e5])
+    assert not unknown("air", 293.15, 298.15).logarithmic
+    assert unknown("air", 20.0, 25.0).ppf(0.5) == pytest.approx(22.5)
+
+
+def test_what_may_never_happen_has_no_upper_end() -> None:
+    inputs = [unknown("a", 0.0, 1.0)]
+    drawn = draw(inputs, 512, 1)
+
+    def late(x: np.ndarray) -> np.ndarray:
+        return np.where(x < 0.9, x, np.inf)
+
+    (one,) = intervals(late, inputs, drawn, late(drawn), 100.0)
+    assert math.isinf(one.high)
+    assert one.low == pytest.approx(0.025, abs=0.01)
+    assert one.first == "a"
+    assert one.swings[0].size == math.inf
+
+
+def test_noise_has_no_share() -> None:
+    noise = np.random.default_rng(2)
+    assert share_of_variance(noise.random(512), noise.random(512)) < 0.03
+    assert share_of_variance(noise.random(512), np.full(512, 3.0)) == 0.0
+
+
+def test_no_two_of_fifty_inputs_are_drawn_together() -> None:
+    inputs = [unknown(f"input_{i}", 0.0, 1.0) for i in range(57)]
+    drawn = draw(inputs, 512, 1)
+    shares = [share_of_variance(a, b) for i, a in enumerate(drawn) for b in drawn[:i]]
+    assert max(shares) < 0.1  # Sobol points have pairs of 0.75 here
+
+
+def test_a_value_that_the_study_sets_or_that_is_measured_is_not_moved() -> None:
+    own = read_study_text(SHEAR.replace("module:\n", "module:\n  hot_contact: 10000 W/m^2/K\n"), "a test")
+    names = {one.name for one in unmeasured_inputs(resolve_study(own))}
+    assert "hot_contact" in {one.name for one in unmeasured_inputs(module())}
+    assert "hot_contact" not in names
+    record = module().values["peltier_module"]
+    entries = {**record.entries, "seebeck": replace(record.entries["seebeck"], status="measured")}
+    measured = replace(module(), values={**module().values, "peltier_module": replace(record, entries=entries)})
+    assert "peltier_seebeck" not in {one.name for one in unmeasured_inputs(measured)}
+
+
+def test_what_varies_and_what_is_not_known_are_never_one_yield() -> None:
+    # With nothing unmeasured moved the yield is the same: it is of the parts alone.
+    alone = model().at(module(), 256, 8)
+    assert alone.together == model().at(module(), 256, 64).together
+    assert alone.holds is not None
+    assert 0.0 <= alone.holds.share <= min(alone.held.values(), default=1.0)
+
+
+def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
+    # A softening limit in the middle of what the time may be is kept by about half.
+    middle = float(np.median([found().intervals["softening_time"].low, found().intervals["softening_time"].high]))
+    text = SHEAR.replace("require:\n", f'require:\n  softening_time: "<= {middle:.4g} s"\n')
+    resolved = resolve_study(read_study_text(text, "a test"))
+    held = UncertaintyModel(resolved, ["softening_time"]).at(resolved, 4, 256).held
+    name = next(name for name in held if name.startswith("softening_time"))
+    times = [
+        simulated(
+            "softening_time",
+            **{one.name: float(one.ppf(share)) for one, share in zip(found().unmeasured, point, strict=True)},
+        )
+        for point in qmc.LatinHypercube(len(found().unmeasured), rng=5).random(40)
+    ]
+    assert held[name] == pytest.approx(np.mean(np.array(times) <= middle), abs=0.2)

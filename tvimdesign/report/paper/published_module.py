@@ -1,0 +1,58 @@
+"""The paper's module as published, with this package's layout where the paper gives no dimension."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+from tvimdesign.report.paper.paper_claims import claims, from_paper
+
+if TYPE_CHECKING:
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+    from tvimdesign.study import Study
+
+
+def _study() -> Study:
+    from tvimdesign.study import read_study_text
+
+    return read_study_text(claims()["study"], "the paper's module")
+
+
+@cache
+def published_model() -> DeviceFunctions:
+    """The module, compiled."""
+    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+    from tvimdesign.study import given
+
+    study = _study()
+    return DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
+
+
+@cache
+def published_module() -> ResolvedModule:
+    """The module with a value for every input, and the records it chose."""
+    from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+
+    return resolve_study(_study())
+
+
+@cache
+def published_values() -> dict[str, float]:
+    """Values of the module [SI], one working cycle simulated."""
+    from tvimdesign.solve.result import answer
+
+    return answer(_study()).design.values
+
+
+def spring_rate(wire_diameter: float, youngs_modulus: float | None = None) -> float:
+    """Rate of the paper's spring by the paper's formula [N*m/rad], with another wire [m] or modulus [Pa]."""
+    from tvimdesign.physics import spring
+
+    modulus = from_paper("youngs_modulus") if youngs_modulus is None else youngs_modulus
+    return float(spring.rate(modulus, wire_diameter, from_paper("coil_diameter"), from_paper("coil_count")))
+
+
+def published_rate() -> float:
+    """Rate of the paper's spring by the paper's formula and table [N*m/rad]."""
+    return spring_rate(from_paper("wire_diameter"))

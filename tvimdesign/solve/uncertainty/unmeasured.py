@@ -1,0 +1,94 @@
+"""What nobody has measured: inputs known only within a range, from the chosen records or the table's own defaults."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.record import Entry, Record
+from tvimdesign.device import Input
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+Array = NDArray[np.float64]
+
+DECADE = 10.0
+"""High over low from which a range is drawn evenly in its logarithm: a contact of 1e3 to 1e5 W/m^2 K is known by its
+order only."""
+
+
+@dataclass(frozen=True)
+class UnmeasuredInput:
+    """An input with its value as drawn and the range in which it may lie; SI."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    status: str
+    """How the value is known: assumed, calibrated, handbook, datasheet."""
+
+    @property
+    def logarithmic(self) -> bool:
+        """Whether only the order of magnitude is known."""
+        return self.low > 0.0 and self.high >= DECADE * self.low
+
+    def ppf(self, share: Any) -> Array:
+        """The value below which a share of the range lies: even over the range, or over its logarithm."""
+        share = np.asarray(share, dtype=float)
+        if self.logarithmic:
+            drawn: Array = self.low * np.exp(share * math.log(self.high / self.low))
+        else:
+            drawn = self.low + share * (self.high - self.low)
+        return drawn
+
+
+def unmeasured_inputs(resolved: ResolvedModule) -> list[UnmeasuredInput]:
+    """The inputs that still have the value of a chosen record, or of the table, which comes with a range.
+
+    A value that the study sets is the study's own; one that is `measured` is known.
+    """
+    found = []
+    for row in resolved.table.inputs:
+        if row.per_point or row.integer:
+            continue
+        known = _of_record(row, resolved) if row.record else _of_table(row, resolved)
+        if known is not None and known.low < known.high:
+            found.append(known)
+    return found
+
+
+def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
+    assert row.record is not None
+    entry = _entry(resolved.values[row.record[0]], row.record[1])
+    if entry is None or entry.status == "measured" or entry.low is None or entry.high is None:
+        return None
+    return _within(row, resolved, entry.value, (entry.low, entry.high), entry.status)
+
+
+def _of_table(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
+    ends, status = (row.low, row.high), row.source.partition(": ")[0]
+    if row.range_of is not None:
+        entry = _entry(resolved.values[row.range_of[0]], row.range_of[1])
+        if entry is None or entry.status == "measured" or entry.share_of_range is None:
+            return None
+        ends, status = entry.share_of_range, entry.status
+    if ends[0] is None or ends[1] is None or row.default is None:
+        return None
+    return _within(row, resolved, row.default, (ends[0], ends[1]), status)
+
+
+def _entry(record: Any, field: str) -> Entry | None:
+    return record.entries.get(field) if isinstance(record, Record) else None
+
+
+def _within(
+    row: Input, resolved: ResolvedModule, value: float, ends: tuple[float, float], status: str
+) -> UnmeasuredInput | None:
+    """The input where its value is still the one the range belongs to, and a number that counts."""
+    if row.name in resolved.study.module or resolved.values[row.name] != value:
+        return None
+    return UnmeasuredInput(row.name, value, max(ends[0], row.lower), min(ends[1], row.upper), status)
