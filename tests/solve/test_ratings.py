@@ -72,7 +72,7 @@ def test_what_is_accepted_in_vain_is_told() -> None:
     found = answered(ACCEPTED.replace("[", "[pcl_temperature_margin, "))
     assert found.design.status == "optimal"
     assert found.accepted_in_vain == ("pcl_temperature_margin",)
-    assert "not needed: pcl_temperature_margin" in " ".join(qualification_lines(found, TABLE, 100))
+    assert "pcl_temperature_margin: not needed" in " ".join(qualification_lines(found, TABLE, 100))
 
 
 def test_an_evaluation_claims_nothing_and_says_it_too() -> None:

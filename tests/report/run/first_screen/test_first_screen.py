@@ -111,7 +111,7 @@ def test_every_requirement_is_there_by_the_name_the_study_gives_it(name: str, wi
     text = "\n".join(one.screen(width))
     asked = {requirement.output for requirement in one.study.require}
     shown = {output for output in asked if re.search(rf"^{re.escape(output)}(\s|$)", text, re.MULTILINE)}
-    assert asked == shown or (name == "many" and "more with larger margins" in text)
+    assert asked == shown or (shown < asked and "more with larger margins" in text)
     broken = {check.output for check in one.found.checks if not check.kept}
     assert all(re.search(rf"^{re.escape(output)}\s.*BROKEN", text, re.MULTILINE) for output in broken & asked)
 
@@ -129,9 +129,9 @@ def test_the_blocks_stand_in_their_order(name: str, width: int) -> None:
 def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
     accepted = "ACCEPTING: structure_temperature_margin, stiffening_structure_margin"
     first, second = (" ".join(case(name).screen(140)[:2]) for name in ("paper_shear", "paper_as_published"))
-    assert re.search(rf" · shear · OPTIMAL, {accepted}( ·)? 2 of 3 starts agree · 12 s ", first)
+    assert re.search(rf" · shear · OPTIMAL, {accepted}( ·)? 2 of 3 starts agree · 12 s", first)
     # PETG and pads are hotter than they are rated for, as its study accepts.
-    assert re.search(r" · shear · EVALUATED, ACCEPTING: [\w, ]+_margin( ·)? 12 s ", second)
+    assert re.search(r" · shear · EVALUATED, ACCEPTING: [\w, ]+_margin( ·)? 12 s", second)
     assert "EVALUATED, ALL LIMITS KEPT · 12 s" in " ".join(case("aluminum").screen(140)[:1])
     assert re.search(r"EVALUATED, \d+ OF \d+ LIMITS BROKEN", case("many").screen(140)[0])
 

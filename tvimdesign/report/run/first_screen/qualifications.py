@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.tables import number
-from tvimdesign.report.run.first_screen.layout import listed
+from tvimdesign.report.run.first_screen.layout import joined, listed
 from tvimdesign.solve.idealized import Idealization
 from tvimdesign.solve.result import StudyResult
 
@@ -17,18 +17,17 @@ _TOLD = 2
 
 
 def qualification_lines(answer: StudyResult, table: Table, width: int) -> list[str]:
-    """What the study accepts, with by how much, and what is idealized, with what comes out as drawn."""
+    """What the study accepts and need not, and what is idealized, with what comes out as drawn."""
     return [
-        *listed("Accepts", list(_accepted(answer, table)), width),
+        *joined("Accepts", _accepted(answer), width),
         *listed("Idealized ~", [_idealized(one, answer, table) for one in answer.idealizations], width),
     ]
 
 
-def _accepted(answer: StudyResult, table: Table) -> Iterator[str]:
-    for check in answer.accepted:
-        yield f"{check.output} {format_quantity(check.value, table.unit(check.output))}: {check.origin}"
+def _accepted(answer: StudyResult) -> Iterator[str]:
+    """What need not be accepted; what is stands in the first line, and its size with the other values."""
     if answer.accepted_in_vain:
-        yield f"not needed: {', '.join(answer.accepted_in_vain)}, within the rating; take it out of `accept`"
+        yield f"{', '.join(answer.accepted_in_vain)}: not needed, the design is within the rating"
 
 
 def _idealized(one: Idealization, answer: StudyResult, table: Table) -> str:
