@@ -185,7 +185,7 @@ def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad:
 def test_a_hundredth_of_viscosity_and_plateau_changes_the_melt(tmp_path: Path) -> None:
     text = "title: thin\nbased_on: pcl_80k\nvalues:\n" + "\n".join(
         f"  {name}: {{value: {value}, unit: Pa{unit}, source: ours, status: measured}}"
-        for name, value, unit in (("zero_shear_viscosity", 28.24889, "*s"), ("plateau_modulus", 9500, ""))
+        for name, value, unit in (("zero_shear_viscosity", 42.002095, "*s"), ("plateau_modulus", 9500, ""))
     )
     catalog = put(tmp_path, text, category="polymers")
     shipped, thin = (melt_modes(catalog.record("polymers", name)) for name in ("pcl_80k", "mine"))
@@ -303,3 +303,43 @@ def test_the_folder_must_be_one_of_shelves(tmp_path: Path) -> None:
     (tmp_path / "peltier").mkdir()
     with pytest.raises(CatalogError, match="did you mean peltiers"):
         Catalog(tmp_path)
+
+
+@pytest.mark.parametrize(("molar_mass", "viscosity"), [(50, 660.0), (80, 4200.0), (120, 20750.0)])
+def test_viscosity_of_a_melt_follows_from_its_molar_mass(tmp_path: Path, molar_mass: int, viscosity: float) -> None:
+    # Published for melts at 100 degC: up to 660 Pa s at 50, 4.2 kPa s at 80 and 21 kPa s at 120 kg/mol.
+    text = (
+        "title: ours\nbased_on: pcl_80k\nvalues:\n"
+        f"  molar_mass: {{value: {molar_mass}, unit: kg/mol, source: our GPC, status: measured}}\n"
+    )
+    entry = put(tmp_path, text, category="polymers").record("polymers", "mine").entry("zero_shear_viscosity")
+    assert entry.value == pytest.approx(viscosity, rel=2e-3)
+    assert entry.low is not None
+    assert entry.high is not None
+    assert entry.low < 0.7 * entry.value < 1.1 * entry.value < entry.high
+    assert "molar_mass" in entry.source
+
+
+def test_a_measured_viscosity_stands_before_the_law(tmp_path: Path) -> None:
+    text = (
+        "title: ours\nbased_on: pcl_80k\nvalues:\n"
+        "  molar_mass: {value: 60, unit: kg/mol, source: our GPC, status: measured}\n"
+        "  zero_shear_viscosity: {value: 1, unit: kPa*s, source: our rheometer, status: measured}\n"
+    )
+    entry = put(tmp_path, text, category="polymers").record("polymers", "mine").entry("zero_shear_viscosity")
+    assert (entry.value, entry.status) == (1000.0, "measured")
+
+
+def test_a_molar_mass_in_another_kind_of_unit_is_named(tmp_path: Path) -> None:
+    text = (
+        "title: ours\nbased_on: pcl_80k\nvalues:\n"
+        "  molar_mass: {value: 60, unit: kg, source: our GPC, status: measured}\n"
+    )
+    with pytest.raises(CatalogError, match=r"values\.molar_mass"):
+        put(tmp_path, text, category="polymers").record("polymers", "mine")
+
+
+def test_a_spectrum_of_ones_own_says_viscosity_and_plateau(tmp_path: Path) -> None:
+    lines = [line for line in OWN_SPECTRUM.splitlines() if "zero_shear" not in line]
+    record = put(tmp_path, "\n".join(lines), category="polymers").record("polymers", "mine")
+    assert record.value("zero_shear_viscosity") == pytest.approx(3491.07, rel=1e-5)

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 # Not the depth of a hub that has none: it has no share of itself by which it could be changed.
 VARIABLES = [row.name for row in table_for("shear").inputs if row.variable and row.default != 0.0]
 EVENTS = ("near_face_time", "mean_time", "far_face_time", "softening_time", "response_time")
-ELEMENTS = 64
+ELEMENTS = 128
 
 
 def differences(function: Any, at: Array, which: list[int], share: float) -> Array:

@@ -14,13 +14,14 @@ POWERS = {
     "Hz": -1, "N": 2,
 }  # fmt: skip
 # The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
-SWINGS = {"damping_ratio": -1, "critical_damping": 4}
+# Surface tension holds the edge of a thin layer at a larger strain, with the root of its thickness.
+SWINGS = {"damping_ratio": -1, "critical_damping": 4, "edge_fracture_angle": -0.5}
 # Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, or lengths that are sold.
 FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit"}
 TABLES = {mode: table_for(mode) for mode in MODES}
 
 
-def _power(table: Table, name: str) -> int:
+def _power(table: Table, name: str) -> float:
     row = table.quantity(name)
     if isinstance(row, Input) and row.unit == "Hz":
         return 0  # the frequency a modulus is stated at

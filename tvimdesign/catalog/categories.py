@@ -24,12 +24,32 @@ class Columns:
 
 
 @dataclass(frozen=True)
+class PowerLaw:
+    """A value that follows from a size: that of a known size, times the ratio of the sizes to a power; names and units.
+
+    Only where a record has all four and not the value itself.
+    """
+
+    known_value: str
+    size: str
+    known_size: str
+    exponent: str
+    size_unit: str
+
+    @property
+    def names(self) -> tuple[str, str, str, str]:
+        """The four, in the order of the formula."""
+        return self.known_value, self.size, self.known_size, self.exponent
+
+
+@dataclass(frozen=True)
 class Category:
     """What a record must say. Every required number is greater than zero, or `may_be_zero`; `rising` lists rise.
 
     The rows of `paired` tables belong together, first to first: there must be as many in each. A table of `instead` may
     stand in place of values or they in its place: each is the sum over the rows of the product of some columns, and
-    where a record has both they must agree to `AGREEMENT`.
+    where a record has both they must agree to `AGREEMENT`. A value of `follows` may be left out where its law has what
+    it needs.
     """
 
     values: Mapping[str, str] = field(default_factory=dict)
@@ -39,6 +59,16 @@ class Category:
     paired: tuple[str, ...] = ()
     may_be_zero: tuple[str, ...] = ()
     instead: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
+    follows: Mapping[str, PowerLaw] = field(default_factory=dict)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """A unit of the kind each number needs: what a record must have, and what values of `follows` follow from."""
+        found = dict(self.values)
+        for name, law in self.follows.items():
+            found |= {law.known_value: self.values[name], law.exponent: "1"}
+            found |= dict.fromkeys((law.size, law.known_size), law.size_unit)
+        return found
 
 
 CATEGORIES: Mapping[str, Category] = {
@@ -193,6 +223,9 @@ CATEGORIES: Mapping[str, Category] = {
             "tensile_yield": "MPa",
             "bond_strength": "MPa",
             "melt_strain_limit": "1",
+            "melt_fracture_stress": "MPa",
+            "melt_surface_tension": "N/m",
+            "normal_stress_ratio": "1",
             "flow_activation_energy": "kJ/mol",
             "melt_reference_temperature": "degC",
             "zero_shear_viscosity": "Pa*s",
@@ -216,6 +249,11 @@ CATEGORIES: Mapping[str, Category] = {
                 "plateau_modulus": ("modulus",),
                 "zero_shear_viscosity": ("modulus", "relaxation_time"),
             }
+        },
+        follows={
+            "zero_shear_viscosity": PowerLaw(
+                "known_viscosity", "molar_mass", "known_molar_mass", "viscosity_exponent", "kg/mol"
+            )
         },
         rising=(
             ("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),

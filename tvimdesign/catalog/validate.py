@@ -13,6 +13,7 @@ from tvimdesign.base import units
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.record import STATUSES, Entry, Record, RecordTable
 from tvimdesign.catalog.categories import AGREEMENT, CATEGORIES, Columns
+from tvimdesign.catalog.follows import following
 from tvimdesign.catalog.yaml_file import Tree
 
 _ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")
@@ -33,6 +34,8 @@ def build_record(category: str, name: str, file: str, tree: dict[str, Tree]) -> 
     check.required(tree, entries)
     check.paired(sheets)
     check.agreeing(entries, sheets)
+    if not check.problems:
+        entries.update(following(check.category, entries, sheets))
     return Record(category, name, title, entries, sheets, words, file), check.problems
 
 
@@ -113,7 +116,7 @@ class _Check:
         self.unknown(field, item, _ENTRY_FIELDS)
         source, status = self.provenance(field, item)
         unit = self.text(f"{field}.unit", item, 'a unit such as MPa, or "1" for a plain number')
-        wanted = self.category.values.get(name, unit)
+        wanted = self.category.units.get(name, unit)
         numbers: dict[str, float | None] = {"low": None, "high": None}
         for part in ("value", "low", "high"):
             if unit and (part == "value" or part in item):
@@ -239,6 +242,9 @@ class _Check:
             wanted["tables"].pop(table)
             for name in values if isinstance(tables, dict) and table in tables else ():
                 wanted["values"].pop(name)
+        for name, law in self.category.follows.items():
+            if {*law.names} <= entries.keys():
+                wanted["values"].pop(name, None)
         for section, names in wanted.items():
             part = tree.get(section)
             present = part if isinstance(part, dict) else {}

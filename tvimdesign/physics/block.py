@@ -58,6 +58,14 @@ def strain(radius: Any, angle: Any, depth: Any) -> Any:
     return radius * angle / depth
 
 
+def equivalent_shear_strain(squeeze: Any, shape: Any) -> Any:
+    """Shear strain with the energy of a squeeze [1], sqrt(3 (1 + 2 S^2)) e: from G g^2/2 = 3 G (1 + 2 S^2) e^2/2 [GL].
+
+    A mean over the block. At its faces a flat block is sheared more, in its middle less.
+    """
+    return np.sqrt(3.0 * shape_stiffening(shape)) * squeeze
+
+
 def squeezed_outer_radius(inner_radius: Any, outer_radius: Any, span: Any, squeeze: Any) -> Any:
     """Outer radius [m] of a sector of the angle `span` [rad] squeezed by an angle, were it to give way outwards alone.
 

@@ -2,8 +2,9 @@
 
 One dimension through the stack, finite volumes; what the plate is part of takes up heat sideways, as a chain of lumps.
 The polymer's states are enthalpies, not temperatures with an apparent heat capacity, so the latent heat is never
-stepped over (Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709). Faces between cells carry the two
-half-cell resistances in series (Patankar, Numerical Heat Transfer and Fluid Flow, 1980, sec. 4.2). Surfaces lose heat
+stepped over (Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709). Between polymer cells flows the difference
+of their conduction potentials (`conduction`); other faces carry the two half-cell resistances in series (Patankar,
+Numerical Heat Transfer and Fluid Flow, 1980, sec. 4.2). Surfaces lose heat
 by convection and grey radiation to surroundings at ambient temperature (Incropera, ch. 1).
 
 What is frozen follows the equilibrium melting curve, which is right for melting; with `Stack.freezing` each cell
@@ -21,7 +22,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics import crystallization, peltier, polymer
+from tvimdesign.physics import conduction, crystallization, peltier, polymer
 from tvimdesign.physics.polymer import ZERO_CELSIUS
 
 TEMPERATURE_SCALE = 100.0  # K
@@ -186,12 +187,12 @@ def profile(state: Any, stack: Stack) -> Profile:
     cells, fractions = _layer(parts, stack)
     plate = _kelvin(parts.plate)
     hot = _kelvin(parts.hot)
-    half = _half_cells(stack, fractions)
+    near_half, far_half = _wall_halves(stack, cells, fractions, hot, plate[0])
     plate_half = 0.5 * stack.plate_thickness / stack.plate_cells / (stack.plate_conductivity * stack.area)
 
-    inflow = (hot - cells[0]) / (1.0 / (stack.hot_contact * stack.area) + half[0])
-    inside = -np.diff(cells) / (half[:-1] + half[1:])
-    across = (cells[-1] - plate[0]) / (half[-1] + 1.0 / (stack.plate_contact * stack.area) + plate_half)
+    inflow = (hot - cells[0]) / (1.0 / (stack.hot_contact * stack.area) + near_half)
+    inside = _between_cells(stack, cells, fractions)
+    across = (cells[-1] - plate[0]) / (far_half + 1.0 / (stack.plate_contact * stack.area) + plate_half)
     within = -np.diff(plate) / (2.0 * plate_half)
     # Radiation at the temperature of the outermost cell: in a thin plate that is nearly the surface's.
     outside = surface_coefficient(stack.plate_surface, plate[-1], stack.ambient) * stack.area
@@ -199,9 +200,9 @@ def profile(state: Any, stack: Stack) -> Profile:
     return Profile(
         cold=_kelvin(parts.cold),
         hot=hot,
-        near=cells[0] + inflow * half[0],
+        near=cells[0] + inflow * near_half,
         cells=cells,
-        far=cells[-1] - across * half[-1],
+        far=cells[-1] - across * far_half,
         plate_face=plate[0] + across * plate_half,
         plate=plate,
         beside=_kelvin(parts.beside),
@@ -212,10 +213,32 @@ def profile(state: Any, stack: Stack) -> Profile:
     )
 
 
-def _half_cells(stack: Stack, fractions: Any) -> Any:
-    """Thermal resistance of half of each polymer cell [K/W]."""
-    conductivity = stack.conductivity_melt + fractions * (stack.conductivity_solid - stack.conductivity_melt)
-    return 0.5 * stack.thickness / len(fractions) / (conductivity * stack.area)
+def _conductivities(stack: Stack) -> conduction.Conductivities:
+    return conduction.Conductivities(stack.conductivity_solid, stack.conductivity_melt)
+
+
+def _between_cells(stack: Stack, cells: Any, fractions: Any) -> Any:
+    """Heat [W] between the polymer cells.
+
+    On the equilibrium curve from the conduction potential; a layer with a history has none, as what is frozen does not
+    follow from its temperature: there two half cells are in series, each as much as it is frozen.
+    """
+    depth = stack.thickness / len(cells)
+    if stack.freezing is None:
+        return stack.area * conduction.between(cells, _conductivities(stack), stack.melting, depth)
+    half = 0.5 * depth / (_conductivities(stack).mixed(fractions) * stack.area)
+    return -np.diff(cells) / (half[:-1] + half[1:])
+
+
+def _wall_halves(stack: Stack, cells: Any, fractions: Any, hot: Any, plate: Any) -> tuple[Any, Any]:
+    """Thermal resistance [K/W] of the halves of the outermost cells towards the pads and towards the plate."""
+    both = _conductivities(stack)
+    near, far = both.mixed(fractions[0]), both.mixed(fractions[-1])
+    if stack.freezing is None:
+        near = conduction.mean_conductivity(cells[0], near, hot, both, stack.melting)
+        far = conduction.mean_conductivity(cells[-1], far, plate, both, stack.melting)
+    half = 0.5 * stack.thickness / len(cells) / stack.area
+    return half / near, half / far
 
 
 def rates(state: Any, stack: Stack, current: Any) -> Any:

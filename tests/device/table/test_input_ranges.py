@@ -56,12 +56,12 @@ def test_a_range_is_read_in_the_unit_of_the_default() -> None:
     assert INPUTS["coil_gap"].high == 0.2e-3
 
 
-def test_a_factor_has_the_range_of_the_record_s_value() -> None:
+def test_a_viscosity_is_moved_once_by_the_record_s_range_and_not_by_the_factor_too() -> None:
     factor = INPUTS["melt_viscosity_factor"]
-    assert factor.range_of == ("pcl_grade", "zero_shear_viscosity")
+    assert (factor.low, factor.high, factor.range_of) == (None, None, None)
+    assert INPUTS["pcl_zero_shear_viscosity"].record == ("pcl_grade", "zero_shear_viscosity")
     choice = TABLES[0].quantity("pcl_grade")
     assert isinstance(choice, Choice)
     entry = Catalog().record(choice.category or "", choice.default).entry("zero_shear_viscosity")
-    assert entry.share_of_range is not None
     assert entry.low is not None and entry.high is not None  # noqa: PT018
-    assert entry.share_of_range == (entry.low / entry.value, entry.high / entry.value)
+    assert entry.low < entry.value < entry.high

@@ -102,7 +102,7 @@ def test_frequency_sweep_shows_the_data_sheets_solid_and_the_records_melt(done: 
     # 411 MPa at 23 degC, softening as calibrated, nu 0.45. The melting curve's rounded corner has taken 3e-4 of it.
     fall = 0.45 * (math.log1p(math.exp(-12.0 / 5.0)) - math.log1p(math.exp(-19.0 / 5.0)))
     assert named(trial, "storage_modulus@30_degC").value == pytest.approx(411e6 * math.exp(-fall) / 2.9, rel=5e-4)
-    assert named(trial, "zero_shear_viscosity@100_degC").value == pytest.approx(2824.9, rel=2e-3)
+    assert named(trial, "zero_shear_viscosity@100_degC").value == pytest.approx(4200.0, rel=2e-3)
     sheet = next(sheet for sheet in trial.sheets if sheet.name == "frequency_100_degC")
     omega = sheet.column("angular_frequency").values
     assert (omega[0], omega[-1]) == pytest.approx((0.1, 628.0))
@@ -122,7 +122,7 @@ def test_linear_range_ends_where_the_record_says(done: Done) -> None:
 
 def test_melt_creeps_at_stress_over_viscosity_and_recovers_nothing(done: Done) -> None:
     trial = done("creep")
-    assert named(trial, "creep_strain@100_degC").value == pytest.approx(50.0 * 300.0 / 2824.9, rel=2e-3)
+    assert named(trial, "creep_strain@100_degC").value == pytest.approx(50.0 * 300.0 / 4200.0, rel=2e-3)
     assert named(trial, "recovered_share@100_degC").value < 1e-3
     assert named(trial, "recovered_share@30_degC").value > 0.999
     assert any("200 s" in note and "600 s" in note for note in trial.notes)
@@ -191,7 +191,7 @@ def test_after_the_load_maxwell_keeps_its_flow_and_kelvin_voigt_creeps_back(done
 def test_maxwells_body_of_the_slow_melt_has_its_viscosity(done: Done) -> None:
     sheet = next(sheet for sheet in done("creep").sheets if sheet.name == "simple_bodies")
     melt = int(np.argmax(sheet.column("temperature").values))
-    assert sheet.column("maxwell_viscosity").values[melt] == pytest.approx(2824.9, rel=0.02)
+    assert sheet.column("maxwell_viscosity").values[melt] == pytest.approx(4200.0, rel=0.02)
 
 
 def test_more_parameters_never_fit_worse(done: Done) -> None:
@@ -235,7 +235,7 @@ def test_cooling_branch_is_drawn_from_the_solid_fractions_it_is_given(resolved: 
 def test_cooled_from_the_melt_it_freezes_tens_of_kelvin_below_where_it_melts_and_later_the_faster(
     resolved: ResolvedModule,
 ) -> None:
-    # Slow cooling freezes polycaprolactone at 35 to 45 degC, 10 K/min at 25 to 27 degC at its fastest.
+    # Slow cooling freezes polycaprolactone at 35 to 45 degC, 10 K/min at about 30 degC at its fastest.
     trial = oscillation.temperature(resolved)
     half = next(found for found in trial.findings if found.name == "freezing_temperature")
     assert 26.0 < half.value - CELSIUS < 45.0
@@ -246,7 +246,7 @@ def test_cooled_from_the_melt_it_freezes_tens_of_kelvin_below_where_it_melts_and
     ]
     assert halves[0] > halves[1] > halves[2]
     assert 35.0 < halves[0] - CELSIUS < 50.0
-    assert 20.0 < halves[2] - CELSIUS < 28.0
+    assert 27.4 < halves[2] - CELSIUS < 31.8
 
 
 def test_temperatures_that_do_not_rise_are_refused(resolved: ResolvedModule) -> None:

@@ -161,6 +161,18 @@ def block_strain(pcl_mean_radius: Scalar, stroke: Scalar, block_depth: Scalar) -
     return block.strain(pcl_mean_radius, stroke, block_depth)
 
 
+@quantities.helper()
+def largest_melt_strain(block_strain: Scalar, shape_factor: Scalar) -> Scalar:
+    """Shear strain [1] that costs the molten block as much as its squeeze at full stroke."""
+    return block.equivalent_shear_strain(block_strain, shape_factor)
+
+
+@quantities.helper()
+def stroke_strains(largest_melt_strain: Scalar) -> list[tuple[Scalar, Scalar]]:
+    """Shear strain of the blocks at full stroke, and the share of the small-motion torque it bears: all [1]."""
+    return [(largest_melt_strain, 1.0)]
+
+
 @quantities.output("N*m")
 def block_holding_torque(
     pcl_tensile_yield: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar

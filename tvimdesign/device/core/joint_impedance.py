@@ -64,18 +64,26 @@ def pcl_solid_modulus(
                                 pcl_softening_onset, pcl_softening_width, pcl_poissons_ratio)  # fmt: skip
 
 
-def melt_modes(pcl_grade: Record) -> polymer.Modes:
-    """Relaxation spectrum of a grade's melt: the record's own, else from its viscosity and plateau modulus."""
-    if "melt_spectrum" in pcl_grade.tables:
-        return [(row["relaxation_time"], row["modulus"]) for row in pcl_grade.table("melt_spectrum")]
-    viscosity, plateau = (pcl_grade.value(name) for name in ("zero_shear_viscosity", "plateau_modulus"))
-    return polymer.melt_spectrum(viscosity, plateau, len(pcl_grade.table("solid_spectrum")))
+def melt_modes(pcl_grade: Record, viscosity: Scalar = None, plateau: Scalar = None) -> polymer.Modes:
+    """Relaxation spectrum of a melt from viscosity and plateau modulus, the grade's unless others are given.
+
+    A spectrum of the grade's own is scaled to them.
+    """
+    viscosity = pcl_grade.value("zero_shear_viscosity") if viscosity is None else viscosity
+    plateau = pcl_grade.value("plateau_modulus") if plateau is None else plateau
+    if "melt_spectrum" not in pcl_grade.tables:
+        return polymer.melt_spectrum(viscosity, plateau, len(pcl_grade.table("solid_spectrum")))
+    stiffer = plateau / pcl_grade.value("plateau_modulus")
+    later = viscosity / pcl_grade.value("zero_shear_viscosity") / stiffer
+    return [(later * row["relaxation_time"], stiffer * row["modulus"]) for row in pcl_grade.table("melt_spectrum")]
 
 
 @quantities.helper()
 def pcl_rheology(
     pcl_solid_modulus: polymer.SolidModulus,
     pcl_grade: Record,
+    pcl_zero_shear_viscosity: Scalar,
+    pcl_plateau_modulus: Scalar,
     pcl_flow_activation_energy: Scalar,
     pcl_melt_reference: Scalar,
     melt_viscosity_factor: Scalar,
@@ -87,7 +95,8 @@ def pcl_rheology(
     solid = [
         (quantity["relaxation_time"], quantity["relative_modulus"]) for quantity in pcl_grade.table("solid_spectrum")
     ]
-    melt = [(melt_viscosity_factor * time, modulus) for time, modulus in melt_modes(pcl_grade)]
+    modes = melt_modes(pcl_grade, pcl_zero_shear_viscosity, pcl_plateau_modulus)
+    melt = [(melt_viscosity_factor * time, modulus) for time, modulus in modes]
     return polymer.Rheology(pcl_solid_modulus, solid, melt, pcl_flow_activation_energy, pcl_melt_reference)
 
 

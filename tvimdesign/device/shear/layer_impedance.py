@@ -7,7 +7,7 @@ import numpy as np
 from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import hold, layer, structure
+from tvimdesign.physics import hold, large_strain, layer, structure
 from tvimdesign.physics.motion import Modes
 from tvimdesign.physics.shapes import Section
 
@@ -75,6 +75,21 @@ def layer_strain(pcl_outer_radius: Scalar, stroke: Scalar, pcl_thickness: Scalar
 def layer_strain_safety(pcl_melt_strain_limit: Scalar, layer_strain: Scalar) -> Scalar:
     """Strain the molten layer bears over the strain it sees."""
     return pcl_melt_strain_limit / layer_strain
+
+
+@quantities.helper()
+def largest_melt_strain(layer_strain: Scalar) -> Scalar:
+    """Largest shear strain of the molten layer at full stroke [1]: that at its outer radius."""
+    return layer_strain
+
+
+@quantities.helper()
+def stroke_strains(
+    layer_strain: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
+) -> list[tuple[Scalar, Scalar]]:
+    """Shear strains of the layer at full stroke, and the share of the small-motion torque borne at each [1]."""
+    nodes = large_strain.ring(pcl_inner_radius / pcl_outer_radius)
+    return [(layer_strain * reach, share) for reach, share in nodes]
 
 
 @quantities.output("N*m")

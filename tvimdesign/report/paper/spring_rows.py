@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 
 from tvimdesign.base.units import from_si, to_si
-from tvimdesign.catalog import Catalog
 from tvimdesign.physics import dynamics, layer, spring, transmission
 from tvimdesign.report.paper.paper_claims import from_paper
 from tvimdesign.report.paper.published_module import published_module, published_rate, published_values, spring_rate
@@ -59,7 +58,7 @@ def _implied() -> str:
 
 def _modulus() -> str:
     stated, diameter = from_paper("youngs_modulus"), from_paper("wire_diameter")
-    steps = Catalog().record("spring_materials", "music_wire").table("youngs_modulus_steps")
+    steps = published_module().study.catalog.record("spring_materials", "music_wire").table("youngs_modulus_steps")
     moduli = [row["youngs_modulus"] for row in steps]
     handbook = next(
         row["youngs_modulus"] for row in steps if row["wire_diameter_from"] <= diameter < row["wire_diameter_to"]
@@ -74,7 +73,8 @@ def _modulus() -> str:
 
 def _inch_sizes() -> str:
     diameter, coil = from_paper("wire_diameter"), from_paper("coil_diameter")
-    sizes = [row["wire_diameter"] for row in Catalog().record("wires", "music_wire_gauge").table("sizes")]
+    gauges = published_module().study.catalog.record("wires", "music_wire_gauge")
+    sizes = [row["wire_diameter"] for row in gauges.table("sizes")]
     nearest = min(sizes, key=lambda size: abs(size - diameter))
     inches = [from_si(length, "in") for length in (diameter, coil, coil + diameter)]
     return (

@@ -58,7 +58,7 @@ def test_what_is_assumed_is_what_the_chosen_records_assume(module: ResolvedModul
     names = {one.name for one in unmeasured_inputs(module)}
     assert {"pcl_bond_strength", "peltier_resistance", "structure_layer_strength"} <= names
     # What surrounds the module is no record's, and is known no better.
-    assert {"ambient_temperature", "hot_contact", "melt_viscosity_factor"} <= names
+    assert {"ambient_temperature", "hot_contact", "pcl_zero_shear_viscosity"} <= names
     # A value without a range, one that the study sets, one that is drawn.
     assert not names & {"pcl_reference_temperature", "stroke", "wall_thickness"}
     own = replace(module, values={**module.values, "pcl_bond_strength": 3e6})
