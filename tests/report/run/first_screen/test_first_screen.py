@@ -45,8 +45,8 @@ require:
   softening_time: "<= 300 s"
 """
 COOL = """mode: shear
-module: {process: machine_6061, target_temperature: 70 degC}
-operating_points: {hot: {temperature: 70 degC}}
+module: {process: machine_6061, target_temperature: 90 degC, pcl_thickness: 3 mm, response_criterion: mean}
+operating_points: {hot: {temperature: 90 degC}}
 """
 BLOCKS = ("Weighs", "Soft after", "Stiff again", "Needs", "Chosen", "Held back by", "Warning", "Yield")
 
