@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
+import plain_module
 import pytest
 from support import RELEASED, ROOT, STUDIES, Command
 
@@ -79,6 +80,40 @@ def test_a_study_s_design_keeps_every_limit(runs: Runs, study: Path) -> None:
     reported = _results(runs[study.stem])
     assert reported["feasible"], [check for check in reported["checks"] if not check["kept"]]
     assert reported["status"] in {"evaluated", "optimal"}
+
+
+@names
+def test_the_springs_of_a_study_hold_by_a_second_implementation(runs: Runs, study: Path) -> None:
+    # Geometry and statics written a second time, which shares no code with what found the design.
+    design, reported = json.loads((runs[study.stem] / "design.json").read_text()), _results(runs[study.stem])
+    module = plain_module.with_strength({**design["values"], **design["choices"]}, design["values"])
+    found = plain_module.statics(module)
+    asked = {
+        (one["output"], one["sense"]): one["limit"] for one in design["study"]["require"] if one["output"] in found
+    }
+    rules = {("preload_margin", ">="): 0.0, ("spring_static_safety", ">="): 1.0}
+    assert plain_module.broken(module, rules | asked) == []
+    if reported["status"] == "optimal":
+        assert "spring_stiffness" in {name for name, _ in asked}, "every optimum is asked for a stiffness"
+        assert design["choices"]["transmission"] == "geometry"
+        assert not reported["idealizations"]
+    strain = {
+        "shear": ("layer_strain", plain_module.layer_strain),
+        "compression": ("block_strain", plain_module.block_strain),
+    }
+    name, of = strain[design["mode"]]
+    assert design["values"][name] == pytest.approx(of(module), rel=1e-9)
+    wider = {"envelope_diameter"} if design["choices"]["motor"] != "none" else set()  # the motor is
+    for name in (one for one in plain_module.COMPARED if one not in wider):
+        within = 1e-4 * max(abs(found[name]), 1e-2)
+        assert design["values"][name] == pytest.approx(found[name], abs=within), name
+
+
+@names
+def test_an_optimum_is_within_its_ratings_or_its_study_accepts_that(runs: Runs, study: Path) -> None:
+    reported = _results(runs[study.stem])
+    assert reported["above_rating"] == []
+    assert reported["accepted_in_vain"] == []
 
 
 @names

@@ -45,9 +45,16 @@ def test_requirements_say_what_holds(result: tvim.Result) -> None:
     asked = table[table.origin == "require"]
     said = " ".join(asked.limit)
     assert all(limit["output"] in said for limit in result.design.study["require"])
-    assert (len(asked), table.kept.all()) == (11, True)  # nine limits, one of which is on the least of three
+    # Ten limits: one is on the least of three, and two are on the stiffness, each at five angles of the stroke.
+    assert (len(asked), table.kept.all()) == (20, True)
     assert result.table().loc["holding_torque", "status"] == "binds"
     assert result.feasible
+
+
+def test_what_its_study_accepts_is_told(result: tvim.Result) -> None:
+    assert result.status == "optimal"
+    assert result.accepting == ("structure_temperature_margin", "stiffening_structure_margin")
+    assert result.above_rating == ()
 
 
 @pytest.mark.slow

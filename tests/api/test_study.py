@@ -145,3 +145,14 @@ def test_a_notebook_shows_what_the_study_says(study: tvim.Study) -> None:
     assert "0.6 mm to 2 mm" in shown
     assert "&gt;= 12 N.m" in shown
     assert "optimises 12 variables" in repr(study)
+
+
+def test_ratings_are_accepted_by_name() -> None:
+    study = tvim.Study(mode="shear", accept=["structure_temperature_margin"])
+    assert study.resolved.accept == ("structure_temperature_margin",)
+    assert study.accept("current_margin", "pcl_temperature_margin").resolved.accept == (
+        "current_margin", "pcl_temperature_margin",
+    )  # fmt: skip
+    assert study.accept().resolved.accept == ()
+    with pytest.raises(tvim.StudyError, match="structure_temperature_margin"):
+        _ = study.accept("structure_temperature").resolved

@@ -34,10 +34,10 @@ def usual(name: str) -> set[tuple[str, float]]:
 
 @pytest.mark.parametrize("mode", MODES)
 def test_every_rule_of_a_module_has_the_sense_and_the_limit_of_what_it_is_about(mode: str) -> None:
-    limited = [found for found in table_for(mode).outputs if found.rules or found.advice]
+    limited = [found for found in table_for(mode).outputs if found.rules or found.ratings or found.advice]
     assert len(limited) > 80
     for found in limited:
-        limits = {(rule.sense, rule.value) for rule in (*found.rules, *found.advice)}
+        limits = {(rule.sense, rule.value) for rule in (*found.rules, *found.ratings, *found.advice)}
         assert limits == (OTHERS.get(found.name) or usual(found.name)), found.name
 
 

@@ -23,6 +23,7 @@ vary:
   current: [0.5 A, 1.5 A]
   pcl_thickness: [0.6 mm, 2 mm]
 require: {{spring_stiffness: ">= 4 N.m/rad"{more}}}
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
 minimize: {{response_time: 1, module_mass: 0.2}}
 solver: {{starts: 1}}
 """

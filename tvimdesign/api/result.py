@@ -101,8 +101,18 @@ class Result:
 
     @property
     def status(self) -> str:
-        """`evaluated`, `optimal`, or why not."""
+        """`evaluated`, `optimal`, `above_rating` (the optimum, beyond ratings that are not accepted), or why not."""
         return self.design.status
+
+    @property
+    def above_rating(self) -> tuple[str, ...]:
+        """The quantities beyond what a material or a bought part is rated for that the study does not accept."""
+        return self.design.above_rating
+
+    @property
+    def accepting(self) -> tuple[str, ...]:
+        """The quantities beyond their rating that the study accepts."""
+        return self.design.accepting
 
     @property
     def feasible(self) -> bool:

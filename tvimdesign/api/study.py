@@ -43,8 +43,8 @@ class Study:
 
     Every argument is a section of the study file and takes what the file takes: text with its unit ("1.2 mm"), pairs of
     them for ranges, `{"choose": [...]}`, limits (">= 15 N.m"). A number with its unit may also be `(1.2, "mm")`, a
-    `Quantity` of this package or of pint. A study does not change: `set`, `vary`, `require` and `minimize` return a
-    changed copy, which is read, and refused where it is wrong, when it is first used.
+    `Quantity` of this package or of pint. A study does not change: `set`, `vary`, `require`, `accept` and `minimize`
+    return a changed copy, which is read, and refused where it is wrong, when it is first used.
     """
 
     _tree: StudyTree
@@ -58,6 +58,7 @@ class Study:
         module: Values | None = None,
         vary: Values | None = None,
         require: Values | None = None,
+        accept: str | Sequence[str] | None = None,
         minimize: str | Values | None = None,
         front: Values | None = None,
         operating_points: Values | None = None,
@@ -72,8 +73,9 @@ class Study:
         """Read the study; `catalog` is a folder of the user's records in `folder`. Raises StudyError."""
         sections = {
             "name": name, "description": description, "mode": mode, "catalog": catalog, "module": module, "vary": vary,
-            "require": require, "minimize": minimize, "front": front, "operating_points": operating_points,
-            "profile": profile, "tolerances": tolerances, "robust": robust, "solver": solver, "write": write,
+            "require": require, "accept": accept, "minimize": minimize, "front": front,
+            "operating_points": operating_points, "profile": profile, "tolerances": tolerances, "robust": robust,
+            "solver": solver, "write": write,
         }  # fmt: skip
         given = {key: value for key, value in sections.items() if value is not None}
         self._tree = tree_of_values(given, "Study(...)", Path(folder))
@@ -127,6 +129,10 @@ class Study:
         """A copy with these limits in place of earlier ones on the same outputs; None takes them away."""
         return self._changed("require", "require.", {**(values or {}), **more})
 
+    def accept(self, *ratings: str) -> Study:
+        """A copy whose design may be beyond these ratings, by the quantity's name, and beyond no others."""
+        return self._changed("accept", "", {"accept": list(ratings) or None})
+
     def minimize(self, output: str | Values | None = None, /, **weights: float) -> Study:
         """A copy that minimises this output, or these with their weights, and no others."""
         goal = output if isinstance(output, str) else {**(output or {}), **weights}
@@ -144,16 +150,16 @@ class Study:
     # --- answers ---
 
     def check(self) -> list[str]:
-        """Refuse a study that cannot be answered; return what is doubtful about its records.
+        """Refuse a study that cannot be answered; return what is doubtful about its records, and ratings it exceeds.
 
         Raises StudyError for every mistake, InputError for a module that cannot be, InfeasibleError for limits that
         bounds prove impossible.
         """
-        from tvimdesign.report.run.check_study import refuse_what_cannot_be
+        from tvimdesign.report.run.check_study import foreseen_ratings, refuse_what_cannot_be
         from tvimdesign.study.record_checks import record_checks
 
         study = refuse_what_cannot_be(self.resolved)
-        return record_checks(study)
+        return [*record_checks(study), *foreseen_ratings(study)]
 
     def run(self, *, sensitivities: bool = False, prove: bool = False, progress: bool = True) -> Result:
         """Evaluate or optimise the study, as `tvimdesign run` does, without writing a file.

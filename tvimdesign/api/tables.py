@@ -87,7 +87,8 @@ def _stands(answered: AnsweredStudy) -> dict[str, str]:
 
 def _all_of(name: str, study: Study) -> list[str]:
     base, at, point = name.partition("@")
-    return [f"{part}{at}{point}" for part in study.table.output(base).least_of]
+    row = study.table.output(base)
+    return [f"{part}{at}{point}" for part in row.least_of or ((base, *row.also_limited) if row.also_limited else ())]
 
 
 def _status(name: str, design: Design, study: Study) -> str:

@@ -31,6 +31,10 @@ class SimulationError(InfeasibleError):
     """The heat equation could not be integrated for a design."""
 
 
+class AboveRatingError(InfeasibleError):
+    """The optimum is beyond what a material or a bought part is rated for, and the study does not accept that."""
+
+
 class GeometryError(TvimError):
     """A part could not be built, or a built part is not what the model says it is."""
 

@@ -70,3 +70,19 @@ def output_stiffness(count: Any, spring_rate: Any, preload: Any, ratio: Any, cur
     preload exceeds the unwinding of the opposing pair.
     """
     return count * spring_rate * (ratio**2 + preload * curvature)
+
+
+def pair_turned(angle: Any, preload: Any, pin_radius: Any, placement_radius: Any, offset: Any) -> tuple[Any, Any]:
+    """Torque [rad] and tangent stiffness [1] of a spring of either hand about the rotor axis, over the rate of one.
+
+    The rotor stands at `angle` [rad] from rest. T = (a + w) w' and dT/dtheta = w'^2 + (a + w) w'' for each spring, the
+    other hand being the mirror image at the opposite angle.
+    """
+    torque: Any = 0.0
+    stiffness: Any = 0.0
+    for sign in (-1.0, 1.0):
+        where = (pin_radius, placement_radius, sign * angle, offset)
+        wound = preload + leg_turned(*where)
+        torque = torque - sign * wound * -leg_ratio(*where)
+        stiffness = stiffness + leg_ratio(*where) ** 2 + wound * leg_curvature(*where)
+    return torque, stiffness

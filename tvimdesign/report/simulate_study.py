@@ -44,7 +44,7 @@ def simulate_study(
         drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
         progress(f"{test}: testing {study.name}")
         trial = do(resolved)
-        trial = replace(trial, notes=(module, *trial.notes))
+        trial = replace(trial, notes=(*module, *trial.notes))
         if drawing:
             figure = Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))
             drawing.begin(folder.path, [figure], study.name)
@@ -68,21 +68,21 @@ def simulate_study(
             )
 
 
-def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, str]:
-    """The module of a study or of a design, and which one that is, in a sentence."""
+def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[str]]:
+    """The module of a study or of a design, and which one that is, in a sentence; ratings a design is beyond."""
     if source.suffix == ".json":
         if settings:
             raise InputError(f"--set {settings[0]}: {source} is a design, which is finished; give the study's file")
         design = read_design(source)
         study = Study.model_validate(design.study)
-        return resolve_design(design), f"Module: the design {source}."
+        return resolve_design(design), [f"Module: the design {source}.", *design.rating_notes]
     study = read_tree(tree_of_file(source, settings))
     resolved = resolve_study(study)
     if not study.vary:
-        return resolved, f"Module: {source}."
-    return resolved, (
+        return resolved, [f"Module: {source}."]
+    return resolved, [
         f"Module: the start of {source}, not its optimum; run it and give the run's design.json to test that."
-    )
+    ]
 
 
 def _records(resolved: ResolvedModule) -> dict[str, Path]:

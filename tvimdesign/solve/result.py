@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign import __version__
-from tvimdesign.device import Input, Path, Table
+from tvimdesign.device import Input, Table
 from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, phase_history
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -18,18 +18,19 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import intervals
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
+from tvimdesign.solve.idealized import Idealization, idealizations
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
     advice_of,
     constraints_of,
     in_words,
-    on_cycle,
     refuse_impossible,
 )
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress
-from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE
+from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
+from tvimdesign.solve.ratings import exceeded, happened, kept, sorted_by_acceptance
 from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
@@ -53,6 +54,8 @@ class ConstraintCheck:
     """The least margin over what history leaves open; the margin itself where there is one value."""
     origin: str
     """`require`, or the reason the machine has the limit."""
+    part_of: str = ""
+    """The output of the requirement that is put on several at once."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,12 @@ class StudyResult:
     checks: tuple[ConstraintCheck, ...]
     """Requirements and rules."""
     warnings: tuple[ConstraintCheck, ...]
-    """Advice that the design does not follow."""
+    """Ratings that the design is beyond and the study does not accept, then advice that it does not follow."""
+    accepted: tuple[ConstraintCheck, ...]
+    """Ratings that the design is beyond, as the study accepts."""
+    idealizations: tuple[Idealization, ...]
+    """What the study leaves out of the drawn module, and what comes out without that; the first that gave a value
+    marks it."""
     histories: dict[str, Curves]
     """By phase."""
     sweep: Curves
@@ -75,8 +83,14 @@ class StudyResult:
 
     @property
     def found(self) -> bool:
-        """Whether there is a design: evaluated, or optimal."""
-        return self.solution is None or self.design.status == "optimal"
+        """Whether there is a design: evaluated, optimal, or the optimum beyond a rating that is not accepted."""
+        return self.solution is None or self.design.status in {OPTIMAL, ABOVE_RATING}
+
+    @property
+    def accepted_in_vain(self) -> tuple[str, ...]:
+        """The ratings that the study accepts to be exceeded and its design keeps."""
+        exceeded = {check.output for check in self.accepted}
+        return tuple(name for name in self.design.study.get("accept", ()) if name not in exceeded)
 
     @property
     def seconds(self) -> dict[str, float]:
@@ -123,14 +137,18 @@ def answer(
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
     resolved = ResolvedModule(study, {**given(study), **model.words, **numbers})
     open_values = intervals(resolved, model, inputs, cycle.values, current_profiles)
-    seen = _seen(resolved, exists=solution is None or status == "optimal")
+    seen = _seen(resolved, exists=solution is None or status == OPTIMAL)
     open_values |= {name: (low, high) for name, (_, low, high) in seen.items() if low < high}
     values = values | {name: nominal for name, (nominal, _, _) in seen.items()}
+    ratings = {limit.output: _check(limit, values, table, open_values) for limit in exceeded(values, table)}
+    above, accepting = sorted_by_acceptance(ratings, study.accept)
     design = Design(
         tvimdesign=__version__,
         name=study.name,
         mode=study.mode,
-        status=status,
+        status=ABOVE_RATING if above and status == OPTIMAL else status,
+        above_rating=above,
+        accepting=accepting,
         choices=_choices(model, table),
         values={**numbers, **values},
         intervals=open_values,
@@ -139,11 +157,13 @@ def answer(
         solution=_plain(solution),
     )
     checks = tuple(_check(limit, values, table, open_values) for limit in constraints_of(study, table, resolved.values))
-    happened = (limit for limit in advice_of(table) if _happened(limit.output, values, table))
-    advice = (_check(limit, values, table, open_values) for limit in happened)
-    warnings = tuple(check for check in advice if not check.kept)
+    advice = [limit for limit in advice_of(table) if happened(limit.output, values, table)]
+    ignored = [check for limit in advice if not (check := _check(limit, values, table, open_values)).kept]
     return StudyResult(
-        design=design, checks=checks, warnings=warnings, histories=_histories(model, inputs, cycle),
+        design=design, checks=checks, warnings=(*(ratings[name] for name in above), *ignored),
+        accepted=tuple(ratings[name] for name in accepting),
+        idealizations=idealizations(resolved, inputs, values, current_profiles),
+        histories=_histories(model, inputs, cycle),
         sweep=impedance_sweep(resolved), solution=solution,
         intervals=open_values,
         constant_current=_at_constant_current(model, inputs, set(current_profiles)),
@@ -191,18 +211,12 @@ def _check(
     value = values[limit.output]
     ends = open_values.get(limit.output, (value, value))
     residual = limit.residual(value)
-    tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
     return ConstraintCheck(
         text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
-        scale=limit.scale, absolute=limit.absolute, kept=bool(residual <= tolerance),
+        scale=limit.scale, absolute=limit.absolute, kept=kept(limit, value, table),
         worst=-max(float(limit.residual(end)) for end in ends), origin=limit.origin,
+        part_of=limit.part_of,
     )  # fmt: skip
-
-
-def _happened(name: str, values: dict[str, float], table: Table) -> bool:
-    """Whether there is anything to say of an output: the peak of a phase that never began is none."""
-    peaks = (need for need in table.output(name).needs if isinstance(table.quantity(need), Path))
-    return not np.isnan(values[name]) and all(np.isfinite(values[peak]) for peak in peaks)
 
 
 def _plain(solution: Solution | None) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.record_choices import discrete_records
+from tvimdesign.solve.optimizer.statuses import OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Study
@@ -61,7 +62,7 @@ class WarmSearch:
         if not run.start.converged:
             return None
         solution = verify_optimum(optimizer, run, (run.start,), optimizer.seconds)
-        if solution.status != "optimal":
+        if solution.status != OPTIMAL:
             return None
         self._last = run
         self.warm_solves += 1

@@ -29,7 +29,12 @@ class Design(BaseModel):
     name: str
     mode: str
     status: str
-    """`evaluated`, `optimal`, or why not."""
+    """`evaluated`, `optimal`, `above_rating` (the optimum, beyond a rating that the study does not accept), or why
+    not."""
+    above_rating: tuple[str, ...] = ()
+    """Quantities beyond their rating that the study does not accept."""
+    accepting: tuple[str, ...] = ()
+    """Quantities beyond their rating that the study accepts."""
     choices: dict[str, str]
     """Chosen records and options by row name."""
     values: dict[str, float]
@@ -49,6 +54,12 @@ class Design(BaseModel):
         """What an earlier release wrote, by the names of today."""
         kept = {"name": data["name"]} if isinstance(data, dict) and "name" in data else {}
         return {**renamed_plain(data), **kept} if isinstance(data, dict) else data
+
+    @property
+    def rating_notes(self) -> list[str]:
+        """What is to be said wherever the design is used: the ratings it is beyond, accepted or not."""
+        said = {"not accepted by its study": self.above_rating, "as its study accepts": self.accepting}
+        return [f"The design is beyond its rating, {how}: {', '.join(names)}." for how, names in said.items() if names]
 
     def value(self, name: str) -> float:
         """SI value of a row; raises InputError for a name the design does not have."""

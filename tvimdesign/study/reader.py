@@ -14,6 +14,7 @@ from pydantic import BaseModel, ValidationError
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Table, table_for
+from tvimdesign.study.sections.accept import read_accept
 from tvimdesign.study.sections.goals import read_front, read_minimize, read_require
 from tvimdesign.study.sections.settings import read_module, read_points
 from tvimdesign.study.sections.tolerances import read_robust, read_tolerances
@@ -112,6 +113,7 @@ class _Reader:
             "module": module,
             "vary": with_start(vary, module),
             "require": require,
+            "accept": read_accept(reading, get("accept")),
             "minimize": minimize,
             "front": front,
             "operating_points": points,

@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 
 from tvimdesign.device import MODES, Choice, FirstOscillation, Input, Output, Table, table_for
+from tvimdesign.study.sections.accept import rating_names
 from tvimdesign.study.sections.sizes import SIZES_CATEGORY
 from tvimdesign.study.sections.tolerances import STANDARD, tolerance_rows
 from tvimdesign.study.study import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
@@ -20,6 +21,7 @@ _SECTIONS = {
     "module": "what the module is",
     "vary": "what may change",
     "require": "what must hold",
+    "accept": "ratings of materials and bought parts beyond which the design may be",
     "minimize": "what is to be small, with weights",
     "front": "two or three outputs to be traded against one another, and how many designs to find",
     "operating_points": "where stiffness and damping are wanted; `cold` and `hot` always exist",
@@ -74,6 +76,7 @@ def _of_mode(table: Table) -> _Schema:
         "module": _section(about["module"], {row.name: _set(row) for row in settable}),
         "vary": _section(about["vary"], {row.name: _vary(row) for row in settable if _varies(row)}),
         "require": _section(about["require"], {}, _by_output(table, _require)),
+        "accept": _accept(table),
         "minimize": _minimize(table),
         "front": _front(table),
         "operating_points": _points(table),
@@ -154,6 +157,12 @@ def _by_output(table: Table, schema: Any) -> _Schema:
 def _require(row: Output) -> _Schema:
     limit = {"$ref": "#/definitions/limit"}
     return {"description": _about(row), "anyOf": [limit, {"type": "array", "minItems": 1, "items": limit}]}
+
+
+def _accept(table: Table) -> _Schema:
+    name = {"enum": rating_names(table)}
+    names = {"type": "array", "uniqueItems": True, "items": name}
+    return {"description": _SECTIONS["accept"], "anyOf": [names, name, {"type": "null"}]}
 
 
 def _minimize(table: Table) -> _Schema:

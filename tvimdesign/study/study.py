@@ -133,6 +133,8 @@ class Study(_Part):
     module: dict[str, float | str] = {}
     vary: dict[str, Vary] = {}
     require: tuple[Requirement, ...] = ()
+    accept: tuple[str, ...] = ()
+    """Ratings beyond which the design may be, by the quantity's name."""
     minimize: dict[str, float] = {}
     front: FrontOptions | None = None
     operating_points: dict[str, dict[str, float]]

@@ -27,6 +27,7 @@ SECTIONS = (
     "module",
     "vary",
     "require",
+    "accept",
     "minimize",
     "front",
     "operating_points",

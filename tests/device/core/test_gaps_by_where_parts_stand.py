@@ -153,7 +153,8 @@ def test_a_margin_is_what_is_left_below_the_limit_and_negative_above_it(
     for left in (expected, -expected):
         found = TABLE.evaluate({**known, supplied: known[limit] - left}, [margin])[margin]
         assert found == pytest.approx(left, rel=1e-9)
-    (rule,) = TABLE.output(margin).advice
+    row = TABLE.output(margin)
+    (rule,) = (*row.ratings, *row.advice)
     assert (rule.sense, rule.value) == (">=", 0.0)
 
 

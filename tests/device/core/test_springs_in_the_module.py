@@ -16,7 +16,7 @@ TABLE = table_for("shear")
 WANTED = ("spring_stiffness", "spring_winding", "spring_unwinding", "preload_margin", "spring_rate", "spring_stress",
           "spring_fatigue_safety", "spring_static_safety", "pin_radius", "leg_offset", "leg_arm", "spring_count",
           "spring_tensile_strength")  # fmt: skip
-PAPER = {"spring_youngs_modulus": 210e9, "leg_model": "ignored"}
+PAPER = {"spring_youngs_modulus": 210e9, "leg_model": "ignored", "transmission": "unity"}
 
 
 def evaluate(inputs: dict[str, Any], **changes: float | str) -> dict[str, float]:

@@ -51,7 +51,7 @@ def test_the_sentence_holds_what_was_drawn_against_what_was_drawn(outcome: Outco
     sentence, rows = outcome.sentence, {row.name: row for row in outcome.rows["drawn"]}
     assert ", as drawn: " in sentence
     assert "each optimised" not in sentence
-    assert f"{1e3 * rows['module_mass'].values['s']:.1f} g" in sentence
+    assert f"{1e3 * rows['module_mass'].values['s']:.4g} g" in sentence
     assert outcome.rows.keys() == {"drawn"}
 
 

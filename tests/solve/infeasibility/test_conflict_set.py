@@ -24,6 +24,7 @@ vary:
   preload_angle: [0.12 rad, 0.4 rad]
 require: {spring_stiffness: ">= 20 N.m/rad", spring_fatigue_safety: ">= 3", module_mass: "<= 300 g"}
 minimize: module_mass
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
 solver: {starts: 1, max_iterations: 60}
 """
 HEAVY = """
@@ -38,6 +39,7 @@ mode: shear
 vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], current: [0.5 A, 2 A]}
 require: {response_time: "<= 90 s", peak_power: "<= 9 W", spring_stiffness: ">= 5 N.m/rad"}
 minimize: module_mass
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
 solver: {cells: 8, starts: 1}
 """
 
@@ -154,8 +156,12 @@ def test_the_design_that_breaks_least_breaks_what_is_told_by_as_much() -> None:
     assert found.solution is not None
     assert found.solution.conflict_set is not None
     assert not found.found
-    broken = {check.text: -check.margin for check in found.checks if not check.kept}
-    reported = {side.text: side.by for side in found.solution.conflict_set.broken}
+    # A requirement that is put on several outputs at once, as that on the stiffness over the stroke, is one.
+    broken: dict[str, float] = {}
+    for check in (one for one in found.checks if not one.kept):
+        name = check.part_of or check.output
+        broken[name] = max(-check.margin, broken.get(name, 0.0))
+    reported = {side.text.split(" ")[0]: side.by for side in found.solution.conflict_set.broken}
     assert set(broken) == set(reported)
     for text, by in reported.items():
         assert broken[text] == pytest.approx(by, rel=1e-4)

@@ -27,6 +27,7 @@ mode: shear
 module: {transmission: unity}
 vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
 require: {spring_stiffness: ">= 5 N.m/rad"}
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
 minimize: springs_mass
 tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
 solver: {starts: 1}
@@ -36,6 +37,7 @@ mode: shear
 module: {transmission: unity}
 vary: {current: [0.5 A, 2.5 A], pcl_thickness: [0.8 mm, 2 mm]}
 require: {response_time: "<= 150 s", pcl_stiffness@hot: "<= 3 N.m/rad"}
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
 minimize: peak_power
 tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
 solver: {starts: 1, cells: 12, elements: 3}

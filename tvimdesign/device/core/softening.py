@@ -152,7 +152,7 @@ def peak_current(drive_current: Scalar) -> Scalar:
     return drive_current
 
 
-@quantities.output("A", advice=(Rule(sense=">=", value=0.0, reason="above the Peltier module's rated current"),))
+@quantities.output("A", ratings=(Rule(sense=">=", value=0.0, reason="above the Peltier module's rated current"),))
 def current_margin(peltier_max_current: Scalar, peak_current: Scalar) -> Scalar:
     """Rated current of the Peltier module less the highest current of the switch."""
     return peltier_max_current - peak_current
@@ -177,21 +177,21 @@ def peak_rotor_temperature(stack_profile: heat.Profile) -> Scalar:
 
 
 @quantities.output(
-    "K", advice=(Rule(sense=">=", value=0.0, reason="the Peltier module is above the temperature it is rated for"),)
+    "K", ratings=(Rule(sense=">=", value=0.0, reason="the Peltier module is above the temperature it is rated for"),)
 )
 def peltier_temperature_margin(peltier_max_temperature: Scalar, peak_peltier_temperature: Scalar) -> Scalar:
     """Rated temperature of the Peltier module less the highest it sees."""
     return peltier_max_temperature - peak_peltier_temperature
 
 
-@quantities.output("K", advice=(Rule(sense=">=", value=0.0, reason="the PCL decomposes"),))
+@quantities.output("K", ratings=(Rule(sense=">=", value=0.0, reason="the PCL decomposes"),))
 def pcl_temperature_margin(pcl_decomposition_temperature: Scalar, peak_pcl_temperature: Scalar) -> Scalar:
     """Temperature at which the PCL starts to decompose less the highest it sees."""
     return pcl_decomposition_temperature - peak_pcl_temperature
 
 
 @quantities.output(
-    "K", advice=(Rule(sense=">=", value=0.0, reason="the structure is above its continuous service temperature"),)
+    "K", ratings=(Rule(sense=">=", value=0.0, reason="the structure is above its continuous service temperature"),)
 )
 def structure_temperature_margin(structure_service_temperature: Scalar, peak_peltier_temperature: Scalar) -> Scalar:
     """Service temperature of the structure less the highest temperature of the pads that touch it."""

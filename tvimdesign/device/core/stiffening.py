@@ -144,7 +144,7 @@ def stiffening_peak_current(drive_current: Scalar) -> Scalar:
 
 
 @quantities.output(
-    "A", advice=(Rule(sense=">=", value=0.0, reason="cooling is above the Peltier module's rated current"),)
+    "A", ratings=(Rule(sense=">=", value=0.0, reason="cooling is above the Peltier module's rated current"),)
 )
 def cooling_current_margin(peltier_max_current: Scalar, stiffening_peak_current: Scalar) -> Scalar:
     """Rated current of the Peltier module less the highest current while the joint stiffens."""
@@ -152,7 +152,7 @@ def cooling_current_margin(peltier_max_current: Scalar, stiffening_peak_current:
 
 
 @quantities.output(
-    "K", advice=(Rule(sense=">=", value=0.0, reason="the pads' outer side is above the temperature it is rated for"),)
+    "K", ratings=(Rule(sense=">=", value=0.0, reason="the pads' outer side is above the temperature it is rated for"),)
 )
 def cold_side_temperature_margin(peltier_max_temperature: Scalar, peak_cold_side_temperature: Scalar) -> Scalar:
     """Rated temperature of the Peltier module less the highest of its outer side."""
@@ -161,7 +161,7 @@ def cold_side_temperature_margin(peltier_max_temperature: Scalar, peak_cold_side
 
 @quantities.output(
     "K",
-    advice=(Rule(sense=">=", value=0.0, reason="the structure is above its service temperature while it stiffens"),),
+    ratings=(Rule(sense=">=", value=0.0, reason="the structure is above its service temperature while it stiffens"),),
 )
 def stiffening_structure_margin(structure_service_temperature: Scalar, peak_cold_side_temperature: Scalar) -> Scalar:
     """Service temperature of the structure less the highest of the pads' outer side, which touches it."""

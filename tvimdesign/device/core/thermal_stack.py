@@ -27,6 +27,7 @@ quantities.option(
     "phase_model",
     ("kinetic", "equilibrium"),
     "How the layer freezes: late and supercooled as it does, or on its melting curve as is often assumed",
+    idealized={"equilibrium": "the layer freezes where it melts, where it supercools and needs its time"},
 )
 
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.base.record import Record
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import Feature, Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics import spring
-from tvimdesign.physics.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness
+from tvimdesign.physics.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
 
 quantities = QuantityGroup("Springs")
 
@@ -22,12 +22,22 @@ quantities.option(
 quantities.option(
     "stress_factor", ("shigley", "en_13906"), "Rise of the stress at the inner fibre by the coil's curvature"
 )
-quantities.option("leg_model", ("bending", "ignored"), "Whether leg and tang bend with the coils")
+quantities.option(
+    "leg_model", ("bending", "ignored"), "Whether leg and tang bend with the coils",
+    idealized={"ignored": "the coils alone bend, where the drawn leg and tang bend too"},
+)  # fmt: skip
 quantities.option(
     "transmission",
-    ("unity", "geometry"),
-    "Winding of a spring per angle of the rotor: the paper's ratio of one, or the leg on its pin",
+    ("geometry", "unity"),
+    "Winding of a spring per angle of the rotor: the leg on its pin as drawn, or the paper's ratio of one",
+    idealized={"unity": "springs turn one to one with the rotor, where the drawn legs bear on pins at an offset"},
 )
+_AS_DRAWN = Feature("transmission", "unity")
+_OVER_STROKE = (
+    "spring_stiffness", "spring_stiffness_quarter_stroke", "spring_stiffness_half_stroke",
+    "spring_stiffness_three_quarter_stroke", "spring_stiffness_full_stroke",
+)  # fmt: skip
+"""Between two of these it goes beyond both by less than a thousandth of itself (a test holds that)."""
 
 
 @quantities.output("N*m/rad", headline=True)
@@ -68,7 +78,7 @@ def transmission_curvature(
     return leg_curvature(pin_radius, placement_radius, 0.0, leg_offset)
 
 
-@quantities.output("N*m/rad", headline=True)
+@quantities.output("N*m/rad", headline=True, also_limited=_OVER_STROKE[1:], parts_differ_with=_AS_DRAWN)
 def spring_stiffness(
     spring_count: Scalar,
     spring_rate: Scalar,
@@ -76,47 +86,74 @@ def spring_stiffness(
     transmission_ratio: Scalar,
     transmission_curvature: Scalar,
 ) -> Scalar:
-    """Stiffness of all springs about the axis at rest, K_s."""
+    """Stiffness of all springs about the axis at rest, K_s; a limit on it holds over the whole stroke."""
     return output_stiffness(spring_count, spring_rate, preload_angle, transmission_ratio, transmission_curvature)
 
 
+Wound = tuple[Scalar, Scalar]
+"""Torque and tangent stiffness of one spring of either hand, over the rate: [rad] and [1]."""
+
+
 @quantities.helper()
-def full_stroke(
+def over_stroke(
     stroke: Scalar,
     preload_angle: Scalar,
     pin_radius: Scalar,
     placement_radius: Scalar,
     leg_offset: Scalar,
     transmission: str,
-) -> tuple[Scalar, Scalar]:
-    """Torque and tangent stiffness at full stroke of one spring of either hand, over the rate: [rad] and [1].
-
-    T = (a + w) w', dT/dtheta = w'^2 + (a + w) w'' for each spring, the other hand at the opposite angle.
-    """
+) -> list[Wound]:
+    """A pair of springs at a quarter, half, three quarters of the stroke and all of it."""
+    angles = [share * stroke for share in (0.25, 0.5, 0.75, 1.0)]
     if transmission == "unity":
-        return 2.0 * stroke, 2.0
-    torque: Scalar = 0.0
-    stiffness: Scalar = 0.0
-    for sign in (-1.0, 1.0):
-        where = (pin_radius, placement_radius, sign * stroke, leg_offset)
-        wound = preload_angle + leg_turned(*where)
-        torque = torque - sign * wound * -leg_ratio(*where)
-        stiffness = stiffness + leg_ratio(*where) ** 2 + wound * leg_curvature(*where)
-    return torque, stiffness
+        return [(2.0 * angle, 2.0) for angle in angles]
+    return [pair_turned(angle, preload_angle, pin_radius, placement_radius, leg_offset) for angle in angles]
 
 
 @quantities.output("N*m")
-def spring_torque_full_stroke(spring_pairs: Scalar, spring_rate: Scalar, full_stroke: tuple[Scalar, Scalar]) -> Scalar:
+def spring_torque_full_stroke(spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
     """Torque of all springs about the axis at full stroke."""
-    return spring_pairs * spring_rate * full_stroke[0]
+    return spring_pairs * spring_rate * over_stroke[3][0]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_full_stroke(
-    spring_pairs: Scalar, spring_rate: Scalar, full_stroke: tuple[Scalar, Scalar]
+def spring_stiffness_quarter_stroke(spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+    """Stiffness of all springs about the axis at a quarter of the stroke, the slope of torque over angle."""
+    return spring_pairs * spring_rate * over_stroke[0][1]
+
+
+@quantities.output("N*m/rad")
+def spring_stiffness_half_stroke(spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+    """Stiffness of all springs about the axis at half the stroke, the slope of torque over angle."""
+    return spring_pairs * spring_rate * over_stroke[1][1]
+
+
+@quantities.output("N*m/rad")
+def spring_stiffness_three_quarter_stroke(
+    spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]
 ) -> Scalar:
+    """Stiffness of all springs about the axis at three quarters of the stroke, the slope of torque over angle."""
+    return spring_pairs * spring_rate * over_stroke[2][1]
+
+
+@quantities.output("N*m/rad")
+def spring_stiffness_full_stroke(spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
     """Stiffness of all springs about the axis at full stroke, the slope of torque over angle."""
-    return spring_pairs * spring_rate * full_stroke[1]
+    return spring_pairs * spring_rate * over_stroke[3][1]
+
+
+@quantities.output("N*m/rad", headline=True, least_of=_OVER_STROKE, parts_differ_with=_AS_DRAWN)
+def least_spring_stiffness(
+    spring_stiffness: Scalar,
+    spring_stiffness_quarter_stroke: Scalar,
+    spring_stiffness_half_stroke: Scalar,
+    spring_stiffness_three_quarter_stroke: Scalar,
+    spring_stiffness_full_stroke: Scalar,
+) -> Scalar:
+    """Least stiffness of all springs about the axis over the stroke."""
+    inside = np.fmin(spring_stiffness_quarter_stroke, spring_stiffness_half_stroke)
+    inside = np.fmin(inside, spring_stiffness_three_quarter_stroke)
+    return np.fmin(np.fmin(spring_stiffness, inside), spring_stiffness_full_stroke)
 
 
 _BENT = "the springs' stiffness changes by more than a tenth over the stroke"

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal, TypeAlias
 
@@ -97,6 +97,8 @@ class Choice:
     """(word, value, reason): a record fits only if its word has that value."""
     requires: tuple[Feature, ...] = ()
     """What a module must have for it to be of any effect."""
+    idealized: Mapping[str, str] = field(default_factory=dict)
+    """The words that leave out something of the drawn part, and what they leave out. The default is none of them."""
 
 
 def template_name(name: str, of: str) -> str:
@@ -121,11 +123,18 @@ class Output:
     """Whether the quantity stands in a summary."""
     least_of: tuple[str, ...] = ()
     """The quantities this one is the least of; a lower limit on it is put on each of them, which have no kinks."""
+    also_limited: tuple[str, ...] = ()
+    """The quantities on which each limit on this one is put as well, from whichever side."""
+    parts_differ_with: Feature | None = None
+    """What a module must have for those, or for what it is the least of, to differ from one another."""
     rules: tuple[Rule, ...] = ()
     """Limits that hold in every study whose module has the quantity's features, unless it sets its own in the same
     sense."""
     advice: tuple[Rule, ...] = ()
     """Limits that are reported where they are broken, and enforced only where a study requires them."""
+    ratings: tuple[Rule, ...] = ()
+    """Limits that a material or a bought part is rated for: a design beyond one is no optimum unless the study
+    accepts it by the quantity's name, and a search keeps it only where a study requires it."""
     better: Literal["less", "more"] | None = None
     """Which way it is better whatever the module is for; None where that depends."""
     of: str = ""

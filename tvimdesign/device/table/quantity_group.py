@@ -3,7 +3,7 @@ description."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from importlib import resources
 from typing import Any, Literal, TypeVar
@@ -114,13 +114,22 @@ class QuantityGroup:
         self.quantities.append(quantity)
 
     def option(
-        self, name: str, options: tuple[str, ...], description: str, record: tuple[str, str] | None = None
+        self,
+        name: str,
+        options: tuple[str, ...],
+        description: str,
+        record: tuple[str, str] | None = None,
+        idealized: Mapping[str, str] | None = None,
     ) -> None:
-        """Add a choice among words; the default is the first, or the word `record` of (choice, word) names."""
+        """Add a choice among words; the default is the first, or the word `record` of (choice, word) names.
+
+        `idealized` says of words that leave out something of the drawn part what that is.
+        """
         default = "" if record else options[0]
         quantity = Choice(
-            name=name, description=description, group=self.group, default=default, options=options, record=record
-        )
+            name=name, description=description, group=self.group, default=default, options=options, record=record,
+            idealized=idealized or {},
+        )  # fmt: skip
         self.quantities.append(quantity)
 
     def output(
@@ -128,11 +137,14 @@ class QuantityGroup:
         unit: str,
         *rules: Rule,
         advice: tuple[Rule, ...] = (),
+        ratings: tuple[Rule, ...] = (),
         per_point: bool = False,
         instant: bool = False,
         hidden: bool = False,
         headline: bool = False,
         least_of: tuple[str, ...] = (),
+        also_limited: tuple[str, ...] = (),
+        parts_differ_with: Feature | None = None,
         requires: tuple[Feature, ...] | None = None,
         default: Any = 0.0,
     ) -> Callable[[F], F]:
@@ -150,8 +162,11 @@ class QuantityGroup:
                 hidden=hidden,
                 headline=headline,
                 least_of=least_of,
+                also_limited=also_limited,
+                parts_differ_with=parts_differ_with,
                 rules=rules,
                 advice=advice,
+                ratings=ratings,
                 better=directions().get(function.__name__),
                 requires=self.requires if requires is None else requires,
                 default=default,

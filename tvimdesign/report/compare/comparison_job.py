@@ -18,14 +18,14 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.base.errors import InfeasibleError, TvimError
+from tvimdesign.base.errors import AboveRatingError, InfeasibleError, TvimError
 from tvimdesign.base.units import from_si
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.device import Table
 from tvimdesign.report.compare import normalization
 from tvimdesign.report.output.tables import check_row
 from tvimdesign.report.output.thresholds import soft_in_words
-from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.infeasible_report import above_rating, complaint
 from tvimdesign.report.run.why import binding
 from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.report.virtual_tests import find_test
@@ -109,6 +109,10 @@ class ComparisonJob:
         if not answered.found:
             raise InfeasibleError(complaint(answered, self.table))
         self.found["optimised"] = self._told(answered)
+        if refused := above_rating(answered, self.table):
+            self.found["troubles"].append(
+                {"step": "ratings", "error": refused, "exit_code": AboveRatingError.exit_code}
+            )
         return answered
 
     def _keep(self, built: Optimizer, runs: list[Run]) -> None:
@@ -123,6 +127,8 @@ class ComparisonJob:
             "warnings": [
                 {"output": check.output, "value": check.value, "because": check.origin} for check in answered.warnings
             ],
+            "above_rating": list(answered.design.above_rating),
+            "accepting": list(answered.design.accepting),
             "soft": soft_in_words(answered.design, self.table),
             "active_constraints": [
                 {"limit": held.text, "because": held.origin, "shadow_price": held.shadow_price}

@@ -109,6 +109,8 @@ def _print_searches(outcome: Outcome, console: Console) -> None:
 def _print_warnings(outcome: Outcome, console: Console) -> None:
     """The advice that the designs held against each other do not follow."""
     for label, found in outcome.found.items():
+        if names := found.get(outcome.which, {}).get("accepting"):
+            console.print(f"{escape(label)} is beyond its rating, as its study accepts: {', '.join(names)}.")
         for warning in found.get(outcome.which, {"warnings": []})["warnings"]:
             value = format_quantity(warning["value"], outcome.unit(warning["output"]))
             said = f"{label}: {warning['output']} is {value}: {warning['because']}."

@@ -55,7 +55,10 @@ class NumberEntry(TypedDict):
 
 @_closed
 class ValueEntry(NumberEntry):
-    """An input or an output: where it comes from, how well it is known, and what it means."""
+    """An input or an output: where it comes from, how well it is known, and what it means.
+
+    `idealized` is empty, or the words of the study without which it would be another value.
+    """
 
     kind: Literal["input", "output"]
     status: str
@@ -63,6 +66,7 @@ class ValueEntry(NumberEntry):
     group: str
     description: str
     note: str
+    idealized: str
 
 
 @_closed
@@ -75,6 +79,17 @@ class CheckEntry(NumberEntry):
     margin_unit: str
     kept: bool
     origin: str
+
+
+@_closed
+class IdealizationEntry(TypedDict):
+    """A word of the study that leaves out something of the drawn module, and the values that come out without it."""
+
+    choice: str
+    word: str
+    instead: str
+    leaves_out: str
+    as_drawn: dict[str, NumberEntry]
 
 
 @_closed
@@ -249,6 +264,7 @@ class FrontPoint(_FrontPoint):
     """A point of a front: its outputs and variables in their units and in SI, and the file of its design."""
 
     yield_share: NotRequired[float]
+    above_rating: NotRequired[list[str]]
 
 
 @_closed
@@ -335,6 +351,10 @@ class Answered(Head):
     values: dict[str, ValueEntry]
     checks: list[CheckEntry]
     warnings: list[CheckEntry]
+    above_rating: list[CheckEntry]
+    accepting: list[CheckEntry]
+    accepted_in_vain: list[str]
+    idealizations: list[IdealizationEntry]
     current_profiles: dict[str, CurrentProfileEntry]
     at_default_currents: dict[str, ValueEntry]
     best_constant_currents: BestConstant | None

@@ -52,11 +52,16 @@ def value_text(answer: StudyResult, name: str, table: Table) -> str:
 def headline_rows(answer: StudyResult, table: Table) -> list[tuple[str, str, str, str, str]]:
     """(group, name, value, unit, description) of the rows with one value that stand in a summary."""
     return [
-        (row.group, row.name, value_text(answer, row.name, table), pretty(row.unit),
+        (row.group, f"{row.name}{_mark(row.name, answer)}", value_text(answer, row.name, table), pretty(row.unit),
          meaning(row.name, answer.design, table))
         for row in table.outputs
         if row.headline and not row.per_point
     ]  # fmt: skip
+
+
+def _mark(name: str, answer: StudyResult) -> str:
+    """What stands behind the name of a value that an idealization gave."""
+    return " ~" if any(name in one.as_drawn for one in answer.idealizations) else ""
 
 
 def point_rows(answer: StudyResult, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
@@ -66,7 +71,7 @@ def point_rows(answer: StudyResult, table: Table) -> tuple[list[str], list[tuple
     shown += [row for row in table.outputs if row.per_point and row.headline]
     rows = [
         (
-            row.name,
+            f"{row.name}{_mark(f'{row.name}@{points[0]}', answer)}",
             *(value_text(answer, f"{row.name}@{point}", table) for point in points),
             pretty(row.unit),
             row.description,
@@ -152,7 +157,7 @@ def results(answer: StudyResult, table: Table) -> Answered:
     find_record, ends = catalog_of(design).record, answer.intervals
 
     def entries(values: Mapping[str, float]) -> dict[str, ValueEntry]:
-        return {name: _entry(name, value, design, table, find_record) for name, value in values.items()}
+        return {name: _entry(name, value, answer, table, find_record) for name, value in values.items()}
 
     constant = answer.solution.constant if answer.solution else None
     best: BestConstant | None = (
@@ -168,6 +173,23 @@ def results(answer: StudyResult, table: Table) -> Answered:
         "values": entries(design.values),
         "checks": [check_row(check, table, ends.get(check.output)) for check in answer.checks],
         "warnings": [check_row(check, table, ends.get(check.output)) for check in answer.warnings],
+        "above_rating": [
+            check_row(check, table, ends.get(check.output))
+            for check in answer.warnings
+            if check.output in design.above_rating
+        ],
+        "accepting": [check_row(check, table, ends.get(check.output)) for check in answer.accepted],
+        "accepted_in_vain": list(answer.accepted_in_vain),
+        "idealizations": [
+            {
+                "choice": one.choice,
+                "word": one.word,
+                "instead": one.instead,
+                "leaves_out": one.leaves_out,
+                "as_drawn": {name: number_entry(value, table.unit(name)) for name, value in one.as_drawn.items()},
+            }
+            for one in answer.idealizations
+        ],
         "current_profiles": cast("Any", design.current_profiles),
         "at_default_currents": entries(answer.constant_current),
         "best_constant_currents": best,
@@ -177,7 +199,8 @@ def results(answer: StudyResult, table: Table) -> Answered:
     }
 
 
-def _entry(name: str, value: float, design: Design, table: Table, find_record: FindRecord) -> ValueEntry:
+def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> ValueEntry:
+    design = answer.design
     row, known = table.quantity(name), provenance(name, design, table, find_record)
     return {
         **number_entry(value, table.unit(name), (known.low, known.high)),
@@ -187,6 +210,7 @@ def _entry(name: str, value: float, design: Design, table: Table, find_record: F
         "group": row.group,
         "description": row.description,
         "note": notes(design, table).get(name, ""),
+        "idealized": ", ".join(one.text for one in answer.idealizations if name in one.as_drawn),
     }
 
 
@@ -206,7 +230,7 @@ def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, Inter
     """
     stream = io.StringIO()
     columns = ["name", "value", "unit", "status", "low", "high", "source", "kind", "group", "description", "note",
-               "may_be_low", "may_be_high", "measure_first"]  # fmt: skip
+               "idealized", "may_be_low", "may_be_high", "measure_first"]  # fmt: skip
     writer = csv.DictWriter(stream, columns, lineterminator="\n", extrasaction="ignore")
     writer.writeheader()
     for name, entry in entries.items():

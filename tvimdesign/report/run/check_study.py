@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from tvimdesign.base.errors import SimulationError
+from tvimdesign.base.units import format_quantity
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.record_checks import record_checks
 from tvimdesign.study.tree import tree_of_file
@@ -42,4 +44,20 @@ def describe(study: Study) -> str:
     """One line on what a valid study asks, then one for each of its records that contradicts itself."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
     asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
-    return "\n".join([asked, *record_checks(study)])
+    return "\n".join([asked, *record_checks(study), *foreseen_ratings(study)])
+
+
+def foreseen_ratings(study: Study) -> list[str]:
+    """Ratings that the module the study starts from is beyond and the study neither accepts nor excludes."""
+    from tvimdesign.solve.ratings import exceeded_at_start
+
+    try:
+        found = exceeded_at_start(study)
+    except SimulationError:
+        return []
+    module, then = ("The module", "") if not study.vary else ("The module it starts from", " An optimum may be, too.")
+    return [
+        f"{module} is beyond a rating: {name} is {format_quantity(value, study.table.unit(name))}.{then} Accept it, "
+        f'`accept: [{name}]`, or exclude it, `require: {{{name}: ">= 0 {study.table.unit(name)}"}}`.'
+        for name, value in found.items()
+    ]

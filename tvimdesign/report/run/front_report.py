@@ -6,7 +6,7 @@ import csv
 import io
 import math
 import shutil
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.table import Table as Grid
 
 from tvimdesign import __version__
-from tvimdesign.base.errors import TvimError
+from tvimdesign.base.errors import AboveRatingError, TvimError
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
@@ -26,8 +26,10 @@ from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunR
 from tvimdesign.report.run.front_memory import FolderMemory
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, OPTIMAL
 from tvimdesign.solve.pareto.front import Front, completed, trace_front
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
+from tvimdesign.solve.ratings import exceeded, sorted_by_acceptance
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design, design_json
@@ -49,6 +51,8 @@ class FrontOfRun:
         self.front: Front | None = None
         self.kept: list[float] = []
         """Of a robust study, the share of modules drawn at random that keep all limits, for each point."""
+        self.above: list[tuple[str, ...]] = []
+        """The ratings that each point is beyond and the study does not accept."""
         self.optimum: Point | None = None
         self._memory = FolderMemory(folder, study) if study.front and folder else None
         self._built: list[tuple[Optimizer, list[Run]]] = []
@@ -70,7 +74,11 @@ class FrontOfRun:
         front = self.front = completed(sought, trade)
         self.optimum = trade.optimum
         self.kept = kept_at(trade.optimizer, front) if self.study.robust else []
-        reported["front"] = plain(front, shown_names(self.study, front), self.table, self.kept)
+        accept = self.study.model_dump(include={"accept"})
+        self.above = [of_ratings(point, accept, self.table)["above_rating"] for point in front.points]
+        reported["front"] = plain(front, shown_names(self.study, front), self.table, self.kept, self.above)
+        if any(self.above):
+            troubles.append(AboveRatingError(said_of_ratings(self.above)))
         if front.failures:
             where = "; ".join(f"{one.where}: {one.reason}" for one in front.failures)
             troubles.append(TvimError(f"the front has {len(front.points)} points, but no design was found at {where}"))
@@ -80,10 +88,10 @@ class FrontOfRun:
         if self.front is None:
             return
         names = shown_names(self.study, self.front)
-        folder.write("front.csv", front_csv(self.front, names, self.table, self.kept))
-        folder.write_json("front.json", {**head(), **plain(self.front, names, self.table, self.kept)})
+        folder.write("front.csv", front_csv(self.front, names, self.table, self.kept, self.above))
+        folder.write_json("front.json", {**head(), **plain(self.front, names, self.table, self.kept, self.above)})
         for number, point in enumerate(self.front.points, start=1):
-            folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, found)))
+            folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, found, self.table)))
         shutil.rmtree(folder.path / PROGRESS, ignore_errors=True)
 
     def drawings(self) -> list[Drawing]:
@@ -98,13 +106,20 @@ class FrontOfRun:
             print_front(self.front, self.table, console, self.kept)
 
 
-def design_of(point: Point, number: int, found: StudyResult) -> Design:
+def of_ratings(point: Point, study: Mapping[str, Any], table: Table) -> dict[str, Any]:
+    """A point's status, with the ratings it is beyond, not accepted by the study and accepted."""
+    names = [limit.output for limit in exceeded(point.values, table)]
+    above, accepting = sorted_by_acceptance(names, study.get("accept", ()))
+    return {"status": ABOVE_RATING if above else OPTIMAL, "above_rating": above, "accepting": accepting}
+
+
+def design_of(point: Point, number: int, found: StudyResult, table: Table) -> Design:
     """A point as a design of its own, as `tvimdesign cad` takes it."""
     return found.design.model_copy(
         update={
             "tvimdesign": __version__,
             "name": f"{found.design.name}, point {number} of its front",
-            "status": "optimal",
+            **of_ratings(point, found.design.study, table),
             "values": point.values,
             "current_profiles": point.current_profiles,
             "intervals": {},
@@ -127,16 +142,37 @@ def kept_at(optimizer: Optimizer, front: Front) -> list[float]:
     return [yields_of(optimizer).at(one).together.share for one in inputs]
 
 
-def front_csv(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> str:
-    """A line for each point, in units."""
+def said_of_ratings(above: Sequence[tuple[str, ...]]) -> str:
+    """Which points are beyond ratings that the study does not accept."""
+    points = ", ".join(str(number) for number, names in enumerate(above, start=1) if names)
+    named = ", ".join(dict.fromkeys(name for names in above for name in names))
+    return f"points {points} of the front are beyond their rating, which the study does not accept: {named}"
+
+
+def front_csv(
+    front: Front,
+    names: Sequence[str],
+    table: Table,
+    kept: Sequence[float] = (),
+    above: Sequence[tuple[str, ...]] = (),
+) -> str:
+    """A line for each point, in units; the ratings it is beyond where any point is beyond one not accepted."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     heads = [f"{name} [{pretty(table.unit(name))}]" for name in names]
-    writer.writerow(["point", "status", *heads, *(["yield"] if kept else [])])
+    writer.writerow(
+        ["point", "status", *heads, *(["yield"] if kept else []), *(["above_rating"] if any(above) else [])]
+    )
     for number, point in enumerate(front.points, start=1):
         values = (from_si(point.values[name], table.unit(name)) for name in names)
         writer.writerow(
-            [number, status(front, number - 1), *(f"{value:.8g}" for value in values), *kept[number - 1 : number]]
+            [
+                number,
+                status(front, number - 1),
+                *(f"{value:.8g}" for value in values),
+                *kept[number - 1 : number],
+                *([" ".join(above[number - 1])] if any(above) else []),
+            ]
         )
     return stream.getvalue()
 
@@ -148,7 +184,13 @@ def status(front: Front, place: int) -> str:
     return front.points[place].where if front.points[place].where.startswith("least ") else "between"
 
 
-def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float] = ()) -> FrontEntry:
+def plain(
+    front: Front,
+    names: Sequence[str],
+    table: Table,
+    kept: Sequence[float] = (),
+    above: Sequence[tuple[str, ...]] = (),
+) -> FrontEntry:
     """The front as plain data, in units and in SI; null is never."""
 
     def entry(number: int, point: Point) -> FrontPoint:
@@ -159,6 +201,8 @@ def plain(front: Front, names: Sequence[str], table: Table, kept: Sequence[float
         }  # fmt: skip
         if kept:
             found["yield_share"] = kept[number - 1]
+        if above and above[number - 1]:
+            found["above_rating"] = list(above[number - 1])
         return found
 
     return {

@@ -188,8 +188,13 @@ def _verdict(answer: StudyResult) -> str:
     if converged < 2:
         agree = ", others may be better"
     of_start = sum(answer.design.study["minimize"].values())
+    ended = f"[green]Optimal{warned}[/green]"
+    if answer.design.above_rating:
+        ended = f"[red]The best design is beyond ratings that the study does not accept{warned}[/red]"
+    elif answer.design.accepting:
+        ended = f"[green]Optimal, accepting: {', '.join(answer.design.accepting)}{warned}[/green]"
     return (
-        f"[green]Optimal{warned}[/green]: {converged} of {len(starts)} starts converged{agree}; objective "
+        f"{ended}: {converged} of {len(starts)} starts converged{agree}; objective "
         f"{solution.objective:.5g}, against {of_start:.5g} at the study's own start."
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from tvimdesign.device import Table
 from tvimdesign.report.output.results_format import Conflict, Optimum, SideEntry, Starts
@@ -12,7 +12,7 @@ from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words
 from tvimdesign.solve.nlp.solution import ConflictSet, Side, Start
 from tvimdesign.solve.optimizer.statuses import meaning
-from tvimdesign.solve.result import StudyResult
+from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 
 def complaint(answer: StudyResult, table: Table) -> str:
@@ -22,7 +22,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
     lines = [f"{answer.design.name}: no design found that keeps every limit ({answer.design.status})."]
     if conflict_set:
         lines += conflict_in_words(conflict_set)
-    broken = sorted((check for check in answer.checks if not check.kept), key=lambda check: check.margin)
+    broken = _worst_of_each(check for check in answer.checks if not check.kept)
     if broken:
         lines.append(
             "The design that comes closest breaks these:"
@@ -44,6 +44,26 @@ def complaint(answer: StudyResult, table: Table) -> str:
     else:
         lines += endings(solution.starts if solution else ())
         lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")
+    return "\n".join(lines)
+
+
+def _worst_of_each(checks: Iterable[ConstraintCheck]) -> list[ConstraintCheck]:
+    """The checks with the least margin first; of those that one requirement puts on several outputs, one."""
+    ordered = sorted(checks, key=lambda check: check.margin)
+    return list({check.part_of or check.text: check for check in reversed(ordered)}.values())[::-1]
+
+
+def above_rating(answer: StudyResult, table: Table) -> str:
+    """What to say of an optimum beyond ratings that the study does not accept; empty where it is beyond none."""
+    names = answer.design.above_rating
+    if answer.solution is None or not names:
+        return ""
+    checks = [check for check in answer.warnings if check.output in names]
+    lines = [f"{answer.design.name}: the optimum is beyond what its materials or bought parts are rated for:"]
+    lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-+')}: {check.origin}" for check in checks]
+    accepted = ", ".join([*answer.design.accepting, *names])
+    require = ", ".join(f'{name}: ">= 0 {table.unit(name)}"' for name in names)
+    lines.append(f"Accept that in the study, `accept: [{accepted}]`, or exclude it: `require: {{{require}}}`.")
     return "\n".join(lines)
 
 

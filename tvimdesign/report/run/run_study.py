@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tvimdesign.base.errors import InfeasibleError, TvimError
+from tvimdesign.base.errors import AboveRatingError, InfeasibleError, TvimError
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.study import read_tree
@@ -33,7 +33,7 @@ def run_study(
         noting,
     )
     from tvimdesign.report.run.first_screen.run_screen import RunScreen, look_first, show
-    from tvimdesign.report.run.infeasible_report import complaint
+    from tvimdesign.report.run.infeasible_report import above_rating, complaint
     from tvimdesign.report.run.refusal import leaving_the_reason
     from tvimdesign.report.run.write_answer import finish, write_answer
 
@@ -73,6 +73,8 @@ def run_study(
         show(look_first(folder, str(folder.path), wide_console().width), wide_console())
     if not found.found:
         raise InfeasibleError(complaint(found, answered.study.table))
+    if refused := above_rating(found, answered.study.table):
+        raise AboveRatingError(refused)
     if failures:
         raise done_in_part(failures)
 

@@ -108,13 +108,14 @@ def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule
         return TolerancedModule(
             replace(resolved, study=resolved.study.model_copy(update={"tolerances": study.tolerances})),
             None,
-            (f"Module: the design {source}.", *notes),
+            (f"Module: the design {source}.", *design.rating_notes, *notes),
         )
     if not study.vary:
         return TolerancedModule(resolve_study(study), None, (f"Module: {source}.", *notes))
     progress("seeking the optimum")
     design = _optimum(study, progress)
-    notes.insert(0, f"Module: the optimum of {source}{', robust as it asks' if study.robust else ''}.")
+    module = f"Module: the optimum of {source}{', robust as it asks' if study.robust else ''}."
+    notes = [module, *design.rating_notes, *notes]
     nominal = None
     if study.robust:
         progress("seeking the optimum that is not robust")

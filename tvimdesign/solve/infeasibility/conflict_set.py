@@ -69,7 +69,7 @@ class SecondTry:
 
     def from_conflict_search(self, run: Run) -> Run:
         """A run that converged after all, else the one that did not; its start says how many iterations all took."""
-        settled = self._elastic.settle(_weights(self._optimizer), _begin(self._optimizer, run))
+        settled = self._elastic.settle(_weights(self._elastic), _begin(self._optimizer, run))
         if not settled.conflict_search:
             return run
         again = self._optimizer.solve(begin=settled.run.inputs, unknowns=settled.run.unknowns)
@@ -83,13 +83,13 @@ class SecondTry:
         return again
 
 
-def _weights(optimizer: Optimizer) -> Array:
-    return np.array([1.0 if limit.origin == "require" else _HEAVY for limit in optimizer.problem.limits])
+def _weights(elastic: ElasticMode) -> Array:
+    return np.array([1.0 if limit.origin == "require" else _HEAVY for limit in elastic.limits])
 
 
 def _least_violation(elastic: ElasticMode, failed: Sequence[Run]) -> Settled | None:
     """The least sum of slacks from where the starts ended, else from where they began."""
-    weights = _weights(elastic.optimizer)
+    weights = _weights(elastic)
     found: list[Settled] = []
     for run in failed[:_MOST_STARTS]:
         settled = elastic.settle(weights, run.inputs, run.unknowns)
@@ -111,7 +111,7 @@ def _begin(optimizer: Optimizer, run: Run) -> Array:
 
 def _conflicting(elastic: ElasticMode, least: Settled) -> tuple[list[int], Array]:
     """An irreducible set of limits that cannot be kept together, and what the ends of ranges have to do with it."""
-    limits, weights = elastic.optimizer.problem.limits, np.ones(elastic.count)
+    limits, weights = elastic.limits, np.ones(elastic.count)
 
     def kept_apart(within: Collection[int]) -> Settled | None:
         """The settlement where the limits cannot all be kept; None where they can, or it is not known."""
@@ -134,8 +134,7 @@ def _conflicting(elastic: ElasticMode, least: Settled) -> tuple[list[int], Array
 
 
 def _told(elastic: ElasticMode, least: Settled, members: Sequence[int], ends: Array, progress: Progress) -> ConflictSet:
-    optimizer = elastic.optimizer
-    limits = optimizer.problem.limits
+    optimizer, limits = elastic.optimizer, elastic.limits
     broken = [int(k) for k in np.flatnonzero(least.slacks > AT_PEACE)]
     sides = []
     for k in members:

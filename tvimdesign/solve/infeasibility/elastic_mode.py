@@ -54,21 +54,26 @@ class Settled:
 
 
 class ElasticMode:
-    """An optimizer's problem with a slack on every limit."""
+    """An optimizer's problem with a slack on every limit, and one for all that a requirement is put on at once."""
 
     def __init__(self, optimizer: Optimizer) -> None:
         """Add the slacks and build the solver."""
         self.optimizer, problem = optimizer, optimizer.problem
-        self.count, self.equations = len(problem.limits), problem.equation_count
+        keys = [(limit.part_of or limit.output, limit.sense, limit.limit) for limit in problem.limits]
+        places = {key: place for place, key in enumerate(dict.fromkeys(keys))}
+        self._slack_of = np.array([places[key] for key in keys], dtype=int)
+        self.limits = [problem.limits[keys.index(key)] for key in places]
+        """One limit for each slack: those that one requirement puts on several outputs have one in common."""
+        self.count, self.equations = len(self.limits), problem.equation_count
         whole = problem.function
         slacks, weights = ca.MX.sym("slacks", self.count), ca.MX.sym("weights", self.count)
-        first, last = self.equations, self.equations + self.count
-        rows = whole["g"]
+        first, last = self.equations, self.equations + len(problem.limits)
+        rows, each = whole["g"], [int(place) for place in self._slack_of]
         written = ca.Function(
             "elastic",
             [ca.vertcat(whole["x"], slacks), ca.vertcat(whole["p"], weights)],
             [ca.dot(weights, slacks) + TRACE * whole["f"],
-             ca.vertcat(rows[:first], rows[first:last] - slacks, rows[last:])],
+             ca.vertcat(rows[:first], rows[first:last] - slacks[each], rows[last:])],
             *NLP,
         )  # fmt: skip
         self._solver = solver_of(written, optimizer.study.solver, of_parameters=False)
@@ -83,8 +88,11 @@ class ElasticMode:
         x = optimizer.guess(begin) if unknowns is None else unknowns
         p = optimizer.parameters(Objective(optimizer.study.minimize))
         counts = np.isin(np.arange(self.count), list(within)) if within else np.ones(self.count, dtype=bool)
-        residuals = np.asarray(self._rows(x, p)).ravel()[self.equations : self.equations + self.count]
-        slacks = np.where(counts, np.maximum(np.nan_to_num(residuals), 0.0) + _ROOM, 0.0)
+        each = self._slack_of
+        residuals = np.zeros(self.count)
+        broken = np.asarray(self._rows(x, p)).ravel()[self.equations : self.equations + len(each)]
+        np.maximum.at(residuals, each, np.nan_to_num(broken))
+        slacks = np.where(counts, residuals + _ROOM, 0.0)
         lower, upper = optimizer.vector.bounds({})
         objectives, rest = len(problem.objectives), problem.slope_count + problem.peak_count
         no_equations = np.zeros(self.equations)
@@ -92,9 +100,9 @@ class ElasticMode:
             x0=np.concatenate([x, slacks]), p=np.concatenate([p, weights]),
             lbx=np.concatenate([lower, np.zeros(self.count)]),
             ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
-            lbg=np.concatenate([no_equations, np.full(self.count + objectives + rest, -np.inf)]),
+            lbg=np.concatenate([no_equations, np.full(len(each) + objectives + rest, -np.inf)]),
             ubg=np.concatenate([
-                no_equations, np.where(counts, 0.0, np.inf), np.full(objectives, np.inf), np.zeros(rest),
+                no_equations, np.where(counts[each], 0.0, np.inf), np.full(objectives, np.inf), np.zeros(rest),
             ]),
         )  # fmt: skip
         return self._settled(answer, begin, time.perf_counter() - clock)
@@ -102,8 +110,9 @@ class ElasticMode:
     def _settled(self, answer: dict[str, Any], begin: Array, seconds: float) -> Settled:
         size = self.optimizer.problem.unknown_count
         found = np.asarray(answer["x"]).ravel()
-        first, last = self.equations, self.equations + self.count
-        pressing = np.asarray(answer["lam_g"]).ravel()[first:last]
+        first, last = self.equations, self.equations + len(self._slack_of)
+        pressing = np.zeros(self.count)
+        np.add.at(pressing, self._slack_of, np.asarray(answer["lam_g"]).ravel()[first:last])
         ends = np.asarray(answer["lam_x"]).ravel()[: len(self.optimizer.free)]
         rows = self.optimizer.problem.function["g"].numel()
         bare = {

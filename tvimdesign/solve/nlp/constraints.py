@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
-from tvimdesign.device import Choice, Input, Table
-from tvimdesign.device.table.quantity import Feature
+from tvimdesign.device import Choice, Input, Output, Table
+from tvimdesign.device.table.quantity import Feature, Rule
 from tvimdesign.study import Study, given
 
 
@@ -28,6 +28,8 @@ class Constraint:
     """What a hundredth of the scale is, in words."""
     absolute: bool = False
     """Whether the limit has no size of its own, so that distances from it are said in its unit."""
+    part_of: str = ""
+    """The output a requirement names that is put on several at once, which move together: `spring_stiffness`."""
 
     @property
     def name(self) -> str:
@@ -46,14 +48,15 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     `chosen` are records and options by name, so that rules of what the module lacks are left out; without them only
     those are that the study itself says it lacks.
     """
-    own = [
-        make_constraint(table, output, r.sense, r.limit, "require")
-        for r in study.require
-        for output in _behind(table, r.output, r.sense)
-    ]
-    taken = {(limit.output, limit.sense) for limit in own}
     said = study.module if chosen is None else chosen
     options = {row.name: said.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    asked = [
+        replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(table, r.output))
+        for r in study.require
+        for output in _behind(table.output(r.output), r.output, r.sense, options)
+    ]
+    own = list(dict.fromkeys(asked))
+    taken = {(limit.output, limit.sense) for limit in own}
     for row in table.outputs:
         for rule in row.rules if row.exists(options) else ():
             if (row.name, rule.sense) not in taken:
@@ -61,10 +64,16 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     return own
 
 
-def _behind(table: Table, name: str, sense: str) -> tuple[str, ...]:
-    """The rows a limit is put on: the named one, or each of those it is the least of."""
-    row = table.output(name)
-    return row.least_of if row.least_of and sense == ">=" else (name,)
+def _behind(row: Output, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
+    """The rows a limit is put on: the named one, those limited with it, or each of those it is the least of."""
+    rows = row.least_of if row.least_of and sense == ">=" else (name, *row.also_limited)
+    apart = row.parts_differ_with
+    alike = apart is not None and options.get(apart.choice) == apart.without
+    return rows[:1] if alike else rows
+
+
+def _part_of(table: Table, name: str) -> str:
+    return name if table.output(name).also_limited else ""
 
 
 def on_cycle(table: Table, output: str) -> bool:
@@ -147,10 +156,19 @@ def impossible(values: Mapping[str, float], table: Table) -> list[str]:
 
 def advice_of(table: Table) -> list[Constraint]:
     """Return the limits that are reported where they are broken."""
+    return _reported(table, lambda row: row.advice)
+
+
+def ratings_of(table: Table) -> list[Constraint]:
+    """Return what materials and bought parts are rated for: no optimum is beyond one that the study does not accept."""
+    return _reported(table, lambda row: row.ratings)
+
+
+def _reported(table: Table, rules: Callable[[Output], tuple[Rule, ...]]) -> list[Constraint]:
     return [
         make_constraint(table, row.name, rule.sense, rule.value, rule.reason)
         for row in table.outputs
-        for rule in row.advice
+        for rule in rules(row)
     ]
 
 

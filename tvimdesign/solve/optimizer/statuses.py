@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+OPTIMAL = "optimal"
+"""Status of a design that a search found: converged, every limit kept by a check outside the solver, and within what
+its materials and bought parts are rated for, or beyond that as the study accepts."""
+ABOVE_RATING = "above_rating"
+"""Status of such a design beyond a rating that the study does not accept."""
+
 
 class Meaning(NamedTuple):
     """What a status says, and the next step; the step is empty where there is nothing to do."""

@@ -11,7 +11,7 @@ from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution, Start
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
 from tvimdesign.solve.optimizer.post_optimal import Place, Response
-from tvimdesign.solve.optimizer.statuses import meaning
+from tvimdesign.solve.optimizer.statuses import OPTIMAL, meaning
 from tvimdesign.study import Range
 
 CYCLE_TOLERANCE = 2e-3
@@ -34,7 +34,7 @@ def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], se
     ]
     feasible = all(held.residual <= tolerance for held, tolerance in zip(limits, tolerances, strict=True))
     if run.start.converged:
-        status = "optimal" if feasible else "converged, but a check outside the solver fails"
+        status = OPTIMAL if feasible else "converged, but a check outside the solver fails"
     else:
         status = f"not converged: {meaning(run.start.status).words}"
     return Solution(

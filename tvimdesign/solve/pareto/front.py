@@ -120,6 +120,8 @@ class _Tracer:
         self.frame = Frame.of(objectives, [end.values for end in kept])
         self.lost += len(self.ends) - len(kept)
         self.ends = kept
+        if len(objectives) < 2:  # with what is the same all along left out, nothing is traded between the ends
+            return self._done()
         if len(objectives) == 2 or shape.thin(np.array([self.frame.place(end.values) for end in self.ends])):
             self._along_a_line()
         else:

@@ -12,7 +12,7 @@ from tvimdesign.study.text.yaml_text import Node, Text
 
 _SUFFIXES = {"_reserve": "_margin"}
 """Ends of names of quantities, the old by the new one; read until the release after 0.1."""
-_SECTIONS = ("module", "vary", "require", "minimize", "front", "tolerances")
+_SECTIONS = ("module", "vary", "require", "accept", "minimize", "front", "tolerances")
 """The sections in which quantities are named."""
 _PLAIN = {"drives": "current_profiles"}
 """Fields of a design that are called otherwise now."""

@@ -23,7 +23,7 @@ from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_study, read_study_text
 from tvimdesign.study.record_checks import record_checks
 
-LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 2.6 mm}"
+LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 2.8 mm}"
 CHOICES = SHEAR.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}")
 MANY = """mode: shear
 require:
@@ -44,6 +44,10 @@ require:
   spring_index: ">= 4"
   softening_time: "<= 300 s"
 """
+COOL = """mode: shear
+module: {process: machine_6061, target_temperature: 90 degC, pcl_thickness: 3 mm, response_criterion: mean}
+operating_points: {hot: {temperature: 90 degC}}
+"""
 BLOCKS = ("Weighs", "Soft after", "Stiff again", "Needs", "Chosen", "Held back by", "Warning", "Yield")
 
 
@@ -63,7 +67,7 @@ class Case(NamedTuple):
 @cache
 def case(name: str) -> Case:
     """A shipped study as it is drawn or optimised, or one of the texts above."""
-    texts = {"choices": CHOICES, "many": MANY}
+    texts = {"choices": CHOICES, "many": MANY, "aluminum": COOL}
     study = read_study_text(texts[name], name) if name in texts else read_study(ROOT / f"studies/{name}.yaml")
     study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
     table = study.table
@@ -107,7 +111,7 @@ def test_every_requirement_is_there_by_the_name_the_study_gives_it(name: str, wi
     text = "\n".join(one.screen(width))
     asked = {requirement.output for requirement in one.study.require}
     shown = {output for output in asked if re.search(rf"^{re.escape(output)}(\s|$)", text, re.MULTILINE)}
-    assert asked == shown or (name == "many" and "more with larger margins" in text)
+    assert asked == shown or (shown < asked and "more with larger margins" in text)
     broken = {check.output for check in one.found.checks if not check.kept}
     assert all(re.search(rf"^{re.escape(output)}\s.*BROKEN", text, re.MULTILINE) for output in broken & asked)
 
@@ -123,8 +127,12 @@ def test_the_blocks_stand_in_their_order(name: str, width: int) -> None:
 
 
 def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
-    assert case("paper_shear").screen(140)[0].endswith(" · shear · OPTIMAL · 2 of 3 starts agree · 12 s")
-    assert case("paper_as_published").screen(140)[0].endswith(" · shear · EVALUATED, ALL LIMITS KEPT · 12 s")
+    accepted = "ACCEPTING: structure_temperature_margin, stiffening_structure_margin"
+    first, second = (" ".join(case(name).screen(140)[:2]) for name in ("paper_shear", "paper_as_published"))
+    assert re.search(rf" · shear · OPTIMAL, {accepted}( ·)? 2 of 3 starts agree · 12 s", first)
+    # PETG and pads are hotter than they are rated for, as its study accepts.
+    assert re.search(r" · shear( ·)? EVALUATED, ACCEPTING: [\w, ]+_margin( ·)? 12 s", second)
+    assert "EVALUATED, ALL LIMITS KEPT · 12 s" in " ".join(case("aluminum").screen(140)[:1])
     assert re.search(r"EVALUATED, \d+ OF \d+ LIMITS BROKEN", case("many").screen(140)[0])
 
 
@@ -133,7 +141,10 @@ def test_what_is_asked_and_got_is_what_the_answer_has() -> None:
     lines = {line.name: line for line in lines_of(one.found, one.table, {})}
     values = one.found.design.values
     assert lines["spring_stiffness"].asked == "5.2 to 5.8 N·m/rad"
-    assert float(lines["spring_stiffness"].got) == pytest.approx(values["spring_stiffness"], rel=1e-3)
+    least, most = map(float, lines["spring_stiffness"].got.split(" to "))  # over the stroke
+    assert least == pytest.approx(values["least_spring_stiffness"], rel=1e-3)
+    assert least <= values["spring_stiffness"] * 1.001
+    assert most >= values["spring_stiffness"] * 0.999
     assert lines["spring_stiffness"].stands == "BINDS"
     assert lines["holding_torque"].asked == ">= 12 N·m"  # told as asked, though it is the least of three
     assert lines["holding_torque"].stands == "BINDS"

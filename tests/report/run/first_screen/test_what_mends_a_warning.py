@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -14,19 +15,28 @@ from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study, read_study_text
 
-ADVICE = {row.name: mode for mode in ("compression", "shear") for row in table_for(mode).outputs if row.advice}
+ROWS = {row.name: (mode, row) for mode in ("compression", "shear") for row in table_for(mode).outputs}
+ADVICE = {name: mode for name, (mode, row) in ROWS.items() if row.advice}
+RATINGS = {name: mode for name, (mode, row) in ROWS.items() if row.ratings}
 PLACES = {"point": "hot"}
 OTHERS = {kind: entry["mend"] for kind, entry in hints()["others"].items()}
 
 
-def test_every_advice_of_the_table_has_what_mends_it_and_nothing_else_has() -> None:
+def test_every_advice_and_rating_of_the_table_has_what_mends_it_and_nothing_else_has() -> None:
     assert hints()["advice"].keys() == ADVICE.keys()
-    assert all(entry["mend"] for entry in hints()["advice"].values())
+    assert hints()["ratings"].keys() == RATINGS.keys()
+    assert all(entry["mend"] for kind in ("advice", "ratings") for entry in hints()[kind].values())
 
 
 @pytest.mark.parametrize(
     ("mode", "line"),
-    [(ADVICE[name], line) for name, entry in hints()["advice"].items() for line in entry["mend"]]
+    [
+        (mode, line)
+        for kind, of in (("advice", ADVICE), ("ratings", RATINGS))
+        for name, mode in of.items()
+        for line in hints()[kind][name]["mend"]
+    ]
+    + [("shear", f"accept: [{', '.join(RATINGS)}]")]
     + [("shear", line) for line in OTHERS.values()],
 )
 def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path: Path, mode: str, line: str) -> None:
@@ -41,7 +51,8 @@ def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path: Path, mode:
 
 
 def _published(extra: str = "") -> StudyResult:
-    text = (ROOT / "studies/paper_as_published.yaml").read_text()
+    """The published module, without what its study accepts."""
+    text = re.sub(r"^accept:.*?\n\n", "", (ROOT / "studies/paper_as_published.yaml").read_text(), flags=re.M | re.S)
     study = read_study_text(text.replace("module:\n", f"module:\n{extra}", 1), "a test")
     return answer(study)
 

@@ -12,7 +12,7 @@ import yaml
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.device import Choice, Table
-from tvimdesign.solve.nlp.constraints import advice_of
+from tvimdesign.solve.nlp.constraints import advice_of, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study import Study, given
@@ -32,6 +32,12 @@ def hints() -> dict[str, dict[str, Any]]:
     return found
 
 
+def hint(name: str) -> dict[str, Any]:
+    """What the file says of a rating or an advice; nothing where it has none."""
+    found: dict[str, Any] = (hints()["ratings"] | hints()["advice"]).get(name, {})
+    return found
+
+
 def filled(text: str, places: Mapping[str, str]) -> str:
     """A text with what stands in its places."""
     return _PLACE.sub(lambda found: places.get(found[1], found[0]), text)
@@ -42,7 +48,7 @@ def mending(check: ConstraintCheck, answer: StudyResult, table: Table) -> str:
 
     A study that varies nothing is told to vary something where the line is a requirement.
     """
-    lines: Sequence[str] = hints()["advice"].get(check.output, {}).get("mend", ())
+    lines: Sequence[str] = hint(check.output).get("mend", ())
     for line in lines:
         words = yaml.safe_load(line).get("module", {})
         if words and _only_words(words, table) and _mends(check, words, answer, table):
@@ -70,7 +76,11 @@ def _mends(check: ConstraintCheck, words: Mapping[str, str], answer: StudyResult
             return False
     except TvimError:
         return False
-    return all(limit.residual(value) <= CYCLE_TOLERANCE for limit in advice_of(table) if limit.output == check.output)
+    return all(
+        limit.residual(value) <= CYCLE_TOLERANCE
+        for limit in (*ratings_of(table), *advice_of(table))
+        if limit.output == check.output
+    )
 
 
 def _fits(words: Mapping[str, str], values: Mapping[str, Any], table: Table) -> bool:

@@ -77,7 +77,7 @@ def _line(
     else:
         asked = ", ".join(f"{one['sense']} {number(from_si(one['limit'], unit), 6)}" for one in limits)
         asked = f"{asked} {pretty(unit)}"
-    behind = {name, *table.output(name).least_of}
+    behind = {name, *table.output(name).least_of, *table.output(name).also_limited}
     checks = [check for check in answer.checks if check.origin == "require" and check.output in behind]
     rests_on = next(iter(assumptions.get(name, ())), None)
     return _of_checks(
@@ -101,7 +101,17 @@ def _of_checks(
         got = number(from_si(check.value + _beyond(check), table.unit(name)))  # as good as on its limit
     else:
         got = number(0.0 if abs(value) < _ROUND else value)
+        if also := table.output(name).also_limited:
+            got = _over(name, also, answer, table)
+    got += " ~" if any(name in one.as_drawn for one in answer.idealizations) else ""
     return Line(name, asked, got, _stands(answer, check, table), check.worst, rests_on)
+
+
+def _over(name: str, also: Sequence[str], answer: StudyResult, table: Table) -> str:
+    """What an output ranges over where a limit on it is one on others too: `5.2 to 5.8`."""
+    values = [from_si(answer.design.value(one), table.unit(name)) for one in (name, *also)]
+    ends = list(dict.fromkeys(number(end) for end in (min(values), max(values))))
+    return " to ".join(ends)
 
 
 def _beyond(check: ConstraintCheck) -> float:

@@ -28,7 +28,7 @@ SPREAD = "TVIMDESIGN_SPREAD"
 _FILE_WIDTH = 120
 _COLOURS = {
     "bold": r"^\S.*? · (?=shear|compression)", "green": r"OPTIMAL|ALL LIMITS KEPT",
-    "red": r"BROKEN|NO DESIGN FOUND|NEVER SOFT", "yellow": r"\bBINDS\b|\bOPEN\b|^Warning",
+    "red": r"BROKEN|NO DESIGN FOUND|NEVER SOFT|ABOVE RATING(, NOT ACCEPTED)?", "yellow": r"\bBINDS\b|\bOPEN\b|^Warning",
 }  # fmt: skip
 _LOOK_FIRST = (
     "cad/preview.png", "plots/front.png", "plots/cycle.png", "why.csv", "results.csv",

@@ -8,6 +8,7 @@ from typing import Any
 
 from tvimdesign.device import Table
 from tvimdesign.report.run.first_screen.held_back import held_back_lines, yield_lines
+from tvimdesign.report.run.first_screen.qualifications import qualification_lines
 from tvimdesign.report.run.first_screen.requirements import Line, lines_of, screen_lines
 from tvimdesign.report.run.first_screen.verdict import chosen_lines, current_lines, header, module_lines, trade_lines
 from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_of
@@ -17,7 +18,7 @@ LINES = 40
 AFTER = 5
 """Lines kept for what comes after the answer: the parts, and where to look first."""
 _REQUIREMENTS = 17
-"""Lines that the requirements may take."""
+"""Lines that the requirements may take where all else leaves them."""
 
 
 @dataclass(frozen=True)
@@ -38,24 +39,27 @@ def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> l
     assumptions = told.uncertainty.get("assumptions", {})
     intervals = told.uncertainty.get("intervals", {})
     requirements = lines_of(answer, table, assumptions, intervals)
-    top = [*header(answer, told.seconds, width), *_some(requirements, width)]
+    head, top = header(answer, told.seconds, width), []
     if answer.found:
+        top += qualification_lines(answer, table, width)
         top += module_lines(answer, table, intervals, width)
         top += chosen_lines(answer, table, width) + current_lines(answer, width)
         top += trade_lines(told.front, table, width)
         top += held_back_lines(answer, width)
     bottom = yield_lines(answer, told.uncertainty, width, timed=told.seconds is not None)
-    left = LINES - AFTER - len(top) - len(bottom)
-    return [*top, *warning_lines(warnings_of(answer, table, told.doubts), width, max(left, 1)), *bottom]
+    left = LINES - AFTER - len(head) - len(top) - len(bottom)
+    asked = _some(requirements, width, min(_REQUIREMENTS, left - 1))
+    left -= len(asked)
+    return [*head, *asked, *top, *warning_lines(warnings_of(answer, table, told.doubts), width, max(left, 1)), *bottom]
 
 
-def _some(requirements: Sequence[Line], width: int) -> list[str]:
-    """The requirements; of very many, those with the least margin, and how many more there are."""
+def _some(requirements: Sequence[Line], width: int, most: int) -> list[str]:
+    """The requirements; of more than `most` lines hold, those with the least margin, and how many more there are."""
     by_margin = sorted(requirements, key=lambda line: line.least)
     for count in range(len(requirements), 0, -1):
         least = by_margin[:count]
         lines = screen_lines([line for line in requirements if line in least], width)
         lines += [f"{len(requirements) - count} more with larger margins: --full"] if count < len(requirements) else []
-        if len(lines) <= _REQUIREMENTS:
+        if len(lines) <= most:
             return lines
     return []

@@ -26,18 +26,34 @@ def header(answer: StudyResult, seconds: float | None, width: int) -> list[str]:
 
 def status(answer: StudyResult) -> str:
     """What a study came to, in capitals."""
-    broken = sum(not check.kept for check in answer.checks)
     if not answer.found:
         return "NO DESIGN FOUND"
-    if answer.solution is not None:
-        return "OPTIMAL"
+    return _of_evaluation(answer) if answer.solution is None else _of_optimum(answer)
+
+
+def _of_evaluation(answer: StudyResult) -> str:
+    """Never soft, limits broken, limits that history decides, ratings exceeded: the first of these."""
+    broken = sum(not check.kept for check in answer.checks)
     if math.isinf(answer.design.value("response_time")):
         return "EVALUATED, NEVER SOFT"
     if broken:
         return f"EVALUATED, {broken} OF {len(answer.checks)} LIMITS BROKEN"
     if answer.undecided:
         return f"EVALUATED, HISTORY DECIDES {len(answer.undecided)} LIMITS"
-    return "EVALUATED, ALL LIMITS KEPT"
+    return f"EVALUATED, {_of_ratings(answer) or 'ALL LIMITS KEPT'}"
+
+
+def _of_optimum(answer: StudyResult) -> str:
+    """Optimal within the ratings, or beyond those that the study accepts; else the ratings that it does not."""
+    said = _of_ratings(answer)
+    return said if answer.design.above_rating else f"OPTIMAL{said and ', '}{said}"
+
+
+def _of_ratings(answer: StudyResult) -> str:
+    """The ratings that are exceeded and not accepted, else those that are accepted; empty where none is exceeded."""
+    if answer.design.above_rating:
+        return f"ABOVE RATING, NOT ACCEPTED: {', '.join(answer.design.above_rating)}"
+    return f"ACCEPTING: {', '.join(answer.design.accepting)}" if answer.design.accepting else ""
 
 
 def starts(answer: StudyResult) -> Iterator[str]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Table
 from tvimdesign.report.run.first_screen.layout import LABEL, block
-from tvimdesign.report.run.first_screen.mending import VARY, filled, hints, mending
+from tvimdesign.report.run.first_screen.mending import VARY, filled, hint, hints, mending
 from tvimdesign.report.run.infeasible_report import endings
 from tvimdesign.solve.result import StudyResult
 
@@ -40,8 +40,12 @@ def _other(kind: str, **places: str) -> Warned:
 def _of_advice(answer: StudyResult, table: Table) -> Iterator[Warned]:
     for check in answer.warnings:
         value = format_quantity(check.value, table.unit(check.output))
-        reason = hints()["advice"].get(check.output, {}).get("say", check.origin)
-        yield f"{check.output} is {value}: {reason}", mending(check, answer, table)
+        text = f"{check.output} is {value}: {hint(check.output).get('say', check.origin)}"
+        mend = mending(check, answer, table)
+        if check.output in answer.design.above_rating:
+            accept = f"accept: [{check.output}]"
+            mend = f"{mend} or {accept}" if mend else accept
+        yield text, mend
 
 
 def _of_the_switch(answer: StudyResult) -> Iterator[Warned]:

@@ -1,0 +1,67 @@
+"""Values that an idealization gave are named, with what the drawn module has instead."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+import pytest
+from support import ROOT
+
+from tvimdesign.device import table_for
+from tvimdesign.report.output.tables import results, results_csv
+from tvimdesign.report.run.first_screen.qualifications import qualification_lines
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import read_study, read_study_text
+
+TABLE = table_for("shear")
+
+
+@pytest.fixture(scope="module")
+def published() -> StudyResult:
+    return answer(read_study(ROOT / "studies/paper_as_published.yaml"))
+
+
+def test_the_papers_ratio_is_told_with_the_stiffness_as_drawn(published: StudyResult) -> None:
+    by = {one.text: one.as_drawn for one in published.idealizations}
+    assert list(by) == ["leg_model: ignored", "transmission: unity"]
+    # An independent reading of the drawn module found 4.53 N*m/rad at rest and 4.09 at full stroke, for 5.61.
+    drawn = by["transmission: unity"]
+    assert drawn["spring_stiffness"] == pytest.approx(4.53, abs=0.005)
+    assert drawn["least_spring_stiffness"] == pytest.approx(4.09, abs=0.005)
+    assert "envelope_diameter" not in drawn
+    assert "layer_strain" not in drawn
+
+
+def test_they_are_marked_where_they_are_told(published: StudyResult) -> None:
+    reported = results(published, TABLE)
+    rows = {row["name"]: row for row in csv.DictReader(io.StringIO(results_csv(reported["values"])))}
+    assert rows["spring_stiffness"]["idealized"] == "leg_model: ignored, transmission: unity"
+    assert rows["spring_rate"]["idealized"] == "leg_model: ignored"
+    assert rows["envelope_diameter"]["idealized"] == ""
+    (unity,) = [one for one in reported["idealizations"] if one["choice"] == "transmission"]
+    assert unity["as_drawn"]["spring_stiffness"]["value"] == pytest.approx(4.53, abs=0.005)
+    lines = " ".join(" ".join(qualification_lines(published, TABLE, 100)).split())
+    assert "Idealized ~" in lines
+    assert "spring_stiffness 5.609, as drawn 4.527 N·m/rad; least_spring_stiffness 5.609, as drawn 4.088" in lines
+
+
+def test_a_study_as_drawn_has_none() -> None:
+    found = answer(read_study_text("mode: shear\n"))
+    assert found.idealizations == ()
+    assert not any(row["idealized"] for row in results(found, TABLE)["values"].values())
+
+
+def test_every_idealization_of_the_table_is_no_default_and_says_what_it_leaves_out() -> None:
+    idealized = {row.name: row for mode in ("shear", "compression") for row in table_for(mode).choices if row.idealized}
+    assert set(idealized) == {"leg_model", "transmission", "phase_model"}
+    for row in idealized.values():
+        assert row.default not in row.idealized
+        assert all(word in row.options and about for word, about in row.idealized.items())
+
+
+def test_a_layer_that_freezes_where_it_melts_changes_times_alone() -> None:
+    study = read_study_text("mode: shear\nmodule: {phase_model: equilibrium}\n")
+    (one,) = answer(study).idealizations
+    assert "stiffening_time" in one.as_drawn
+    assert "spring_stiffness" not in one.as_drawn

@@ -1,0 +1,136 @@
+"""An optimum beyond a rating is none unless its study accepts that: status, names, and what is told where."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+
+import pytest
+from support import Command
+
+from tvimdesign.device import table_for
+from tvimdesign.report.run.check_study import foreseen_ratings
+from tvimdesign.report.run.first_screen.qualifications import qualification_lines
+from tvimdesign.report.run.first_screen.verdict import status
+from tvimdesign.report.run.front_report import of_ratings, said_of_ratings
+from tvimdesign.report.run.infeasible_report import above_rating
+from tvimdesign.solve.pareto.tradeoff import Point
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import read_study_text
+from tvimdesign.study.design import Design, design_json
+
+TABLE = table_for("shear")
+# PETG, rated for 60 degC, holds pads that take the far face of the layer to 100 degC.
+SEARCHED = """
+mode: shear
+vary: {wire_diameter: [1.5 mm, 3.2 mm]}
+require: {spring_stiffness: ">= 4 N.m/rad"}
+minimize: module_mass
+solver: {starts: 1, cells: 8}
+"""
+BOTH = ("structure_temperature_margin", "stiffening_structure_margin")
+PADS = "peltier_temperature_margin"  # of the default module, 7 K above their 120 degC
+ACCEPTED = f"accept: [{', '.join((*BOTH, PADS))}]\n"
+
+
+@cache
+def answered(accept: str = "", *, searched: bool = True) -> StudyResult:
+    text = SEARCHED + accept if searched else f"mode: shear\n{accept}"
+    return answer(read_study_text(text))
+
+
+def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
+    found = answered()
+    assert found.design.status == "above_rating"
+    assert set(found.design.above_rating) == {*BOTH, PADS}
+    assert found.design.accepting == ()
+    assert found.found  # it is a design all the same: every limit is kept
+    assert status(found) == f"ABOVE RATING, NOT ACCEPTED: {', '.join(found.design.above_rating)}"
+    said = above_rating(found, TABLE)
+    assert f"structure_temperature_margin >= 0 K, by {-found.design.value(BOTH[0]):.3g} K" in said
+    assert f"accept: [{', '.join(found.design.above_rating)}]" in said
+
+
+def test_one_that_its_study_accepts_is_and_says_what_it_accepts() -> None:
+    found = answered(ACCEPTED)
+    assert (found.design.status, found.design.above_rating) == ("optimal", ())
+    assert set(found.design.accepting) == {*BOTH, PADS}
+    assert status(found) == f"OPTIMAL, ACCEPTING: {', '.join(found.design.accepting)}"
+    assert above_rating(found, TABLE) == ""
+    assert not {check.output for check in found.warnings} & {*BOTH, PADS}
+    assert found.accepted_in_vain == ()
+
+
+def test_accepting_some_of_them_is_not_enough() -> None:
+    found = answered(f"accept: [{', '.join(BOTH)}]\n")
+    assert found.design.status == "above_rating"
+    assert (found.design.above_rating, set(found.design.accepting)) == ((PADS,), set(BOTH))
+
+
+def test_what_is_accepted_in_vain_is_told() -> None:
+    found = answered(ACCEPTED.replace("[", "[pcl_temperature_margin, "))
+    assert found.design.status == "optimal"
+    assert found.accepted_in_vain == ("pcl_temperature_margin",)
+    assert "pcl_temperature_margin: not needed" in " ".join(qualification_lines(found, TABLE, 100))
+
+
+def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
+    found = answered(searched=False)
+    assert found.design.status == "evaluated"
+    assert set(found.design.above_rating) == {*BOTH, PADS}
+    assert status(found).startswith("EVALUATED, ABOVE RATING, NOT ACCEPTED: ")
+    assert status(answered(ACCEPTED, searched=False)).startswith("EVALUATED, ACCEPTING: ")
+
+
+def test_a_cooler_switch_is_within_every_rating() -> None:
+    cool = (
+        "module: {process: machine_6061, target_temperature: 90 degC, pcl_thickness: 3 mm, response_criterion: mean}\n"
+    )
+    points = "operating_points: {hot: {temperature: 90 degC}}\n"
+    found = answer(read_study_text(f"{SEARCHED}{cool}{points}"))
+    assert (found.design.status, status(found)) == ("optimal", "OPTIMAL")
+
+
+def test_check_says_it_beforehand_of_the_module_a_search_starts_from() -> None:
+    said = foreseen_ratings(read_study_text(SEARCHED))
+    assert [line.split(" is ")[1].split(": ")[1] for line in said if "starts from" in line] == [PADS, *BOTH]
+    assert all("accept: [" in line and "An optimum may be, too." in line for line in said)
+    required = SEARCHED.replace("require: {", f'require: {{{PADS}: ">= 0 K", ')
+    assert [PADS in line for line in foreseen_ratings(read_study_text(required))] == [False, False]
+    assert foreseen_ratings(read_study_text(SEARCHED + ACCEPTED)) == []
+
+
+def test_a_design_says_it_wherever_it_is_used() -> None:
+    design = Design.model_validate_json(design_json(answered(f"accept: [{BOTH[0]}]\n").design))
+    refused, accepted = design.rating_notes
+    assert PADS in refused
+    assert "not accepted" in refused
+    assert accepted.endswith(f": {BOTH[0]}.")
+
+
+def test_a_point_of_a_front_has_its_own() -> None:
+    values, study = answered().design.values, {"accept": list(BOTH)}
+    assert of_ratings(Point("between", values, {}), study, TABLE) == {
+        "status": "above_rating", "above_rating": (PADS,), "accepting": ("structure_temperature_margin", BOTH[1]),
+    }  # fmt: skip
+    cooler = Point("between", values | {PADS: 1.0}, {})
+    assert of_ratings(cooler, study, TABLE)["status"] == "optimal"
+    assert said_of_ratings([(PADS,), ()]).startswith("points 1 of the front")
+
+
+@pytest.mark.slow
+def test_the_command_ends_with_3_and_a_whole_folder(tvimdesign: Command, tmp_path: Path) -> None:
+    for accept, code, word in (("", 3, "above_rating"), (ACCEPTED, 0, "optimal")):
+        study, out = tmp_path / f"{word}.yaml", tmp_path / word
+        study.write_text(SEARCHED + accept)
+        done = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out)
+        assert done.returncode == code, done.stderr
+        results = json.loads((out / "results.json").read_text())
+        assert results["status"] == json.loads((out / "design.json").read_text())["status"] == word
+        assert {row["output"] for row in results["above_rating" if code else "accepting"]} == {*BOTH, PADS}
+        assert json.loads((out / "manifest.json").read_text())["status"] == word
+        assert ("accept: [" in done.stderr) == bool(code)
+        tested = tvimdesign("simulate", out, "--test", "release", "--out", tmp_path / f"{word}_released")
+        assert tested.returncode == 0, tested.stderr
+        assert "beyond its rating" in tested.stdout

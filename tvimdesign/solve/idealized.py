@@ -1,0 +1,83 @@
+"""Which values of a design an idealization gave: the same module is evaluated once more without it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.errors import TvimError
+from tvimdesign.device import Choice
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.solve.nlp.constraints import on_cycle
+
+_SAME, _SAME_CYCLE = 1e-6, 2e-3
+"""Shares by which two values of an output differ by rounding, and by the integration of a working cycle."""
+
+
+@dataclass(frozen=True)
+class Idealization:
+    """A word of the study that leaves out something of the drawn part, and what the module is without it."""
+
+    choice: str
+    word: str
+    instead: str
+    """The word that leaves nothing out."""
+    leaves_out: str
+    as_drawn: dict[str, float]
+    """The outputs (SI) that are other values without it; NaN where the module cannot be evaluated so."""
+
+    @property
+    def text(self) -> str:
+        """`transmission: unity`."""
+        return f"{self.choice}: {self.word}"
+
+
+def idealizations(
+    resolved: ResolvedModule,
+    inputs: NDArray[np.float64],
+    values: Mapping[str, float],
+    current_profiles: Mapping[str, CurrentProfile],
+) -> tuple[Idealization, ...]:
+    """The idealizations of a module, each on its own; `values` are those with all of them, `inputs` in their order."""
+    table = resolved.table
+    found = []
+    for row in table.choices:
+        word = resolved.values[row.name]
+        if isinstance(word, str) and word in row.idealized:
+            without = _without(row, resolved, inputs, current_profiles)
+            changed = {name: value for name, value in without.items() if not _same(name, value, values[name], resolved)}
+            if not without:
+                needing = [other.name for other in table.outputs if row.name in table.ancestors(other.name)]
+                changed = {name: np.nan for name in values if name.partition("@")[0] in needing}
+            found.append(Idealization(row.name, word, row.default, row.idealized[word], changed))
+    return tuple(found)
+
+
+def _without(
+    row: Choice,
+    resolved: ResolvedModule,
+    inputs: NDArray[np.float64],
+    current_profiles: Mapping[str, CurrentProfile],
+) -> dict[str, float]:
+    """Every output of the module without an idealization; nothing where there is no such module."""
+    study = resolved.study
+    given = {**resolved.values, row.name: row.default}
+    try:
+        model = DeviceFunctions(resolved.table, given, resolved.points, study.solver.cells)
+        cycle = Simulator(model).run(inputs, dict(current_profiles))
+        return model.values(inputs, cycle.values)
+    except TvimError:
+        return {}
+
+
+def _same(name: str, value: float, other: float, resolved: ResolvedModule) -> bool:
+    if name not in resolved.table.by_name and name.partition("@")[0] not in resolved.table.by_name:
+        return True
+    within = _SAME_CYCLE if on_cycle(resolved.table, name) else _SAME
+    return bool(np.isclose(value, other, rtol=within, atol=0.0, equal_nan=True))

@@ -1,0 +1,56 @@
+"""What a design is beyond of what its materials and bought parts are rated for, and what that makes of an optimum."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+import numpy as np
+
+from tvimdesign.device import Path, Table
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.solve.nlp.constraints import Constraint, on_cycle, ratings_of
+from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE
+from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
+from tvimdesign.study import Study, given
+
+
+def happened(name: str, values: Mapping[str, float], table: Table) -> bool:
+    """Whether there is anything to say of an output: the peak of a phase that never began is none."""
+    peaks = (need for need in table.output(name).needs if isinstance(table.quantity(need), Path))
+    return not np.isnan(values[name]) and all(np.isfinite(values[peak]) for peak in peaks)
+
+
+def kept(limit: Constraint, value: float, table: Table) -> bool:
+    """Whether a value keeps a limit, to the precision it is computed with."""
+    tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
+    return bool(limit.residual(value) <= tolerance)
+
+
+def exceeded(values: Mapping[str, float], table: Table) -> tuple[Constraint, ...]:
+    """The ratings that a design is beyond; `values` holds every input and output in SI by full name."""
+    return tuple(
+        limit
+        for limit in ratings_of(table)
+        if happened(limit.output, values, table) and not kept(limit, values[limit.output], table)
+    )
+
+
+def sorted_by_acceptance(names: Collection[str], accept: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Ratings exceeded, those that a study does not accept and those that it does."""
+    return (
+        tuple(name for name in names if name not in accept),
+        tuple(name for name in names if name in accept),
+    )
+
+
+def exceeded_at_start(study: Study) -> dict[str, float]:
+    """What the module a study starts from is beyond and the study does not accept: value (SI) by the rating's name.
+
+    One working cycle is simulated. A rating that the study requires to be kept is left out. Raises SimulationError.
+    """
+    model = DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
+    values = model.values(model.start, Simulator(model).run(model.start).values)
+    required = {one.output for one in study.require if one.sense == ">=" and one.limit >= 0.0}
+    names = (limit.output for limit in exceeded(values, study.table))
+    return {name: values[name] for name in names if name not in required and name not in study.accept}
