@@ -47,7 +47,7 @@ def active_coils(
 
 
 @quantities.helper()
-def stress_per_angle(
+def coil_stress_per_angle(
     spring_rate: Scalar,
     wire_diameter: Scalar,
     spring_index: Scalar,
@@ -55,9 +55,23 @@ def stress_per_angle(
     stress_factor: str,
     leg_model: str,
 ) -> Scalar:
-    """Largest stress in the wire per radian of winding [Pa]: at the coil's inner fibre, or in the bend of the tang."""
+    """Largest stress in the coil per radian of winding [Pa], at its inner fibre."""
     curvature = {"shigley": spring.inner_fibre_factor, "en_13906": spring.inner_fibre_factor_en}[stress_factor]
     factor = curvature(spring_index)
     if leg_model != "ignored":
-        factor = np.fmax(drawn.coil_stress_factor(drawn_spring, factor), drawn.bend_stress_factor(drawn_spring))
+        factor = drawn.coil_stress_factor(drawn_spring, factor)
     return spring.bending_stress(spring_rate, wire_diameter, factor)
+
+
+@quantities.helper()
+def bend_stress_per_angle(
+    spring_rate: Scalar,
+    wire_diameter: Scalar,
+    drawn_spring: drawn.DrawnSpring,
+    coil_stress_per_angle: Scalar,
+    leg_model: str,
+) -> Scalar:
+    """Largest stress in the bend of the tang per radian of winding [Pa]; the coil's where leg and bend are ignored."""
+    if leg_model == "ignored":
+        return coil_stress_per_angle
+    return spring.bending_stress(spring_rate, wire_diameter, drawn.bend_stress_factor(drawn_spring))

@@ -201,12 +201,6 @@ def preload_margin(preload_angle: Scalar, spring_unwinding: Scalar, spring_play:
 
 
 @quantities.output("MPa")
-def spring_stress(stress_per_angle: Scalar, spring_winding: Scalar) -> Scalar:
-    """Largest stress in the springs at full winding."""
-    return stress_per_angle * spring_winding
-
-
-@quantities.output("MPa")
 def spring_tensile_strength(wire_diameter: Scalar, spring_material: Record) -> Scalar:
     """Tensile strength of the wire at its diameter."""
     quantities = spring_material.table("strength")
@@ -224,40 +218,6 @@ def wire_range_margin(wire_diameter: Scalar, spring_material: Record) -> Scalar:
     thinnest = min(quantity["wire_diameter_from"] for quantity in quantities)
     thickest = max(quantity["wire_diameter_to"] for quantity in quantities)
     return np.fmin(wire_diameter / thinnest, thickest / wire_diameter)
-
-
-@quantities.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield"), headline=True)
-def spring_static_safety(
-    spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, spring_winding: Scalar
-) -> Scalar:
-    """Static safety of the springs: bending yield over the largest stress."""
-    return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * spring_winding)
-
-
-@quantities.output("1", Rule(sense=">=", value=1.0, reason="the spring would yield while the module is put together"))
-def spring_assembly_safety(
-    spring_yield_ratio: Scalar, spring_tensile_strength: Scalar, stress_per_angle: Scalar, preload_angle: Scalar
-) -> Scalar:
-    """Static safety while the module is put together: fitting one hand winds the other by twice the preload."""
-    return spring_yield_ratio * spring_tensile_strength / (stress_per_angle * 2.0 * np.fmax(preload_angle, 1e-6))
-
-
-@quantities.output(
-    "1", advice=(Rule(sense=">=", value=1.0, reason="the spring would break before 1e6 cycles"),), headline=True
-)
-def spring_fatigue_safety(
-    stress_per_angle: Scalar,
-    spring_winding: Scalar,
-    preload_margin: Scalar,
-    spring_tensile_strength: Scalar,
-    spring_fatigue_ratio: Scalar,
-) -> Scalar:
-    """Fatigue safety of the springs for 1e6 full strokes to both sides, Gerber."""
-    least = np.fmax(preload_margin, 0.0)  # a spring without preload lifts off; it does not unwind further
-    amplitude = 0.5 * stress_per_angle * (spring_winding - least)
-    mean = 0.5 * stress_per_angle * (spring_winding + least)
-    endurance = spring.endurance_strength(spring_tensile_strength, spring_fatigue_ratio)
-    return spring.gerber_safety(amplitude, mean, endurance, spring_tensile_strength)
 
 
 @quantities.output("mm")
