@@ -20,9 +20,10 @@ from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.report.output.number_entry import finite
+from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
-from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults, head
+from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults
 from tvimdesign.report.run.front_memory import FolderMemory
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
