@@ -230,7 +230,8 @@ def test_points_that_could_not_be_told_apart_are_left_out_and_that_is_said(asked
 
     Nothing here depends on a switch, so it is quick. The coils alone bend: leg and tang as drawn make it 1.9 %.
     """
-    text = "mode: shear\nmodule: {stroke: 0.104 rad, leg_model: ignored}\nvary: {coil_count: [4, 4.05]}\nsolver: {starts: 1}\n"
+    text = "mode: shear\nmodule: {stroke: 0.104 rad, leg_model: ignored}\nsolver: {starts: 1}\n"
+    text += "vary: {coil_count: [4, 4.05]}\n"
     outputs = ("springs_mass", "spring_stiffness")
     solved = Solved(f"{text}minimize: {{springs_mass: 1, spring_stiffness: 1}}\n", outputs)
     front = trace_front(solved.trade(), outputs, asked)
