@@ -4,17 +4,19 @@ numpy and nothing else: it shares no code with the package and reads plain numbe
 stands at C = (r, 0), its coil runs counterclockwise into its leg, and the rotor's pin P is beyond the leg: the leg's
 centre line is tangent to the coil's centre line (radius D/2), so the line through the pin's centre that is parallel to
 it is tangent to the circle around C of the radius e = D/2 + d/2 + pin/2. Left-hand springs are the mirror image.
-Springs: Shigley, 10th ed., 10-12.
+Springs: Shigley, 10th ed., 10-12; Castigliano's theorem, summed up along the wire.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 Numbers = Mapping[str, Any]
+FloatArray = NDArray[np.float64]
 STEP = 2e-3  # rad, of the numerical derivatives; five points, so the error is of the order of its fourth power
 NUMERICAL = 5e-4
 """Share of a limit by which it may be missed: between the angles that the product looks at, and by rounding."""
@@ -48,13 +50,98 @@ def winding(module: Numbers, angle: float) -> float:
     return float((turned + np.pi) % (2.0 * np.pi) - np.pi)
 
 
+_ROOTS, _WEIGHTS = np.polynomial.legendre.leggauss(240)
+NODES, WEIGHTS = 0.5 * (_ROOTS + 1.0), 0.5 * _WEIGHTS
+"""Gauss-Legendre on 0 to 1: exact to rounding on any piece of wire, as a coil's moment is a few dozen waves at most."""
+BEND_INDEX, BEND_ACROSS = 2.0, 1.3  # the bend's mean radius is the wire; calibrated, validation/fe_spring
+DOWN, ACROSS = np.array([0.0, 0.0, -1.0]), np.array([0.0, 1.0, 0.0])
+
+
+class Wire(NamedTuple):
+    """A spring's wire in its own axes, its coil around z, with the pin that pushes on the leg's end along `ACROSS`."""
+
+    radius: float
+    wound: float
+    climb: float
+    """Descent of the coil per radian, back from the leg [m]."""
+    pin: FloatArray
+
+    def coil(self, shares: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Moment of a unit force [m] and direction of the wire at shares of the coil, the slope left out."""
+        back = self.wound * shares
+        points = [-self.radius * np.sin(back), self.radius * np.cos(back), -self.climb * back]
+        moments = np.cross(self.pin - np.stack(points, axis=1), ACROSS)
+        return moments, np.stack([-np.cos(back), -np.sin(back), 0.0 * back], axis=1)
+
+
+def wire_of(module: Numbers) -> Wire:
+    """The wire wound up by its preload, which narrows the coil; the straight leg rises on as the coil does."""
+    free = 2.0 * np.pi * module["coil_count"]
+    wound = free + module["preload_angle"]
+    radius = 0.5 * module["coil_diameter"] * free / wound
+    arm, climb = leg(module, 0.0)[1], module["coil_pitch"] / (2.0 * np.pi)
+    return Wire(radius, wound, climb, np.array([arm, radius, climb * arm / radius]))
+
+
+def wire_length(module: Numbers) -> float:
+    """Straight wire [m] that bends as far under the force's moment about the coil: Castigliano, summed up.
+
+    At every point the moment is split into torsion and bending. The leg counts as level; the bend is a quarter circle
+    of the wire's diameter from the coil's end down, and what it moves the lever is left out. So is the product of the
+    moments about the axis and along the coil's end where both twist the bend: each bends and twists it for itself.
+    """
+    wire, poisson = wire_of(module), module["spring_poissons_ratio"]
+    arm = wire.pin[0]
+    moments, along = wire.coil(NODES)
+    (last,), (begin,) = wire.coil(np.array([1.0]))
+    turn = 0.5 * np.pi * NODES[:, None]
+    bend = np.cos(turn) * begin + np.sin(turn) * DOWN
+    side = np.cross(begin, DOWN)
+    each = [(last @ axis) * axis for axis in (begin, DOWN, side)]
+    on_leg = np.stack([0.0 * NODES, 0.0 * NODES, arm * NODES], axis=1)
+    work = (
+        arm * _work(on_leg, np.array([[1.0, 0.0, 0.0]]), poisson)
+        + wire.radius * wire.wound * _work(moments, along, poisson)
+        + 0.5 * np.pi * module["wire_diameter"] * sum(_work(moment[None, :], bend, poisson) for moment in each)
+    )
+    return float(work / arm**2)
+
+
+def _work(moments: FloatArray, along: FloatArray, poisson: float) -> float:
+    """Mean of bending^2 + (1 + nu) torsion^2 [m^2] over a piece of wire: round wire twists (1 + nu) times as far."""
+    torsion = np.sum(moments * along, axis=1)
+    bending = np.sum(moments**2, axis=1) - torsion**2
+    return float(np.sum(WEIGHTS * (bending + (1.0 + poisson) * torsion**2)))
+
+
+def stress_factors(module: Numbers) -> tuple[float, float]:
+    """Largest stress in the coil, and in the bend, over that of the moment about the axis in a straight wire [1].
+
+    In the coil the largest moment about the axis and the largest that tilts count as if at one place.
+    """
+    index = module["coil_diameter"] / module["wire_diameter"]
+    if module["leg_model"] == "ignored":
+        return inner_fibre(index), inner_fibre(index)
+    wire = wire_of(module)
+    moments, along = wire.coil(np.linspace(0.0, 1.0, 4001))
+    highest = np.hypot(moments[:, 2].max(), np.hypot(moments[:, 0], moments[:, 1]).max())
+    in_plane, across, torsion = (moments[-1] @ axis for axis in (np.cross(along[-1], DOWN), DOWN, along[-1]))
+    bent = np.hypot(inner_fibre(BEND_INDEX) * in_plane, BEND_ACROSS * across)
+    twisted = 0.5 * BEND_ACROSS * torsion  # a torque's shear stress is half of what it would be as a bending moment
+    return inner_fibre(index) * highest / wire.pin[0], np.sqrt(bent**2 + 3.0 * twisted**2) / wire.pin[0]
+
+
+def inner_fibre(index: float) -> float:
+    """Rise of the stress at the inner fibre of a bent wire, Shigley."""
+    return (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
+
+
 def rate(module: Numbers) -> float:
-    """Rate of one spring [N*m/rad], E d^4 / (64 D n_a) with n_a = n + leg / (3 pi D) where the rotor-side leg bends."""
-    coils = module["coil_count"]
+    """Rate of one spring [N*m/rad], E I over the wire's length: that of the coils, or with leg and bend as drawn."""
+    length = np.pi * module["coil_diameter"] * module["coil_count"]
     if module["leg_model"] == "bending":
-        coils += leg(module, 0.0)[1] / (3.0 * np.pi * module["coil_diameter"])
-    wire = module["wire_diameter"]
-    return float(module["spring_youngs_modulus"] * wire**4 / (64.0 * module["coil_diameter"] * coils))
+        length = wire_length(module)
+    return float(module["spring_youngs_modulus"] * np.pi * module["wire_diameter"] ** 4 / (64.0 * length))
 
 
 def energy(module: Numbers, angle: float) -> float:
@@ -85,9 +172,7 @@ def statics(module: Numbers) -> dict[str, float]:
     over = np.linspace(-stroke, stroke, 2 * ANGLES - 1)
     wound = module["preload_angle"] + np.array([winding(module, angle) for angle in over])
     stiff = np.array([stiffness(module, angle) for angle in over[ANGLES - 1 :]])
-    c = coil / wire
-    factor = (4.0 * c**2 - c - 1.0) / (4.0 * c * (c - 1.0))
-    per_angle = factor * 32.0 * rate(module) / (np.pi * wire**3)
+    per_angle = max(stress_factors(module)) * 32.0 * rate(module) / (np.pi * wire**3)
     highest, lowest = per_angle * wound.max(), per_angle * max(wound.min(), 0.0)
     strength = module["tensile_strength"]
     fatigue = module["fatigue_ratio"] * strength

@@ -115,7 +115,8 @@ def _bend(spring: DrawnSpring, poissons_ratio: Any) -> Any:
     """Integral over the quarter bend of radius d, from the coil's tangent down into the tang [m^3].
 
     The moment about the axis and the tilting moment along the tangent each bend half of it and twist the other half;
-    the tilting moment across bends it in its plane all the way.
+    the tilting moment across bends it in its plane all the way. The product of the two where both twist is left out: it
+    changes the rate by 0.3 % at most, and the FE springs are nearer without (0.30 % off in the mean square, not 0.47).
     """
     lever = spring.arm + 0.5 * spring.coil_diameter * np.sin(spring.wound)
     height = _height(spring)

@@ -186,8 +186,11 @@ def test_the_order_of_a_list_changes_nothing(found: Solution) -> None:
     assert [one.choices for one in _chosen(_solve(listed(turned))).best] == [one.choices for one in _chosen(found).best]
 
 
-def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(found: Solution) -> None:
+def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
+    found: Solution, alone: dict[tuple[float, ...], float]
+) -> None:
     choosing = _chosen(found)
+    standard = 1e3 * min(alone, key=lambda sizes: alone[sizes])[0]
     said, data = price_in_words(choosing, TABLE), choosing_data(choosing, TABLE)
     assert choosing.between is not None
     assert data is not None
@@ -196,11 +199,11 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(found: So
         share = value / choosing.between.values[name] - 1.0
         assert data["cost_of_standard_sizes"][name] == pytest.approx(share, rel=1e-9)
         assert f"{name} {share:+.1%}" in said
-    assert f"wire_diameter 2.1 mm instead of {1e3 * choosing.between.choices['wire_diameter']:.4g}" in said
+    assert f"wire_diameter {standard:.4g} mm instead of {1e3 * choosing.between.choices['wire_diameter']:.4g}" in said
     wire = data["best"][0]["choices"]["wire_diameter"]
     assert isinstance(wire, dict)
-    assert (wire["value"], wire["unit"]) == (pytest.approx(2.1), "mm")
-    assert (wire["si"]["value"], wire["si"]["unit"]) == (pytest.approx(2.1e-3), "m")
+    assert (wire["value"], wire["unit"]) == (pytest.approx(standard), "mm")
+    assert (wire["si"]["value"], wire["si"]["unit"]) == (pytest.approx(1e-3 * standard), "m")
 
 
 def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:

@@ -40,7 +40,8 @@ def _rig(text: str = "mode: shear\n") -> ResolvedModule:
 
 @pytest.fixture(scope="module")
 def resolved() -> ResolvedModule:
-    return _rig("mode: shear\nmodule: {transmission: unity, current: 2 A}\n")
+    # The textbook's spring: its coils alone bend.
+    return _rig("mode: shear\nmodule: {transmission: unity, leg_model: ignored, current: 2 A}\n")
 
 
 @pytest.fixture(scope="module")

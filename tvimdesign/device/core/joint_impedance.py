@@ -1,7 +1,7 @@
 """Stiffness and damping of the joint at its operating points: PCL, structure and springs together.
 
 Each mode says in its own room what its PCL and its structure are: `pcl_stiffness` and `pcl_damping`, and for spectra
-`pcl_moment` over `pcl_depth` times the shear modulus, in series with the lossless `elastic_support`.
+`pcl_moment` over `pcl_depth` times the shear modulus, in series with `elastic_support` and its `support_loss`.
 """
 
 from __future__ import annotations

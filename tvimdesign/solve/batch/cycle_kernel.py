@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 BLOCK = 512
 """Designs that go through the cycle together."""
-STEPS = Steps(of_pace=20, in_window=4, close=4, first=0.25)
+STEPS = Steps(of_pace=20, in_window=4, close=8, first=0.25)
 FREEZING = Steps(of_pace=40, in_window=4, close=4, first=1.0 / 16.0)
 """Steps of a phase in which the polymer has a history."""
 """With these, times are within 0.2 % of the converged simulation (tests hold that for all shipped studies)."""
