@@ -144,7 +144,7 @@ def test_a_notebook_shows_what_the_study_says(study: tvim.Study) -> None:
     assert "vary.pcl_thickness" in shown
     assert "0.6 mm to 2 mm" in shown
     assert "&gt;= 12 N.m" in shown
-    assert "optimises 12 variables" in repr(study)
+    assert "optimises 13 variables" in repr(study)
 
 
 def test_ratings_are_accepted_by_name() -> None:

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import USUAL_UNITS, format_quantity, from_si, parse_quantity, pretty, read_by_pint, to_si
+from tvimdesign.catalog.categories import CATEGORIES
 from tvimdesign.device import Choice, table_for
 
 NAMES = (
@@ -188,4 +189,10 @@ def test_the_usual_units_are_what_pint_reads() -> None:
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 def test_no_row_of_a_table_waits_for_pint(mode: str) -> None:
     units = {row.unit for row in table_for(mode).quantities if not isinstance(row, Choice)}
+    assert units <= read_by_pint().keys()
+
+
+def test_no_record_of_the_catalogue_waits_for_pint() -> None:
+    tables = (columns.units for category in CATEGORIES.values() for columns in category.tables.values())
+    units = {unit for named in (*tables, *(one.units for one in CATEGORIES.values())) for unit in named.values()}
     assert units <= read_by_pint().keys()

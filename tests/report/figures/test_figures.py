@@ -76,9 +76,9 @@ def test_a_margin_beyond_the_scale_ends_in_an_arrow_and_has_its_number() -> None
 
 def test_margins_stand_in_their_limit_s_own_unit(found: StudyResult, data: dict[str, Any]) -> None:
     rows = [row | {"unit": group["unit"]} for group in data["bounds"]["margins"] for row in group["rows"]]
-    gap = next(row for row in rows if row["name"] == "tang margin ≥ 0 mm")
+    gap = next(row for row in rows if row["name"] == "rotor spring gap ≥ 0 mm")
     assert gap["unit"] == "mm"
-    assert gap["margin"] == pytest.approx(1e3 * found.design.value("tang_margin"), rel=1e-6)
+    assert gap["margin"] == pytest.approx(1e3 * found.design.value("rotor_spring_gap"), rel=1e-6)
     angle = next(row for row in rows if row["name"] == "free angle over preload ≤ 1")
     assert angle["unit"] == "%"
     left = 1.0 - found.design.value("free_angle_over_preload")

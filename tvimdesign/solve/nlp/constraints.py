@@ -73,7 +73,8 @@ def _behind(row: Output, name: str, sense: str, options: Mapping[str, Any]) -> t
 
 
 def _part_of(table: Table, name: str) -> str:
-    return name if table.output(name).also_limited else ""
+    row = table.output(name)
+    return name if row.also_limited or row.least_of else ""
 
 
 def on_cycle(table: Table, output: str) -> bool:
