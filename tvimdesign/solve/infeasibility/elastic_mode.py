@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -62,8 +62,8 @@ class ElasticMode:
         keys = [(limit.part_of or limit.output, limit.sense, limit.limit) for limit in problem.limits]
         places = {key: place for place, key in enumerate(dict.fromkeys(keys))}
         self._slack_of = np.array([places[key] for key in keys], dtype=int)
-        self.limits = [problem.limits[keys.index(key)] for key in places]
-        """One limit for each slack: those that one requirement puts on several outputs have one in common."""
+        self.limits = [replace(problem.limits[keys.index(key)], output=key[0]) for key in places]
+        """One limit for each slack: those that one requirement puts on several outputs share one, by its name."""
         self.count, self.equations = len(self.limits), problem.equation_count
         whole = problem.function
         slacks, weights = ca.MX.sym("slacks", self.count), ca.MX.sym("weights", self.count)

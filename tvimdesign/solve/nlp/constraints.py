@@ -29,7 +29,8 @@ class Constraint:
     absolute: bool = False
     """Whether the limit has no size of its own, so that distances from it are said in its unit."""
     part_of: str = ""
-    """The output a requirement names that is put on several at once, which move together: `spring_stiffness`."""
+    """The output a requirement names that is put on several at once, which move together: `spring_stiffness`, which is
+    limited over the stroke, or `holding_torque`, the least of several."""
 
     @property
     def name(self) -> str:
@@ -73,7 +74,8 @@ def _behind(row: Output, name: str, sense: str, options: Mapping[str, Any]) -> t
 
 
 def _part_of(table: Table, name: str) -> str:
-    return name if table.output(name).also_limited else ""
+    row = table.output(name)
+    return name if row.also_limited or row.least_of else ""
 
 
 def on_cycle(table: Table, output: str) -> bool:
