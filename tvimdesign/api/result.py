@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from tvimdesign.report.output.results_format import LimitEntry, RunResults, UncertaintyEntry
+    from tvimdesign.report.output.results_format import LimitEntry, RunResults
+    from tvimdesign.report.output.uncertainty_format import UncertaintyEntry
 
 
 class NoDesignError(InfeasibleError):

@@ -13,7 +13,8 @@ from tvimdesign.study.design import Design
 if TYPE_CHECKING:
     import pandas as pd
 
-    from tvimdesign.report.output.results_format import IntervalEntry, NumberEntry
+    from tvimdesign.report.output.number_format import NumberEntry
+    from tvimdesign.report.output.uncertainty_format import IntervalEntry
 
 
 def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:

@@ -18,9 +18,9 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.number_entry import finite
+from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.results_format import head
 from tvimdesign.report.output.tables import curves_csv, number
 from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial

@@ -28,9 +28,9 @@ from tvimdesign.solve.nlp.constraints import (
 )
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress
+from tvimdesign.solve.optimizer.ratings import exceeded, happened, kept, sorted_by_acceptance
 from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
-from tvimdesign.solve.ratings import exceeded, happened, kept, sorted_by_acceptance
 from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design

@@ -13,7 +13,7 @@ import cadquery as cq
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.physics.transmission import leg_direction
+from tvimdesign.device.core.leg_on_pin import leg_azimuth
 
 VOLUME_TOLERANCE = 1e-3
 
@@ -126,7 +126,7 @@ def _leg_azimuth(dims: Dimensions, rotor_angle: float, diameter: float) -> float
     reach = dims.placement_radius - dims.pin_radius
     if not 0.0 < offset < reach:
         raise GeometryError(f"spring: its leg, {offset:.4g} mm beside its axis, cannot reach a pin {reach:.4g} mm away")
-    return float(leg_direction(dims.pin_radius, dims.placement_radius, rotor_angle, offset))
+    return leg_azimuth(dims.pin_radius, dims.placement_radius, rotor_angle, offset)
 
 
 def _directions(azimuth: float) -> tuple[cq.Vector, cq.Vector]:

@@ -12,7 +12,7 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.compare.comparison_table import Row, common_rows, lone_values, plain
 from tvimdesign.report.compare.sentence import Contest, against, ahead, conditions, held_back, standing, wins
-from tvimdesign.report.output.results_format import head
+from tvimdesign.report.output.number_format import head
 from tvimdesign.solve.pareto.front_leads import leads
 from tvimdesign.study.conditions import Entrant
 from tvimdesign.study.design import Design

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.device import Table
 from tvimdesign.report.output.number_entry import number_entry
-from tvimdesign.report.output.results_format import ChoosingEntry, Listed, NumberEntry
+from tvimdesign.report.output.number_format import NumberEntry
+from tvimdesign.report.output.results_format import ChoosingEntry, Listed
 from tvimdesign.solve.nlp.solution import Choosing, Standard
 
 _NEAR = 1e-4

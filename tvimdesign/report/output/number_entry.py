@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from tvimdesign.base.units import from_si, pretty, si_unit
-from tvimdesign.report.output.results_format import NumberEntry
+from tvimdesign.report.output.number_format import NumberEntry
 
 Ends = tuple[float | None, float | None]
 

@@ -1,4 +1,4 @@
-"""The format of results.json: its version, and the types of what stands in it, from which its JSON schema is made.
+"""The format of results.json: the types of what stands in it, from which its JSON schema is made.
 
 One unit system: every bare number is in SI. A number that people read in another unit stands under `value`, `low` and
 `high` with its `unit`, and under `si` once more in SI. What never happens is null.
@@ -8,52 +8,18 @@ from __future__ import annotations
 
 from typing import Any, Literal, NotRequired
 
-from pydantic import ConfigDict, TypeAdapter, with_config
+from pydantic import TypeAdapter
 from typing_extensions import TypedDict
 
-FORMAT: Literal[1] = 1
-"""Version of results.json, compare.json, findings.json and tolerances.json; a change that breaks a reader raises it."""
-UNITS: Literal["SI"] = "SI"
+from tvimdesign.report.output.number_format import Head, NumberEntry, closed
+from tvimdesign.report.output.uncertainty_format import UncertaintyEntry
+
 Stands = Literal["binds", "touches", "slack"]
 """How a limit stands at the optimum."""
 Shares = dict[str, float | None]
-_closed = with_config(ConfigDict(extra="forbid"))
 
 
-class Head(TypedDict):
-    """What every JSON file of results begins with."""
-
-    format: Literal[1]
-    units: Literal["SI"]
-
-
-def head() -> Head:
-    """The first entries of a JSON file of results."""
-    return {"format": FORMAT, "units": UNITS}
-
-
-@_closed
-class InSi(TypedDict):
-    """A number and what it may lie between, in SI."""
-
-    value: float | None
-    low: float | None
-    high: float | None
-    unit: str
-
-
-@_closed
-class NumberEntry(TypedDict):
-    """A number in the unit people read, and in SI. `low` and `high` are None where nothing is said of a range."""
-
-    value: float | None
-    low: float | None
-    high: float | None
-    unit: str
-    si: InSi
-
-
-@_closed
+@closed
 class ValueEntry(NumberEntry):
     """An input or an output: where it comes from, how well it is known, and what it means.
 
@@ -69,7 +35,7 @@ class ValueEntry(NumberEntry):
     idealized: str
 
 
-@_closed
+@closed
 class CheckEntry(NumberEntry):
     """A limit held against the design; the margin is a share, or in `margin_unit` where the limit has no size."""
 
@@ -81,7 +47,7 @@ class CheckEntry(NumberEntry):
     origin: str
 
 
-@_closed
+@closed
 class IdealizationEntry(TypedDict):
     """A word of the study that leaves out something of the drawn module, and the values that come out without it."""
 
@@ -92,7 +58,7 @@ class IdealizationEntry(TypedDict):
     as_drawn: dict[str, NumberEntry]
 
 
-@_closed
+@closed
 class BestConstant(TypedDict):
     """The best design with constant currents, where the study lets them follow a profile."""
 
@@ -100,7 +66,7 @@ class BestConstant(TypedDict):
     values: dict[str, ValueEntry]
 
 
-@_closed
+@closed
 class CurrentProfileEntry(TypedDict):
     """A current that is not constant: straight between these moments."""
 
@@ -108,7 +74,7 @@ class CurrentProfileEntry(TypedDict):
     currents: list[float]
 
 
-@_closed
+@closed
 class Yield(TypedDict):
     """What modules drawn at random keep of a design of which a yield was asked for."""
 
@@ -117,7 +83,7 @@ class Yield(TypedDict):
     together: float
 
 
-@_closed
+@closed
 class Listed(TypedDict):
     """One combination of what is listed: its choices, words or numbers, and what it comes to."""
 
@@ -126,7 +92,7 @@ class Listed(TypedDict):
     outputs: dict[str, str | NumberEntry]
 
 
-@_closed
+@closed
 class ChoosingEntry(TypedDict):
     """How listed choices were searched."""
 
@@ -145,7 +111,7 @@ class ChoosingEntry(TypedDict):
     cost_of_standard_sizes: dict[str, float]
 
 
-@_closed
+@closed
 class StartEntry(TypedDict):
     """One run of the solver."""
 
@@ -161,7 +127,7 @@ class StartEntry(TypedDict):
     second_try: bool
 
 
-@_closed
+@closed
 class ActiveConstraintEntry(TypedDict):
     """A limit or an end of a range at the optimum, and what a step of it costs, in percent."""
 
@@ -177,7 +143,7 @@ class ActiveConstraintEntry(TypedDict):
     sensitivity: Shares
 
 
-@_closed
+@closed
 class Search(TypedDict):
     """How the optimum was found."""
 
@@ -188,7 +154,7 @@ class Search(TypedDict):
     active_constraints: list[ActiveConstraintEntry]
 
 
-@_closed
+@closed
 class LimitEntry(TypedDict):
     """A limit at the optimum in the words of why.csv: how it stands, its margin, and what a step of it costs."""
 
@@ -202,7 +168,7 @@ class LimitEntry(TypedDict):
     sensitivity: dict[str, float]
 
 
-@_closed
+@closed
 class Why(TypedDict):
     """Why this design."""
 
@@ -210,7 +176,7 @@ class Why(TypedDict):
     sentences: list[str]
 
 
-@_closed
+@closed
 class Optimum(TypedDict):
     """One optimum: its objective, the first start that found it, how many did, and its free numbers (SI)."""
 
@@ -220,7 +186,7 @@ class Optimum(TypedDict):
     at: dict[str, float]
 
 
-@_closed
+@closed
 class Starts(TypedDict):
     """What became of the starts."""
 
@@ -231,7 +197,7 @@ class Starts(TypedDict):
     not_converged: list[dict[str, Any]]
 
 
-@_closed
+@closed
 class SideEntry(TypedDict):
     """One limit of a conflict."""
 
@@ -242,7 +208,7 @@ class SideEntry(TypedDict):
     not_enough_for: list[str]
 
 
-@_closed
+@closed
 class Conflict(TypedDict):
     """Limits that cannot hold together, and what the design that comes closest breaks."""
 
@@ -259,7 +225,7 @@ class _FrontPoint(TypedDict):
     si: Shares
 
 
-@_closed
+@closed
 class FrontPoint(_FrontPoint):
     """A point of a front: its outputs and variables in their units and in SI, and the file of its design."""
 
@@ -267,7 +233,7 @@ class FrontPoint(_FrontPoint):
     above_rating: NotRequired[list[str]]
 
 
-@_closed
+@closed
 class FrontEntry(TypedDict):
     """A front; `units_of_values` are those of the points' `values`, `knee` is the number of a point."""
 
@@ -283,55 +249,7 @@ class FrontEntry(TypedDict):
     notes: list[str]
 
 
-@_closed
-class IntervalEntry(NumberEntry):
-    """What an output may be, given what nobody has measured: between `low` and `high` with 95 %, all moved together."""
-
-    one_at_a_time: NumberEntry
-    """Least and largest with one input at an end of its range."""
-    shares: dict[str, float]
-    """Share of the variance that knowing one input would take away; the first is what to measure first."""
-    to_halve: list[str]
-    """The fewest inputs to measure for half the width; none where no few do it."""
-
-
-@_closed
-class UnmeasuredEntry(NumberEntry):
-    """An input that nobody has measured, and the range it was moved in."""
-
-    name: str
-    status: str
-
-
-@_closed
-class ShareEntry(TypedDict):
-    """A share of what was drawn, and between what it lies with 95 %."""
-
-    share: float
-    low: float
-    high: float
-
-
-@_closed
-class UncertaintyEntry(TypedDict):
-    """How sure a design is: what varies from part to part, and, apart from it, what nobody has measured."""
-
-    parts_yield: ShareEntry | None
-    """Modules that keep the limits, parts within their tolerances and all else as assumed."""
-    modules: int
-    limits: int
-    left_out: list[str]
-    tolerances: Literal["study", "standard"]
-    ranges_hold: ShareEntry | None
-    """Share of the ranges of what nobody has measured in which every limit is kept, parts as drawn."""
-    draws: int
-    held: dict[str, float]
-    """That share for each limit that is not always kept, the least first."""
-    intervals: dict[str, IntervalEntry]
-    unmeasured: list[UnmeasuredEntry]
-
-
-@_closed
+@closed
 class Parts(TypedDict):
     """The parts: checks on the solids, files, and what is to be said of them."""
 
@@ -363,7 +281,7 @@ class Answered(Head):
     solution: Search | None
 
 
-@_closed
+@closed
 class RunResults(Answered):
     """What a run came to: results.json, and with `folder` and `not_done` the output of `run --json`."""
 
@@ -379,7 +297,7 @@ class RunResults(Answered):
     not_done: NotRequired[list[str]]
 
 
-@_closed
+@closed
 class RefusedRun(Head):
     """What is left of a run whose study was refused before there was any design: the reason."""
 

@@ -12,8 +12,9 @@ from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
+from tvimdesign.report.output.results_format import RunResults
 from tvimdesign.report.output.tables import results
+from tvimdesign.report.output.uncertainty_format import UncertaintyEntry
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
 from tvimdesign.report.run.why import why

@@ -49,7 +49,7 @@ def describe(study: Study) -> str:
 
 def foreseen_ratings(study: Study) -> list[str]:
     """Ratings that the module the study starts from is beyond and the study neither accepts nor excludes."""
-    from tvimdesign.solve.ratings import exceeded_at_start
+    from tvimdesign.solve.optimizer.ratings import exceeded_at_start
 
     try:
         found = exceeded_at_start(study)

@@ -20,16 +20,17 @@ from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.report.output.number_entry import finite
+from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
-from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults, head
+from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults
 from tvimdesign.report.run.front_memory import FolderMemory
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.ratings import exceeded, sorted_by_acceptance
 from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, OPTIMAL
 from tvimdesign.solve.pareto.front import Front, completed, trace_front
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
-from tvimdesign.solve.ratings import exceeded, sorted_by_acceptance
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design, design_json

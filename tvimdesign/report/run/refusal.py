@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.report.output.number_format import FORMAT, UNITS
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.results_format import FORMAT, UNITS, RefusedRun
+from tvimdesign.report.output.results_format import RefusedRun
 from tvimdesign.study import Study
 from tvimdesign.study.tree import StudyTree, study_file
 

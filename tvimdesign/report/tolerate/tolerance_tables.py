@@ -10,7 +10,7 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty, si_unit, to_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.results_format import head
+from tvimdesign.report.output.number_format import head
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread
 from tvimdesign.study import Study
