@@ -85,7 +85,8 @@ def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
 
 def test_a_cooler_switch_is_within_every_rating() -> None:
     cool = (
-        "module: {process: machine_6061, target_temperature: 90 degC, pcl_thickness: 3 mm, response_criterion: mean}\n"
+        "module: {process: machine_6061, target_temperature: 90 degC, pcl_thickness: 3 mm, response_criterion: mean, "
+        "current: 1.1 A}\n"  # at 1.5 A the pads become hotter than they are rated for
     )
     points = "operating_points: {hot: {temperature: 90 degC}}\n"
     found = answer(read_study_text(f"{SEARCHED}{cool}{points}"))

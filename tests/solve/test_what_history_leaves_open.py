@@ -26,7 +26,9 @@ def liquid_impedance(found: StudyResult, celsius: float) -> complex:
     omega = 2j * np.pi
     modulus = sum(plateau * omega * shift * time / (1.0 + omega * shift * time) for time, plateau in modes)
     layer = modulus * value("layer_polar_moment") / value("pcl_thickness")
-    return complex(value("spring_stiffness") + 1.0 / (1.0 / layer + 1.0 / value("structure_stiffness")))
+    loss_factor = value("structure_loss_factor") + value("clamped_loss_factor")
+    structure = value("structure_stiffness") * complex(1.0, loss_factor)
+    return complex(value("spring_stiffness") + 1.0 / (1.0 / layer + 1.0 / structure))
 
 
 @pytest.mark.slow

@@ -38,11 +38,13 @@ def impedance_of(model: DeviceFunctions, value: Callable[[str], float]) -> Calla
         {**model.words, **{name: float(model.start[i]) for name, i in model.index.items()}}, ["pcl_rheology"]
     )["pcl_rheology"]
     angular = 2.0 * np.pi * value("frequency@cold")
+    loss_factor = value("structure_loss_factor") + value("clamped_loss_factor")
+    structure = value("structure_stiffness") * complex(1.0, loss_factor)
 
     def at(celsius: Array, frozen: Array) -> float:
         storage, loss = polymer.moduli(celsius + 273.15, frozen, angular, rheology)
         compliance = np.mean(1.0 / (storage + 1j * loss)) * value("pcl_thickness") / value("layer_polar_moment")
-        return float(abs(value("spring_stiffness") + 1.0 / (compliance + 1.0 / value("structure_stiffness"))))
+        return float(abs(value("spring_stiffness") + 1.0 / (compliance + 1.0 / structure)))
 
     return at
 
@@ -82,10 +84,13 @@ def another_cycle(model: DeviceFunctions) -> AnotherCycle:
     "design", [pytest.param(name, marks=[] if name == "thin" else pytest.mark.slow) for name in DESIGNS]
 )
 def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cells(
-    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
+    design: str, build: Callable[..., DeviceFunctions]
 ) -> None:
-    values, another = switch_of(design).values, another_cycle(build(design))
-    assert 10 * build(design).cells == CELLS
+    # Eight cells in the rotor leave 1.05 % in the sooner time of the thin layer, 16 leave 0.29 %, 32 leave 0.10 %;
+    # more than twelve in the layer change less than 0.02 %.
+    model = build(design, rotor_cells=16)
+    values, another = fine(model).run(model.start).values, another_cycle(model)
+    assert 10 * model.cells == CELLS
     assert values["response_time"] == pytest.approx(another.heated, rel=0.01)
     assert values["stiffening_time"] == pytest.approx(another.kinetic, rel=0.01)
     assert values["equilibrium_stiffening_time"] == pytest.approx(another.equilibrium, rel=0.01)

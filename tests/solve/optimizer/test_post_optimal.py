@@ -62,7 +62,13 @@ def _moved(study: Study, held: ActiveConstraint, share: float) -> Study:
         assert isinstance(vary, Range)
         end = {"upper": vary.upper * factor} if sense == "<=" else {"lower": vary.lower * factor}
         return study.model_copy(update={"vary": {**study.vary, output: vary.model_copy(update=end)}})
-    require = [r.model_copy(update={"limit": r.limit * factor}) if r.output == output else r for r in study.require]
+    require = [
+        r.model_copy(update={"limit": r.limit * factor})
+        if output in (r.output, *TABLE.output(r.output).also_limited)
+        else r
+        for r in study.require
+    ]
+    assert require != list(study.require)
     return study.model_copy(update={"require": tuple(require)})
 
 
@@ -119,10 +125,13 @@ def test_a_variable_nothing_depends_on_hides_no_saving() -> None:
 
 def test_of_a_limit_that_is_written_twice_no_saving_is_claimed() -> None:
     study = _study()
-    twice = study.model_copy(update={"require": (*study.require, study.require[0])})
+    again = study.require[0].model_copy(update={"output": "least_spring_stiffness"})
+    twice = study.model_copy(update={"require": (*study.require, again)})
     alone = {held.name: held.sensitivity for held in _active(study)}
+    both = [held for held in _active(twice) if held.name == "spring_stiffness_full_stroke >="]
+    assert len(both) == 2
     for held in _active(twice):
-        if held.name == "spring_stiffness >=":
+        if held.name == "spring_stiffness_full_stroke >=":
             assert held.sensitivity == {}
         elif held.shadow_price > 1e-3:
             assert held.sensitivity == pytest.approx(alone[held.name], rel=1e-4, abs=1e-6), held.text

@@ -62,10 +62,8 @@ class ElasticMode:
         keys = [(limit.part_of or limit.output, limit.sense, limit.limit) for limit in problem.limits]
         places = {key: place for place, key in enumerate(dict.fromkeys(keys))}
         self._slack_of = np.array([places[key] for key in keys], dtype=int)
-        firsts = [problem.limits[keys.index(key)] for key in places]
-        self.limits = [replace(limit, output=limit.part_of or limit.output) for limit in firsts]
-        """One limit for each slack, on the output that the study names: what one requirement puts on several outputs
-        has one slack in common."""
+        self.limits = [replace(problem.limits[keys.index(key)], output=key[0]) for key in places]
+        """One limit for each slack: those that one requirement puts on several outputs share one, by its name."""
         self.count, self.equations = len(self.limits), problem.equation_count
         whole = problem.function
         slacks, weights = ca.MX.sym("slacks", self.count), ca.MX.sym("weights", self.count)

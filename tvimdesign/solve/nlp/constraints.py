@@ -29,7 +29,8 @@ class Constraint:
     absolute: bool = False
     """Whether the limit has no size of its own, so that distances from it are said in its unit."""
     part_of: str = ""
-    """The output a requirement names that is put on several at once, which move together: `spring_stiffness`."""
+    """The output a requirement names that is put on several at once, which move together: `spring_stiffness`, which is
+    limited over the stroke, or `holding_torque`, the least of several."""
 
     @property
     def name(self) -> str:

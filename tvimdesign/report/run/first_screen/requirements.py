@@ -98,7 +98,8 @@ def _of_checks(
     if name in answer.intervals:
         got = value_text(answer, name, table)
     elif check.absolute and abs(check.margin) <= NOTHING and check.output == name:
-        got = number(from_si(check.value + _beyond(check), table.unit(name)))  # as good as on its limit
+        on_limit = from_si(check.value + _beyond(check), table.unit(name))  # as good as on its limit
+        got = number(0.0 if abs(on_limit) < _ROUND else on_limit)
     else:
         got = number(0.0 if abs(value) < _ROUND else value)
         if also := table.output(name).also_limited:
