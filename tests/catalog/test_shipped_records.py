@@ -22,24 +22,8 @@ def test_nothing_lacks_unit_source_or_status() -> None:
     assert check_records(CATALOG) == []
 
 
-def test_every_shelf_has_its_records() -> None:
-    assert {category: len(CATALOG.names(category)) for category in CATEGORIES} == {
-        "spring_materials": 9,
-        "structure_materials": 5,
-        "processes": 5,
-        "screws": 8,
-        "inserts": 4,
-        "dowel_pins": 7,
-        "adhesives": 1,
-        "bearings": 18,
-        "polymers": 2,
-        "peltiers": 4,
-        "sensor_flanges": 4,
-        "motors": 3,
-        "encoders": 2,
-        "wires": 2,
-        "wave_springs": 19,
-    }
+def test_every_category_has_records() -> None:
+    assert [category for category in CATEGORIES if not CATALOG.names(category)] == []
 
 
 def test_a_record_has_what_its_shelf_requires() -> None:
