@@ -112,9 +112,8 @@ def _check_inputs(design: Design, shown: str) -> None:
     """Raise InputError where an input of the design is not within the limits of its row."""
     for row in table_for(design.mode).inputs:
         if not row.per_point and row.name not in design.values:
-            raise InputError(
-                f"{shown} has no {row.name}: another version wrote it; write it anew with `tvimdesign run` from its study"
-            )
+            anew = "another version wrote it; write it anew with `tvimdesign run` from its study"
+            raise InputError(f"{shown} has no {row.name}: {anew}")
         value = design.values.get(row.name, row.lower if row.per_point else math.nan)
         margin = 1e-9 * max(abs(row.lower), abs(row.upper)) if math.isfinite(row.upper) else 0.0
         if not row.lower - margin <= value <= row.upper + margin:
