@@ -201,7 +201,7 @@ def test_what_is_assumed_is_told_with_its_range() -> None:
         record = CATALOG.record(*item)
         for name, entry in record.entries.items():
             if entry.status == "assumed":
-                assert entry.low is not None and entry.high is not None, name  # noqa: PT018
+                assert None not in (entry.low, entry.high), name
                 assert entry.low <= entry.value <= entry.high, name
                 assert entry.low < entry.high or "no limit" in entry.source, name
         for name, table in record.tables.items():

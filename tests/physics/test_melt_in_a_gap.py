@@ -45,7 +45,7 @@ def test_a_strip_is_squeezed_as_long_as_reynolds_equation_says() -> None:
     def done(_: float, h: np.ndarray) -> float:
         return float(h[0]) - end
 
-    done.terminal = True  # type: ignore[attr-defined]
+    done.terminal = True
     run = solve_ivp(closing, (0.0, 1e4), [start], events=done, rtol=1e-7, atol=1e-12)
     found = melt_flow.squeeze_time(force, viscosity, length, width, end, start)
     assert found == pytest.approx(run.t_events[0][0], rel=1e-3)

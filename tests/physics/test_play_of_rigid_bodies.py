@@ -20,7 +20,10 @@ def largest_turn(arm: float, leaning: bool) -> float:
 
     def clear(moved: np.ndarray) -> np.ndarray:
         aside, ahead, turn, lean_x, lean_y = moved * 1e-3
-        at = lambda z, x: np.array([aside + lean_y * z, ahead - lean_x * z + turn * x])  # noqa: E731
+
+        def at(z: float, x: float) -> np.ndarray:
+            return np.array([aside + lean_y * z, ahead - lean_x * z + turn * x])
+
         tang = [TANG**2 - np.sum(at(z, LEVER) ** 2) for z in (0.0, -LENGTH)]
         post = [POST**2 - np.sum(at(z, 0.0) ** 2) for z in LEVELS]
         return np.array([*tang, *post]) * 1e6

@@ -37,7 +37,7 @@ def test_what_surrounds_a_module_is_not_chosen() -> None:
     for name in ("ambient_temperature", "sink_contact", "hot_contact", "rotor_contact", "cold_side_coefficient",
                  "sink_coefficient", "rotor_coefficient", "surface_emissivity", "adjuster_friction"):  # fmt: skip
         row = INPUTS[name]
-        assert row.low is not None and row.high is not None, name  # noqa: PT018
+        assert None not in (row.low, row.high), name
         assert row.low < row.high, name
 
 
@@ -63,5 +63,5 @@ def test_a_viscosity_is_moved_once_by_the_record_s_range_and_not_by_the_factor_t
     choice = TABLES[0].quantity("pcl_grade")
     assert isinstance(choice, Choice)
     entry = Catalog().record(choice.category or "", choice.default).entry("zero_shear_viscosity")
-    assert entry.low is not None and entry.high is not None  # noqa: PT018
+    assert None not in (entry.low, entry.high)
     assert entry.low < entry.value < entry.high

@@ -13,6 +13,7 @@ import json
 import signal
 import subprocess
 import sys
+from importlib import import_module
 from types import TracebackType
 from typing import Any
 
@@ -67,8 +68,8 @@ def main() -> None:
     """Compile for the study, wait for its design, print what there is to say of that."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a third of the time; the process is short
-    from scipy import special, stats  # noqa: F401  # loaded while the solver works, used when modules are drawn
-
+    for needed in ("scipy.special", "scipy.stats"):  # loaded while the solver works, used when modules are drawn
+        import_module(needed)
     from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
 
     uncertainty = Uncertainty(Study.model_validate_json(sys.stdin.readline()))
