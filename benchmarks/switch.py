@@ -23,7 +23,9 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.device import table_for
 from tvimdesign.device.core import thermal_stack
-from tvimdesign.physics import heat, layer, polymer
+from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions

@@ -27,14 +27,14 @@ def _public(module: Path) -> list[str]:
 
 
 def test_every_equation_in_physics_has_a_page() -> None:
-    names = [name for module in sorted((ROOT / "tvimdesign/physics").glob("*.py")) for name in _public(module)]
+    names = [name for module in sorted((ROOT / "tvimdesign/physics").rglob("*.py")) for name in _public(module)]
     assert len(names) > 100
     without = [name for name in names if f"`{name}`" not in THEORY]
     assert not without, f"docs/theory does not name: {', '.join(without)}"
 
 
 def test_the_theory_names_no_equation_that_is_gone() -> None:
-    modules = {module.stem: _public(module) for module in (ROOT / "tvimdesign/physics").glob("*.py")}
+    modules = {module.stem: _public(module) for module in (ROOT / "tvimdesign/physics").rglob("*.py")}
     named = re.findall(r"`(\w+)\.(\w+)`", THEORY)
     gone = [f"{stem}.{name}" for stem, name in named if stem in modules and f"{stem}.{name}" not in modules[stem]]
     assert not gone

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.physics import crystallization, motion
-from tvimdesign.physics.peltier import PeltierModule
+from tvimdesign.physics.heat_flow.peltier import PeltierModule
+from tvimdesign.physics.motions import motion
+from tvimdesign.physics.polymers import crystallization
 
 
 def half_time(temperature_kelvin: Any, kinetics: crystallization.Kinetics) -> Any:

@@ -10,7 +10,8 @@ from hypothesis import settings
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from tvimdesign.physics import heat, peltier, polymer
+from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.physics.polymers import polymer
 
 # A slow machine is no mistake in the equations.
 settings.register_profile("no deadline", deadline=None)

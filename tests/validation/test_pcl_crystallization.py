@@ -14,7 +14,7 @@ from scipy.integrate import cumulative_trapezoid, solve_ivp
 from scipy.optimize import least_squares
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics import crystallization, polymer
+from tvimdesign.physics.polymers import crystallization, polymer
 
 Array = NDArray[np.float64]
 CELSIUS = 273.15

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from tvimdesign.device import table_for
 from tvimdesign.device.core.joint_impedance import melt_modes
-from tvimdesign.physics import polymer
+from tvimdesign.physics.polymers import polymer
 
 TABLE = table_for("shear")
 HERTZ = 3.0

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import quad
 
 from tvimdesign.device import table_for
-from tvimdesign.physics import large_strain, polymer
+from tvimdesign.physics.polymers import large_strain, polymer
 from tvimdesign.study import given, read_study_text
 
 ROWS = ["hot_stiffness_at_stroke", "hot_damping_at_stroke", "hot_damping_at_stroke_least", "melt_stress",

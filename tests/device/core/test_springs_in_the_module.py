@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.physics import drawn_spring
+from tvimdesign.physics.springs import drawn_spring
 
 TABLE = table_for("shear")
 WANTED = ("spring_stiffness", "spring_winding", "spring_unwinding", "preload_margin", "spring_rate", "spring_stress",

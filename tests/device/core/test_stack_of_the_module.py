@@ -8,7 +8,7 @@ import pytest
 from tvimdesign.device import table_for
 from tvimdesign.device.core import softening
 from tvimdesign.device.table.phases import EQUILIBRIUM_STIFFENING, SOFTENING, STIFFENING
-from tvimdesign.physics import heat
+from tvimdesign.physics.heat_flow import heat
 
 TABLE = table_for("shear")
 SPAN, INNER, OUTER = 0.85, 26e-3, 40e-3

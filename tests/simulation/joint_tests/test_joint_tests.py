@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tvimdesign.physics import polymer
+from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.joint_tests import sine as sine_test
 from tvimdesign.simulation.joint_tests import step_test

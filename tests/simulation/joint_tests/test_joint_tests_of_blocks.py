@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support import ROOT
 
-from tvimdesign.physics import one_sided
+from tvimdesign.physics.motions import one_sided
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.joint_tests import joint_motion, step_test

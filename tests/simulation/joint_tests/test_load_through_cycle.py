@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics import slices
+from tvimdesign.physics.layers import slices
 from tvimdesign.simulation.joint_tests.load_through_cycle import (
     Carried,
     Changing,

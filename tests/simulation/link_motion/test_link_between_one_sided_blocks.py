@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from tvimdesign.physics import motion, one_sided
-from tvimdesign.physics.one_sided import Blocks
+from tvimdesign.physics.motions import motion, one_sided
+from tvimdesign.physics.motions.one_sided import Blocks
 from tvimdesign.simulation.link_motion import contact, link
 
 Array = NDArray[np.float64]

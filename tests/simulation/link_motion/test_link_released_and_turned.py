@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from tvimdesign.physics import motion
+from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.linear_system import doubling, times_of
 

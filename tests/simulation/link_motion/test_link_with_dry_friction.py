@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from tvimdesign.physics import motion
+from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.link_motion.contact_simulation import OneSided, turns_of
 from tvimdesign.simulation.link_motion.dry_friction import Plant, released

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics import polymer
+from tvimdesign.physics.polymers import polymer
 from tvimdesign.report.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.rheometer import oscillation, transient
 from tvimdesign.simulation.rheometer.specimen import specimen, specimens

@@ -12,8 +12,9 @@ from tvimdesign.device.compression.block_impedance import blocks_moment
 from tvimdesign.device.core.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import film, heat
-from tvimdesign.physics.shapes import Section
+from tvimdesign.physics.bodies.shapes import Section
+from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.layers import film
 
 quantities = QuantityGroup(shared.group)
 

@@ -11,8 +11,9 @@ import numpy as np
 from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import block, hold, layer, structure, vane
-from tvimdesign.physics.motion import Modes
+from tvimdesign.physics.layers import block, hold, layer
+from tvimdesign.physics.motions.motion import Modes
+from tvimdesign.physics.solids import structure, vane
 
 quantities = QuantityGroup(shared.group)
 

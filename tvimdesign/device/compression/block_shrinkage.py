@@ -11,7 +11,7 @@ from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.shrinkage import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import shrinkage
+from tvimdesign.physics.polymers import shrinkage
 
 places, quantities = QuantityGroup(layout.group), QuantityGroup(shared.group)
 groups = (places, quantities)

@@ -8,7 +8,7 @@ from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.clearances import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import block
+from tvimdesign.physics.layers import block
 
 quantities = QuantityGroup(shared.group)
 

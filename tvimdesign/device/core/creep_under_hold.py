@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import block, hold, one_sided
-from tvimdesign.physics.motion import Modes
-from tvimdesign.physics.one_sided import Touching
+from tvimdesign.physics.layers import block, hold
+from tvimdesign.physics.motions import one_sided
+from tvimdesign.physics.motions.motion import Modes
+from tvimdesign.physics.motions.one_sided import Touching
 
 quantities = QuantityGroup("Hold")
 

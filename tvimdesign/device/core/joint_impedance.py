@@ -12,7 +12,10 @@ from tvimdesign.base.record import Record
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import crystallization, dynamics, layer, motion, peg, polymer, structure
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.motions import dynamics, motion
+from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.solids import peg, structure
 
 quantities = QuantityGroup("Impedance")
 

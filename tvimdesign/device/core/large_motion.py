@@ -1,9 +1,9 @@
 """The molten joint over its whole stroke, not only in small motions: stiffness, damping, and the stress in the melt.
 
 An oscillation to the full stroke at the hot point's temperature and frequency. The melt remembers a fraction of a
-second, so it is strained less than the stroke says (Wagner's equation, `physics/large_strain.py`). Each mode says in
-its own room what its strains are: `stroke_strains`, (strain [1], share of the small-motion torque [1]) at nodes, and
-`largest_melt_strain`.
+second, so it is strained less than the stroke says (Wagner's equation, `physics/polymers/large_strain.py`). Each mode
+says in its own room what its strains are: `stroke_strains`, (strain [1], share of the small-motion torque [1]) at
+nodes, and `largest_melt_strain`.
 The springs count as at rest; their change over the stroke is `stiffness_over_stroke`.
 """
 
@@ -16,8 +16,9 @@ import numpy as np
 from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import large_strain, layer
-from tvimdesign.physics.motion import Modes
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.motions.motion import Modes
+from tvimdesign.physics.polymers import large_strain
 
 quantities = QuantityGroup(shared.group)
 

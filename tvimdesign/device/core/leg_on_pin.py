@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tvimdesign.physics import transmission
+from tvimdesign.physics.springs import transmission
 
 
 def leg_azimuth(pin_radius: float, placement_radius: float, rotor_angle: float, offset: float) -> float:

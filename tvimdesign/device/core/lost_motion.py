@@ -16,9 +16,9 @@ import numpy as np
 from tvimdesign.base.record import Record
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.friction import sliding_torque
-from tvimdesign.physics.rigid_play import joint_play, overhung_shift
-from tvimdesign.physics.transmission import pin_slip
+from tvimdesign.physics.motions.friction import sliding_torque
+from tvimdesign.physics.motions.rigid_play import joint_play, overhung_shift
+from tvimdesign.physics.springs.transmission import pin_slip
 
 quantities = QuantityGroup("Lost motion")
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.shapes import Section, disc_at, notch, ring, slot, stacked
+from tvimdesign.physics.bodies.shapes import Section, disc_at, notch, ring, slot, stacked
 
 quantities = QuantityGroup("Size and weight")
 LINK_SCREWS = 4

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.base.record import Record
-from tvimdesign.physics import peltier
+from tvimdesign.physics.heat_flow import peltier
 
 ALIKE = 0.1
 """Share by which ratings of a Peltier module may differ from what the others make of them: makers round that far."""

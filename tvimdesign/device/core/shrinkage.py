@@ -5,7 +5,7 @@ from __future__ import annotations
 from tvimdesign.base.record import Record
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import shrinkage
+from tvimdesign.physics.polymers import shrinkage
 
 quantities = QuantityGroup("Axial play")
 

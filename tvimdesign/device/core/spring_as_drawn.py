@@ -9,8 +9,8 @@ import numpy as np
 
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import drawn_spring as drawn
-from tvimdesign.physics import spring
+from tvimdesign.physics.springs import drawn_spring as drawn
+from tvimdesign.physics.springs import spring
 
 quantities = QuantityGroup("Springs")
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import spring
+from tvimdesign.physics.springs import spring
 
 quantities = QuantityGroup("Springs")
 

@@ -7,7 +7,7 @@ import numpy as np
 from tvimdesign.device.table.phases import EQUILIBRIUM_STIFFENING, STIFFENING
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import heat
+from tvimdesign.physics.heat_flow import heat
 
 quantities = QuantityGroup("Stiffening")
 

@@ -12,8 +12,8 @@ from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import structure
-from tvimdesign.physics.layer import series_stiffness
+from tvimdesign.physics.layers.layer import series_stiffness
+from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup(shared.group)
 

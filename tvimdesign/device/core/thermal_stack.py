@@ -12,7 +12,9 @@ import numpy as np
 from tvimdesign.device.core.joint_impedance import joint_damping, joint_impedance, joint_stiffness
 from tvimdesign.device.table.quantity import Phase, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import crystallization, heat, layer, peltier, polymer
+from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.polymers import crystallization, polymer
 
 POWER_ROUNDING = 0.01  # W
 """Width of the corner where the pads stop generating."""

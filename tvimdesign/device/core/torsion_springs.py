@@ -11,8 +11,8 @@ import numpy as np
 from tvimdesign.base.record import Record
 from tvimdesign.device.table.quantity import Feature, Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import spring
-from tvimdesign.physics.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
+from tvimdesign.physics.springs import spring
+from tvimdesign.physics.springs.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
 
 quantities = QuantityGroup("Springs")
 

@@ -11,7 +11,7 @@ from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.core.motor_choice import WITH_MOTOR, Motor
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.shapes import Section
+from tvimdesign.physics.bodies.shapes import Section
 
 quantities = QuantityGroup(shared.group)
 

@@ -12,7 +12,7 @@ from tvimdesign.device.fixtures.sensor_flange import Pattern, pattern_holes
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.shapes import NOTHING, Section, disc_at, inner_corner, notch, ring, spoke, stacked
+from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, inner_corner, notch, ring, spoke, stacked
 
 quantities = QuantityGroup(shared.group, WITH_MOTOR)
 

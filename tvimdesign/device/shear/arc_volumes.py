@@ -5,7 +5,7 @@ from __future__ import annotations
 from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.shapes import Section, corners, sector, stacked
+from tvimdesign.physics.bodies.shapes import Section, corners, sector, stacked
 
 quantities = QuantityGroup(shared.group)
 

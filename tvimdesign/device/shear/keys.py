@@ -17,9 +17,9 @@ from tvimdesign.device.core.lost_motion import quantities as lost_motion
 from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import peg, structure
-from tvimdesign.physics.rigid_play import joint_play
-from tvimdesign.physics.shapes import Section, disc_at
+from tvimdesign.physics.bodies.shapes import Section, disc_at
+from tvimdesign.physics.motions.rigid_play import joint_play
+from tvimdesign.physics.solids import peg, structure
 
 places, strengths, play, weights, rules = (
     QuantityGroup(layout.group),

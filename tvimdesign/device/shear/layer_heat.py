@@ -7,8 +7,8 @@ import numpy as np
 from tvimdesign.device.core.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import heat
-from tvimdesign.physics.shapes import Section
+from tvimdesign.physics.bodies.shapes import Section
+from tvimdesign.physics.heat_flow import heat
 
 quantities = QuantityGroup(shared.group)
 

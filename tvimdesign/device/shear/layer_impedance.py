@@ -7,9 +7,11 @@ import numpy as np
 from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import hold, large_strain, layer, structure
-from tvimdesign.physics.motion import Modes
-from tvimdesign.physics.shapes import Section
+from tvimdesign.physics.bodies.shapes import Section
+from tvimdesign.physics.layers import hold, layer
+from tvimdesign.physics.motions.motion import Modes
+from tvimdesign.physics.polymers import large_strain
+from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup(shared.group)
 

@@ -16,7 +16,8 @@ from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.shrinkage import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import shrinkage, structure
+from tvimdesign.physics.polymers import shrinkage
+from tvimdesign.physics.solids import structure
 
 places, quantities = QuantityGroup(layout.group), QuantityGroup(shared.group)
 groups = (places, quantities)

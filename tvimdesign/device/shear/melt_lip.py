@@ -14,7 +14,7 @@ from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.shapes import Section, ring
+from tvimdesign.physics.bodies.shapes import Section, ring
 
 NO_LIP = "none"
 WITH_LIP = (Feature("melt_lip", NO_LIP),)

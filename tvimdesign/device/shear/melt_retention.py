@@ -17,7 +17,7 @@ from tvimdesign.device.fixtures.axial_preload import GRAVITY
 from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics import melt_flow, polymer, viscoelasticity
+from tvimdesign.physics.polymers import melt_flow, polymer, viscoelasticity
 
 rheology, quantities = QuantityGroup(impedance.group), QuantityGroup(shared.group)
 groups = (rheology, quantities)

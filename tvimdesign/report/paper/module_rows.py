@@ -6,7 +6,8 @@ import math
 from collections.abc import Callable
 
 from tvimdesign.base.units import from_si
-from tvimdesign.physics import layer, transmission
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.springs import transmission
 from tvimdesign.report.paper.paper_claims import from_paper
 from tvimdesign.report.paper.published_module import (
     published_model,

@@ -6,7 +6,9 @@ import math
 from collections.abc import Callable
 
 from tvimdesign.base.units import from_si, to_si
-from tvimdesign.physics import dynamics, layer, spring, transmission
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.motions import dynamics
+from tvimdesign.physics.springs import spring, transmission
 from tvimdesign.report.paper.paper_claims import from_paper
 from tvimdesign.report.paper.published_module import published_module, published_rate, published_values, spring_rate
 

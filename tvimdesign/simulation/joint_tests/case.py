@@ -8,8 +8,8 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from tvimdesign.physics import motion
-from tvimdesign.physics.polymer import ZERO_CELSIUS
+from tvimdesign.physics.motions import motion
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.trial import Finding
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tvimdesign.physics import one_sided
-from tvimdesign.physics.one_sided import Blocks
+from tvimdesign.physics.motions import one_sided
+from tvimdesign.physics.motions.one_sided import Blocks
 from tvimdesign.simulation.joint_tests.case import Case
 from tvimdesign.simulation.link_motion import contact, dry_friction, link
 from tvimdesign.simulation.link_motion.contact_simulation import OneSided

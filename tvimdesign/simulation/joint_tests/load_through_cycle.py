@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError, SimulationError
-from tvimdesign.physics import motion, polymer, slices
+from tvimdesign.physics.layers import slices
+from tvimdesign.physics.motions import motion
+from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests.case import joint_of
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tvimdesign.device.table.quantity import TOUCHING
-from tvimdesign.physics.one_sided import Touching
+from tvimdesign.physics.motions.one_sided import Touching
 from tvimdesign.simulation.joint_tests import joint_motion
 from tvimdesign.simulation.joint_tests.case import (
     Case,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tvimdesign.physics.polymer import ZERO_CELSIUS
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.joint_tests import joint_motion
 from tvimdesign.simulation.joint_tests.case import (
     Case,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.physics import one_sided
-from tvimdesign.physics.motion import Joint
-from tvimdesign.physics.one_sided import Blocks, Touching
+from tvimdesign.physics.motions import one_sided
+from tvimdesign.physics.motions.motion import Joint
+from tvimdesign.physics.motions.one_sided import Blocks, Touching
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.contact_simulation import Course, OneSided
 from tvimdesign.simulation.link_motion.linear_system import doubling

@@ -13,9 +13,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.physics import one_sided
-from tvimdesign.physics.motion import Joint
-from tvimdesign.physics.one_sided import Blocks, Touching
+from tvimdesign.physics.motions import one_sided
+from tvimdesign.physics.motions.motion import Joint
+from tvimdesign.physics.motions.one_sided import Blocks, Touching
 from tvimdesign.simulation.link_motion.linear_system import Stretch, matrix_of
 from tvimdesign.simulation.link_motion.link import Array, Motion
 

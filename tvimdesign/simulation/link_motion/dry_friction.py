@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics import motion, one_sided
-from tvimdesign.physics.motion import Joint, Modes
-from tvimdesign.physics.one_sided import Blocks, Touching
+from tvimdesign.physics.motions import motion, one_sided
+from tvimdesign.physics.motions.motion import Joint, Modes
+from tvimdesign.physics.motions.one_sided import Blocks, Touching
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.contact_simulation import (
     NUDGE,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.physics import motion
+from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.link_motion.linear_system import PER_STRETCH, Stretch, matrix_of, propagate, times_of
 
 Array = NDArray[np.float64]

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tvimdesign.physics import polymer
-from tvimdesign.physics.polymer import ZERO_CELSIUS
+from tvimdesign.physics.polymers import polymer
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.rheometer.spectrum_checks import check_rising, check_spectrum
 from tvimdesign.simulation.trial import Array, Column, Finding, PlottedLine
 from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, melting_range

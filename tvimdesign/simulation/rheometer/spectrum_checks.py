@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from itertools import pairwise
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics.polymer import Modes
+from tvimdesign.physics.polymers.polymer import Modes
 
 
 def check_spectrum(modes: Modes, place: str) -> None:

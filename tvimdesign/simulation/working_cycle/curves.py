@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.physics.polymer import ZERO_CELSIUS
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at
 from tvimdesign.simulation.working_cycle.phase_functions import SHOWN

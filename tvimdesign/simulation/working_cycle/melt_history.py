@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table
-from tvimdesign.physics import crystallization, polymer
+from tvimdesign.physics.polymers import crystallization, polymer
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions

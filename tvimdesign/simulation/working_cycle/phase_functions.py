@@ -8,7 +8,7 @@ from typing import Any
 
 from tvimdesign.device import Event, Path, Phase, Steady, Table
 from tvimdesign.device.table.quantity import DRIVE, PHASE, STATE
-from tvimdesign.physics import heat
+from tvimdesign.physics.heat_flow import heat
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.symbols import symbols
 

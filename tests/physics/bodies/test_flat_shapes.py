@@ -1,0 +1,153 @@
+"""Areas and polar second moments against quadrature that never uses the closed forms."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tvimdesign.physics.bodies import shapes
+
+
+def integrate(function: Callable[[float], float], start: float, end: float) -> float:
+    return float(quad(function, start, end, epsabs=0.0, epsrel=1e-10, limit=200)[0])
+
+
+def by_strips(height: Callable[[float], float], start: float, end: float) -> shapes.Section:
+    """Section symmetric about the x axis, of the half height h(x): polar of a strip 2 (x^2 h + h^3/3) dx."""
+    area = integrate(lambda x: 2.0 * height(x), start, end)
+    polar = integrate(lambda x: 2.0 * (x**2 * height(x) + height(x) ** 3 / 3.0), start, end)
+    return shapes.Section(area, polar)
+
+
+def test_sector_is_its_thin_arcs() -> None:
+    span, inner, outer = 0.85, 26e-3, 40e-3
+    area = integrate(lambda r: span * r, inner, outer)
+    polar = integrate(lambda r: span * r**3, inner, outer)
+    assert shapes.sector(span, inner, outer) == pytest.approx((area, polar), rel=1e-9)
+
+
+def test_four_sectors_of_49_degrees_have_the_papers_contact_area() -> None:
+    # Exley et al., table I: 1579.2 mm^2. The arcs from 26 to 40 mm are the reference layout.
+    assert shapes.sector(4.0 * np.radians(49.0), 26e-3, 40e-3).area == pytest.approx(1579.2e-6, rel=5e-3)
+
+
+def test_ring_is_a_disc_less_a_disc() -> None:
+    disc = by_strips(lambda x: np.sqrt(40e-3**2 - x**2), -40e-3, 40e-3)
+    hole = by_strips(lambda x: np.sqrt(26e-3**2 - x**2), -26e-3, 26e-3)
+    assert shapes.ring(26e-3, 40e-3) == pytest.approx(disc - hole, rel=1e-8)
+
+
+@pytest.mark.parametrize("distance", [0.0, 3e-3, 28.5e-3])
+def test_disc_off_the_axis_is_its_strips(distance: float) -> None:
+    radius = 2e-3
+    strips = by_strips(
+        lambda x: np.sqrt(max(radius**2 - (x - distance) ** 2, 0.0)), distance - radius, distance + radius
+    )
+    assert shapes.disc_at(radius, distance) == pytest.approx(strips, rel=1e-8)
+
+
+@pytest.mark.parametrize(("half_width", "length"), [(12e-3, 62.6e-3), (5e-3, 3e-3)])
+def test_slot_is_its_strips(half_width: float, length: float) -> None:
+    near = by_strips(lambda x: np.sqrt(max(half_width**2 - x**2, 0.0)), -half_width, 0.0)
+    strip = by_strips(lambda _: half_width, 0.0, length)
+    far = by_strips(lambda x: np.sqrt(max(half_width**2 - (x - length) ** 2, 0.0)), length, length + half_width)
+    assert shapes.slot(half_width, length) == pytest.approx(near.plus(strip, far), rel=1e-8)
+
+
+def test_sections_repeat_add_subtract_and_stack() -> None:
+    one, other = shapes.Section(5.0, 7.0), shapes.Section(1.0, 3.0)
+    assert one.times(4) - other == shapes.Section(19.0, 25.0)
+    assert one.plus(other, other) == shapes.Section(7.0, 13.0)
+    assert shapes.stacked((one, 2.0), (other, -3.0)) == shapes.Section(7.0, 5.0)
+
+
+def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
+    half_width, inner, outer = 6e-3, 71e-3, 74e-3
+    expected = integrate(lambda y: np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), -half_width, half_width)
+    assert shapes.notch(half_width, inner, outer).area == pytest.approx(expected, rel=1e-9)
+    # Along y the strip from R_i to R_o has the polar moment x^3/3 + x y^2 between its ends.
+    ends = [lambda y, r=radius: np.sqrt(r**2 - y**2) for radius in (outer, inner)]
+    polar = [integrate(lambda y, x=x: x(y) ** 3 / 3.0 + x(y) * y**2, -half_width, half_width) for x in ends]
+    assert shapes.notch(half_width, inner, outer).polar == pytest.approx(polar[0] - polar[1], rel=1e-9)
+
+
+@pytest.mark.parametrize("offset", [0.0, 1.5e-3])
+@pytest.mark.parametrize("radius", [0.2e-3, 1.5e-3])
+def test_fillets_take_from_a_sector_what_is_beyond_their_arcs(radius: float, offset: float) -> None:
+    inner, outer = 12e-3, 24e-3
+
+    def touching(circle: float, middle: float) -> tuple[float, tuple[float, float]]:
+        """Where the fillet touches the line, along it, and where it touches the circle."""
+        along = np.sqrt(middle**2 - (offset + radius) ** 2)
+        return along, (along * circle / middle, (offset + radius) * circle / middle)
+
+    foot, (_, top) = touching(outer, outer - radius)
+    # Strips along the line, from the fillet out to the circle.
+    taken = integrate(
+        lambda y: np.sqrt(outer**2 - y**2) - foot - np.sqrt(max(radius**2 - (y - offset - radius) ** 2, 0.0)),
+        offset,
+        top,
+    )
+    assert shapes.outer_corner(radius, outer, offset) == pytest.approx(taken, rel=1e-6)
+
+    foot, (left, _) = touching(inner, inner + radius)
+    # Strips across the line: below the fillet, less what lies below the circle.
+    fillet = integrate(lambda x: radius - np.sqrt(max(radius**2 - (x - foot) ** 2, 0.0)), left, foot)
+    circle = integrate(lambda x: np.sqrt(inner**2 - x**2) - offset, left, np.sqrt(inner**2 - offset**2))
+    assert shapes.inner_corner(radius, inner, offset) == pytest.approx(fillet - circle, rel=1e-6)
+    four = 2.0 * (taken + fillet - circle)
+    assert shapes.corners(radius, inner, outer, offset) == pytest.approx(four, rel=1e-6)
+
+
+def test_a_slot_across_a_disc_is_its_strips() -> None:
+    half, radius = 0.6e-3, 2.7e-3
+    expected = integrate(lambda y: 2.0 * np.sqrt(radius**2 - y**2), -half, half)
+    assert shapes.bar_across(half, radius) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("radius", [2.4e-3, 20e-3])
+def test_a_disc_centred_on_a_circle_has_the_strips_of_it_that_lie_inside(radius: float) -> None:
+    circle = 30e-3
+    meet = circle - 0.5 * radius**2 / circle  # x of the points where both rims cross
+    disc = integrate(lambda x: 2.0 * np.sqrt(radius**2 - (x - circle) ** 2), circle - radius, meet)
+    rest = integrate(lambda x: 2.0 * np.sqrt(circle**2 - x**2), meet, circle)
+    assert shapes.lens(radius, circle) == pytest.approx(disc + rest, rel=1e-8)
+
+
+@pytest.mark.parametrize("corner", [0.5e-3, 3e-3])
+def test_a_fillet_beside_a_disc_on_a_circle_has_the_area_of_its_points(corner: float) -> None:
+    disc, circle = 2.4e-3, 30e-3
+    # Its centre is as far from the disc's, on x, and from the circle's, as it touches both: two circles, met by hand.
+    x = (circle**2 + (circle - corner) ** 2 - (disc + corner) ** 2) / (2.0 * circle)
+    y = np.sqrt((circle - corner) ** 2 - x**2)
+    step = corner / 400.0
+    at_x, at_y = np.meshgrid(np.arange(x - corner, circle, step), np.arange(0.0, y + corner, step))
+    void = (np.hypot(at_x, at_y) < circle) & (np.hypot(at_x - circle, at_y) > disc)
+    # Between the rays from both centres to that of the fillet, and outside of its circle.
+    between = (at_y * x < at_x * y) & (at_y * (circle - x) > (circle - at_x) * y)
+    filled = void & between & (np.hypot(at_x - x, at_y - y) > corner)
+    assert shapes.lens_corner(disc, circle, corner) == pytest.approx(filled.sum() * step**2, rel=5e-3)
+    assert shapes.lens_corner(disc, circle, 0.0) == pytest.approx(0.0, abs=1e-18)
+
+
+def test_a_spoke_is_what_an_obround_adds_to_a_disc() -> None:
+    b, rim, length = 3.5, 6.0, 20.0
+    start = np.sqrt(rim**2 - b**2)  # where the strip leaves the disc
+    strip = by_strips(lambda _: b, start, length)
+    end = by_strips(lambda x: np.sqrt(b**2 - (x - length) ** 2), length, length + b)
+    disc = by_strips(lambda x: np.sqrt(rim**2 - x**2), start, rim)
+    found = shapes.spoke(b, rim, length)
+    assert found.area == pytest.approx(strip.area + end.area - disc.area, rel=1e-9)
+    assert found.polar == pytest.approx(strip.polar + end.polar - disc.polar, rel=1e-9)
+
+
+def test_nothing_adds_nothing() -> None:
+    disc = shapes.ring(0.0, 5e-3)
+    assert shapes.NOTHING.plus(disc) == disc
+    assert shapes.stacked((shapes.NOTHING, 3e-3)) == (0.0, 0.0)
+
+
+def test_small_corners_between_radial_sides_are_those_of_a_rectangle() -> None:
+    # A fillet takes (1 - pi/4) r^2 from a right angle; sides that point to the axis meet every circle at one.
+    assert shapes.corners(0.02e-3, 26e-3, 40e-3) == pytest.approx((4.0 - np.pi) * 0.02e-3**2, rel=1e-3)

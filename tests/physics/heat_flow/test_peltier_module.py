@@ -1,0 +1,113 @@
+"""The Peltier module against data sheets, and against what its equations must satisfy."""
+
+import numpy as np
+import pytest
+import textbook
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import brentq, minimize_scalar
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.physics.heat_flow import peltier
+
+SHEETS = {  # I_max [A], V_max [V], dT_max [K], T_h [K] of the data sheets, and the S [mV/K], R [ohm], K [W/K] they give
+    "teci_12706": ((6.0, 15.8, 67.0, 300.15), (52.6, 2.05, 0.550)),
+    "qc_17": ((2.8, 1.9, 72.0, 298.15), (6.37, 0.515, 0.028)),
+    "pc_072": ((15.4, 8.9, 68.0, 298.15), (29.9, 0.446, 0.778)),
+}
+kelvins = st.floats(250.0, 420.0)
+modules = st.builds(
+    peltier.PeltierModule,
+    seebeck=st.floats(1e-3, 0.1),
+    resistance=st.floats(0.1, 10.0),
+    conductance=st.floats(0.01, 2.0),
+)
+
+
+@pytest.mark.parametrize("name", SHEETS)
+def test_parameters_follow_from_the_data_sheet(name: str) -> None:
+    sheet, (seebeck, resistance, conductance) = SHEETS[name]
+    found = textbook.from_data_sheet(*sheet)
+    assert found.seebeck == pytest.approx(seebeck * 1e-3, rel=5e-3)
+    assert found.resistance == pytest.approx(resistance, rel=5e-3)
+    assert found.conductance == pytest.approx(conductance, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", SHEETS)
+def test_the_catalogues_parameters_are_those_of_its_data_sheet(name: str) -> None:
+    record = Catalog().record("peltiers", name)
+    fields = ("max_current", "max_voltage", "max_temperature_difference", "hot_side_temperature")
+    expected = textbook.from_data_sheet(*(record.value(field) for field in fields))
+    assert (record.value("seebeck"), record.value("resistance"), record.value("conductance")) == pytest.approx(
+        tuple(expected), rel=1e-4
+    )
+
+
+@pytest.mark.parametrize("name", SHEETS)
+def test_the_module_reaches_its_rated_difference_at_its_rated_current(name: str) -> None:
+    # At I_max, dT_max and the sheet's T_h no heat is drawn, and no other current draws any.
+    current, voltage, difference, hot = SHEETS[name][0]
+    module = textbook.from_data_sheet(current, voltage, difference, hot)
+    scale = module.conductance * difference
+    assert peltier.cold_side_heat(module, current, hot, hot - difference) == pytest.approx(0.0, abs=1e-9 * scale)
+    for other in (0.9 * current, 1.1 * current):
+        assert peltier.cold_side_heat(module, other, hot, hot - difference) < 0.0
+    assert peltier.voltage(module, current, hot, hot - difference) == pytest.approx(voltage, rel=1e-9)
+
+
+@pytest.mark.parametrize(("name", "watts", "within"), [("qc_17", 3.2, 0.1), ("pc_072", 85.1, 0.1)])
+def test_rated_cooling_follows_from_the_other_ratings(name: str, watts: float, within: float) -> None:
+    # Q_max of the sheet, at T_c = T_h, which S, R and K do not use.
+    sheet = SHEETS[name][0]
+    assert peltier.max_cooling_power(textbook.from_data_sheet(*sheet), sheet[3]) == pytest.approx(watts, rel=within)
+
+
+@given(module=modules, cold=kelvins)
+def test_max_cooling_is_the_most_any_current_draws_without_a_difference(
+    module: peltier.PeltierModule, cold: float
+) -> None:
+    best = minimize_scalar(lambda i: -peltier.cold_side_heat(module, i, cold, cold), bracket=(0.0, 1.0))
+    assert peltier.max_cooling_power(module, cold) == pytest.approx(-best.fun, rel=1e-6)
+
+
+@given(module=modules, current=st.floats(-5.0, 5.0), hot=kelvins, cold=kelvins)
+def test_electrical_power_is_the_difference_of_the_heats(
+    module: peltier.PeltierModule, current: float, hot: float, cold: float
+) -> None:
+    heat = peltier.hot_side_heat(module, current, hot, cold) - peltier.cold_side_heat(module, current, hot, cold)
+    power = peltier.voltage(module, current, hot, cold) * current
+    assert heat == pytest.approx(power, rel=1e-9, abs=1e-9)
+
+
+@given(module=modules, hot=st.floats(300.0, 400.0), difference=st.floats(1.0, 30.0))
+def test_best_coefficient_of_performance_is_the_textbooks(
+    module: peltier.PeltierModule, hot: float, difference: float
+) -> None:
+    # Rowe (ed.), CRC Handbook of Thermoelectrics: T_c/(T_h - T_c) (m - T_h/T_c)/(m + 1), m = sqrt(1 + Z T_mean),
+    # at the current S dT/(R (m - 1)).
+    cold = hot - difference
+    figure = module.seebeck**2 / (module.resistance * module.conductance)
+    m = np.sqrt(1.0 + figure * 0.5 * (hot + cold))
+    current = module.seebeck * difference / (module.resistance * (m - 1.0))
+    power = current * peltier.voltage(module, current, hot, cold)
+    found = peltier.cold_side_heat(module, current, hot, cold) / power
+    assert found == pytest.approx(cold / difference * (m - hot / cold) / (m + 1.0), rel=1e-6, abs=1e-6)
+
+
+def test_current_through_a_module_of_one_temperature_pumps_heat_to_the_hot_side() -> None:
+    module = peltier.PeltierModule(0.05, 2.0, 0.5)
+    assert peltier.hot_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 + 1.0)
+    assert peltier.cold_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 - 1.0)
+
+
+def test_a_40_mm_module_with_a_well_sunk_cold_side_stalls_near_76_degrees_at_1_5_amperes() -> None:
+    # Its conductance takes back all it pumps: no layer behind it is ever warmer.
+    module, cold = textbook.from_data_sheet(*SHEETS["teci_12706"][0]), 295.15
+    stalled = brentq(lambda hot: peltier.hot_side_heat(module, 1.5, hot, cold), cold, 400.0)
+    assert stalled - 273.15 == pytest.approx(76.0, abs=1.0)
+
+
+def test_heat_flows_back_from_hot_to_cold_without_current() -> None:
+    module = peltier.PeltierModule(0.05, 2.0, 0.5)
+    assert peltier.hot_side_heat(module, 0.0, 310.0, 300.0) == pytest.approx(-5.0)
+    assert peltier.cold_side_heat(module, 0.0, 310.0, 300.0) == pytest.approx(-5.0)

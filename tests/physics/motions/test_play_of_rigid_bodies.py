@@ -1,0 +1,116 @@
+"""Play of loose springs, flanges and shafts against rigid bodies moved in space, and friction against virtual work."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq, minimize
+
+from tvimdesign.physics.motions.friction import bolted_torque, sliding_torque, tightened_force
+from tvimdesign.physics.motions.rigid_play import joint_play, overhung_shift, spring_play
+from tvimdesign.physics.solids import peg
+from tvimdesign.physics.springs.transmission import leg_ratio, pin_slip
+
+# The optimum of paper_shear.yaml as it was read and measured from outside: a coil of 8 mm of wire of 1.81 mm.
+TANG, LENGTH, LEVER, POST, LEVELS, ARM = 0.25e-3, 3.5e-3, 4.392e-3, 0.3515e-3, (1.81e-3, 7.5e-3), 14.23e-3
+
+
+def largest_turn(arm: float, leaning: bool) -> float:
+    """How far a force at the leg's end turns a rigid spring, over all places that tang and post allow."""
+
+    def clear(moved: np.ndarray) -> np.ndarray:
+        aside, ahead, turn, lean_x, lean_y = moved * 1e-3
+
+        def at(z: float, x: float) -> np.ndarray:
+            return np.array([aside + lean_y * z, ahead - lean_x * z + turn * x])
+
+        tang = [TANG**2 - np.sum(at(z, LEVER) ** 2) for z in (0.0, -LENGTH)]
+        post = [POST**2 - np.sum(at(z, 0.0) ** 2) for z in LEVELS]
+        return np.array([*tang, *post]) * 1e6
+
+    def given_way(moved: np.ndarray) -> float:
+        _, ahead, turn, lean_x, _ = moved * 1e-3
+        return -1e3 * (turn + (ahead - lean_x * LEVELS[1]) / arm)
+
+    bounds = [(-2, 2), (-2, 2), (-500, 500), *([(-500, 500)] * 2 if leaning else [(0, 0)] * 2)]
+    draw = np.random.default_rng(1).uniform(-1.0, 1.0, (12, 5)) * [0.1, 0.1, 50.0, 20.0, 20.0]
+    found = [
+        minimize(given_way, start * (1.0 if leaning else [1, 1, 1, 0, 0]), method="SLSQP", bounds=bounds,
+                 constraints={"type": "ineq", "fun": clear}, options={"maxiter": 400, "ftol": 1e-12})
+        for start in draw
+    ]  # fmt: skip
+    return max(-1e-3 * one.fun for one in found if np.all(clear(one.x) > -1e-6))
+
+
+def test_a_loose_spring_turns_as_far_as_any_rigid_one_can() -> None:
+    bound = float(spring_play(TANG, LENGTH, LEVER, POST, LEVELS, ARM))
+    found = largest_turn(ARM, leaning=True)
+    assert found <= bound * (1.0 + 1e-6)
+    assert found == pytest.approx(bound, rel=0.02)  # the bound is nearly reached
+    # The reading from outside had 13 degrees with the lean; this one is a bound of its own geometry.
+    assert np.degrees(bound) == pytest.approx(13.0, rel=0.1)
+
+
+def test_an_upright_loose_spring_turns_by_its_plays_over_the_tangs_radius() -> None:
+    upright = float(spring_play(TANG, 1e9, LEVER, POST, LEVELS, 1e9))
+    assert upright == pytest.approx(largest_turn(1e9, leaning=False), rel=1e-4)
+    assert np.degrees(upright) == pytest.approx(7.9, rel=0.01)  # read from outside
+    # The tang alone: 57 mrad of 0.25 mm at 4.4 mm.
+    assert float(spring_play(0.25e-3, 1e9, 4.4e-3, 0.0, LEVELS, 1e9)) == pytest.approx(57e-3, rel=5e-3)
+
+
+def slid(p: float, r: float, offset: float, diameter: float) -> float:
+    """Slip on a pin for each radian, of points of pin and leg that touched: the rotor turned, the leg's line found."""
+    step = 1e-6
+
+    def line(rotor: float) -> float:
+        # Direction of a line at `offset` from the coil's axis (r, 0) through the pin's middle.
+        pin = p * np.array([np.cos(rotor), np.sin(rotor)]) - [r, 0.0]
+        return float(brentq(lambda a: pin @ [-np.sin(a), np.cos(a)] - offset, 0.6 * np.pi, 1.4 * np.pi, xtol=1e-15))
+
+    start, end = line(0.0), line(step)
+    normal = np.array([-np.sin(start), np.cos(start)])
+    touch = np.array([p, 0.0]) - 0.5 * diameter * normal
+
+    def spun(point: np.ndarray, about: np.ndarray, angle: float) -> np.ndarray:
+        c, s = np.cos(angle), np.sin(angle)
+        return about + np.array([[c, -s], [s, c]]) @ (point - about)
+
+    coil = np.array([r, 0.0])
+    apart = spun(touch, np.zeros(2), step) - spun(touch, coil, end - start)
+    return abs(float(apart @ [np.cos(start), np.sin(start)])) / step
+
+
+@pytest.mark.parametrize("ratio", [0.4, 0.5, 0.65])
+def test_a_leg_slides_on_its_pin_as_two_bodies_that_turn_about_their_own_axes(ratio: float) -> None:
+    r, offset, diameter = 57e-3, 15.4e-3, 4e-3
+    p = ratio * r
+    slip = float(pin_slip(p, r, offset, diameter))
+    assert slip == pytest.approx(slid(p, r, offset, diameter), rel=1e-4)
+    # And as the distances of the line of sliding from rotor axis and coil axis: h_O - g h_C.
+    direction = np.arcsin(offset / (r - p))
+    from_rotor = p * np.sin(direction) + 0.5 * diameter
+    from_coil = offset - 0.5 * diameter
+    ratio_of_leg = float(leg_ratio(p, r, 0.0, offset))
+    assert slip == pytest.approx(from_rotor + ratio_of_leg * from_coil, rel=1e-12)
+
+
+def test_friction_under_screws_and_on_pins() -> None:
+    # Four M3 on 4.9 mm: 1.5 N.m in plastic, 4 in aluminium, by a reading from outside.
+    for stress, torque in ((55e6, 1.5), (150e6, 4.0)):
+        assert bolted_torque(0.2, tightened_force(stress, 3e-3), 4, 4.9e-3) == pytest.approx(torque, rel=0.05)
+    assert float(joint_play(0.5 * (3.4e-3 - 3e-3), 4.9e-3)) == pytest.approx(41e-3, rel=0.01)
+    assert sliding_torque(0.25, 8.0, 4e-3) == pytest.approx(8e-3, rel=1e-12)
+
+
+def test_a_loose_shaft_leans_between_its_supports_and_no_further_than_it_may() -> None:
+    # A line through the opposite ends of two plays of 0.1 mm, 5 mm apart, continued by 10 mm.
+    line = np.polyfit([0.0, -5.0], [0.1, -0.1], 1)
+    assert overhung_shift(0.1e-3, 5e-3, 10e-3, np.inf) == pytest.approx(1e-3 * np.polyval(line, 10.0), rel=1e-12)
+    assert overhung_shift(0.1e-3, 5e-3, 10e-3, 0.01) == pytest.approx(0.2e-3, rel=1e-12)
+
+
+def test_a_bonded_peg_turns_when_its_surface_shears() -> None:
+    angles = np.linspace(0.0, 2.0 * np.pi, 1000, endpoint=False)
+    pieces = 24e6 * (0.9e-3 * 3.5e-3 * 2.0 * np.pi / angles.size) * 0.9e-3 * np.ones_like(angles)
+    assert peg.twist_torque(24e6, 1.8e-3, 3.5e-3) == pytest.approx(np.sum(pieces), rel=1e-12)

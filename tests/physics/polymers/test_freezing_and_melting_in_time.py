@@ -1,0 +1,208 @@
+"""Freezing in time against Avrami's law, Ozawa's quadrature, a virtual calorimeter, and what is published."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import textbook
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.integrate import quad, solve_ivp
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+
+Array = NDArray[np.float64]
+CELSIUS = 273.15
+GRADES = ("pcl_50k", "pcl_80k")
+MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
+
+
+def kinetics_of(grade: str, **changes: float) -> crystallization.Kinetics:
+    names = ("avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
+             "equilibrium_melting_temperature", "glass_transition", "transport_energy")  # fmt: skip
+    record = Catalog().record("polymers", grade)
+    return crystallization.Kinetics(*(record.value(name) for name in names), 0.5)._replace(**changes)
+
+
+PCL = kinetics_of("pcl_80k")
+
+
+def calorimeter(rate: float, kinetics: crystallization.Kinetics) -> tuple[Array, Array]:
+    """Celsius and solid fraction of a melt cooled from 100 degC at a constant rate [K/min]."""
+    per_second = rate / 60.0
+    times = np.linspace(0.0, 110.0 / per_second, 20001)
+    found = solve_ivp(
+        lambda t, psi: crystallization.rate(CELSIUS + 100.0 - per_second * t, psi, kinetics, MELTING),
+        (0.0, times[-1]), [0.0], method="LSODA", t_eval=times, rtol=1e-9, atol=1e-11,
+    )  # fmt: skip
+    return 100.0 - per_second * times, crystallization.solid_fraction(found.y[0], kinetics)
+
+
+def peak(rate: float, kinetics: crystallization.Kinetics) -> float:
+    celsius, fraction = calorimeter(rate, kinetics)
+    return float(celsius[np.argmax(np.gradient(fraction))])
+
+
+@pytest.mark.parametrize("grade", GRADES)
+@pytest.mark.parametrize("rate", [1.0, 2.0])
+def test_cooled_at_1_to_2_kelvin_a_minute_it_freezes_at_35_to_45_degrees(grade: str, rate: float) -> None:
+    assert 35.0 <= peak(rate, kinetics_of(grade)) <= 45.0
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_half_freezes_in_1_to_3_minutes_at_40_degrees(grade: str) -> None:
+    assert 60.0 <= textbook.half_time(CELSIUS + 40.0, kinetics_of(grade)) <= 180.0
+
+
+@pytest.mark.parametrize("celsius", [25.0, 32.0, 40.0, 45.0])
+@pytest.mark.parametrize("exponent", [2.5, 3.0])
+def test_avrami_plot_of_a_quenched_melt_is_straight_with_slope_n(celsius: float, exponent: float) -> None:
+    kinetics = PCL._replace(avrami_exponent=exponent)
+    half = float(textbook.half_time(CELSIUS + celsius, kinetics))
+    times = half * np.array([0.2, 0.4, 0.7, 1.0, 1.3])
+    found = solve_ivp(
+        lambda _, psi: crystallization.rate(CELSIUS + celsius, psi, kinetics, MELTING),
+        (0.0, times[-1]), [0.0], t_eval=times, rtol=1e-10, atol=1e-12,
+    )  # fmt: skip
+    fraction = crystallization.solid_fraction(found.y[0], kinetics)
+    assert fraction[3] == pytest.approx(0.5, abs=1e-3)
+    slopes = np.diff(np.log(-np.log(1.0 - fraction))) / np.diff(np.log(times))
+    assert slopes == pytest.approx(np.full(4, exponent), rel=5e-3)
+
+
+@pytest.mark.parametrize("rate", [1.0, 5.0, 10.0])
+def test_cooling_at_a_constant_rate_is_ozawas_integral_over_temperature(rate: float) -> None:
+    # Ozawa, Polymer 12 (1971) 150: X = 1 - exp(-(chi(T)/rate^n)), chi^(1/n) = integral of K over temperature. The
+    # half-time stands here once more, from the handbook: U 1500 cal/mol, T_inf 30 K below the glass transition.
+    def slowness(kelvin: float) -> float:
+        nucleation = PCL.nucleation_constant * (kelvin + 347.15) / (2.0 * kelvin**2 * (347.15 - kelvin))
+        return 1500.0 * 4.18 / (8.314462618 * (kelvin - 183.15)) + nucleation
+
+    def constant(kelvin: float) -> float:
+        return np.log(2.0) ** (1.0 / 3.0) / 70.0 * np.exp(slowness(308.15) - slowness(kelvin))
+
+    celsius, fraction = calorimeter(rate, PCL)
+    for share in (0.1, 0.5, 0.9):
+        at = int(np.argmax(fraction >= share))
+        integral, _ = quad(constant, CELSIUS + celsius[at], 347.149, epsabs=1e-12, limit=200)
+        assert fraction[at] == pytest.approx(1.0 - np.exp(-((60.0 * integral / rate) ** 3)), abs=1e-3)
+
+
+def test_freezing_is_fastest_between_glass_transition_and_melting() -> None:
+    kelvin = np.linspace(230.0, 345.0, 400)
+    fastest = float(kelvin[np.argmin(textbook.half_time(kelvin, PCL))])
+    assert 0.70 < fastest / PCL.equilibrium_melting < 0.92  # as a rule 0.8-0.9 of T_m0
+    assert np.all(np.diff(textbook.half_time(np.linspace(303.0, 345.0, 50), PCL)) > 0.0)
+
+
+@given(celsius=st.floats(74.5, 200.0))
+def test_nothing_freezes_above_the_equilibrium_melting_temperature(celsius: float) -> None:
+    assert 0.0 <= crystallization.rate_constant(CELSIUS + celsius, PCL) < 1e-30
+    assert 1e30 < textbook.half_time(CELSIUS + celsius, PCL) < np.inf
+    times = (0.0, 600.0)
+    found = solve_ivp(lambda _, psi: crystallization.rate(CELSIUS + celsius, psi, PCL, MELTING), times, [0.0])
+    assert crystallization.solid_fraction(found.y[0, -1], PCL) < 1e-6
+
+
+@pytest.mark.parametrize("begin", [-0.01, 0.0, 0.05])
+def test_a_melt_without_a_crystal_is_no_stuck_point(begin: float) -> None:
+    psi = float(crystallization.extended(begin, PCL))
+    found = solve_ivp(lambda _, y: crystallization.rate(CELSIUS + 35.0, y, PCL, MELTING), (0.0, 600.0), [psi])
+    assert crystallization.solid_fraction(found.y[0, -1], PCL) > 0.99
+
+
+@given(fraction=st.floats(0.01, 0.999))
+def test_psi_of_a_solid_fraction_gives_it_back(fraction: float) -> None:
+    psi = crystallization.extended(fraction, PCL)
+    assert psi == pytest.approx((-np.log(1.0 - fraction)) ** (1.0 / 3.0), rel=5e-3)
+    assert crystallization.solid_fraction(psi, PCL) == pytest.approx(fraction, abs=1e-4)
+
+
+def test_psi_of_a_fraction_at_and_beyond_its_ends_is_finite() -> None:
+    assert crystallization.extended(0.0, PCL) == pytest.approx(0.0, abs=1e-5)
+    assert crystallization.extended(-0.02, PCL) == pytest.approx(0.0, abs=0.3)
+    assert crystallization.extended(1.0, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
+    assert crystallization.extended(1.02, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
+    assert crystallization.solid_fraction(-0.05, PCL) == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("speed", [0.1, 1.0])
+def test_heated_solid_melts_along_the_equilibrium_curve_half_a_second_behind(speed: float) -> None:
+    # Equilibrium: straight from all solid at 50 degC to none at 65 degC. The lag is the melting time times the speed.
+    start = CELSIUS + 48.0
+    times = np.linspace(0.0, 20.0 / speed, 401)
+    psi = float(crystallization.extended(1.0, PCL))
+    found = solve_ivp(
+        lambda t, y: crystallization.rate(start + speed * t, y, PCL, MELTING), (0.0, times[-1]), [psi],
+        method="LSODA", t_eval=times, rtol=1e-9, atol=1e-11,
+    )  # fmt: skip
+    fraction = crystallization.solid_fraction(found.y[0], PCL)
+    inside = (fraction > 0.1) & (fraction < 0.9)
+    lag = 48.0 + speed * times[inside] - (65.0 - 15.0 * fraction[inside])
+    assert np.all(np.abs(lag) < 0.5 * speed + 0.05)
+    assert np.mean(lag) == pytest.approx(0.5 * speed, abs=0.05)
+
+
+def test_part_molten_polymer_freezes_on_when_it_is_cooled_and_melts_on_when_it_is_heated() -> None:
+    psi = float(crystallization.extended(0.5, PCL))
+    assert crystallization.rate(CELSIUS + 35.0, psi, PCL, MELTING) > 1e-3
+    assert crystallization.rate(CELSIUS + 62.0, psi, PCL, MELTING) < -0.1
+
+
+@given(celsius=st.floats(-20.0, 200.0), fraction=st.floats(0.0, 1.0))
+def test_temperature_is_the_enthalpy_solved_for_it(celsius: float, fraction: float) -> None:
+    enthalpy = crystallization.enthalpy(CELSIUS + celsius, fraction, MELTING)
+    assert crystallization.temperature(enthalpy, fraction, MELTING) == pytest.approx(CELSIUS + celsius, abs=1e-9)
+
+
+def test_heat_of_freezing_follows_kirchhoffs_law() -> None:
+    # 76.75 kJ/kg and half the window's sensible heat difference at 57.5 degC; d L/dT = c_melt - c_solid = 250 J/kg K.
+    def latent(celsius: float) -> float:
+        return crystallization.enthalpy(CELSIUS + celsius, 0.0, MELTING) - crystallization.enthalpy(
+            CELSIUS + celsius, 1.0, MELTING
+        )
+
+    assert latent(57.5) == pytest.approx(76.75e3, rel=1e-9)
+    assert latent(27.5) == pytest.approx(76.75e3 - 30.0 * 250.0, rel=1e-9)
+
+
+def test_pure_solid_and_pure_melt_have_the_enthalpies_of_the_melting_curve() -> None:
+    for celsius, fraction in ((20.0, 1.0), (49.9, 1.0), (65.1, 0.0), (120.0, 0.0)):
+        found = crystallization.enthalpy(CELSIUS + celsius, fraction, MELTING)
+        assert found == pytest.approx(polymer.enthalpy(CELSIUS + celsius, MELTING), rel=1e-12)
+
+
+def test_symbols_give_the_numbers_of_arrays_with_finite_first_and_second_derivatives() -> None:
+    kelvin, psi = ca.SX.sym("T"), ca.SX.sym("psi")
+    both = ca.vertcat(kelvin, psi)
+    value = crystallization.rate(kelvin, psi, PCL, MELTING)
+    fraction = crystallization.solid_fraction(psi, PCL)
+    handover = crystallization.extended(psi / 2.0, PCL)
+    first = [ca.gradient(of, both) for of in (value, fraction, handover)]
+    second = [ca.hessian(of, both)[0] for of in (value, fraction, handover)]
+    look = ca.Function("look", [both], [value, fraction, ca.vertcat(*first), ca.vertcat(*second)])
+    for t in np.linspace(250.0, 480.0, 93):
+        for p in (-0.05, 0.0, 1e-3, 0.5, 1.0, 2.0, 2.1, 2.3):
+            numbers = [np.asarray(part).ravel() for part in look([t, p])]
+            assert numbers[0][0] == pytest.approx(crystallization.rate(t, p, PCL, MELTING), rel=1e-9, abs=1e-300)
+            assert numbers[1][0] == pytest.approx(crystallization.solid_fraction(p, PCL), rel=1e-12, abs=1e-15)
+            assert np.all(np.isfinite(np.concatenate(numbers)))
+
+
+@given(celsius=st.floats(-20.0, 200.0), psi=st.floats(0.0, 2.3))
+def test_slope_of_the_rate_is_what_differences_show(celsius: float, psi: float) -> None:
+    kelvin = ca.SX.sym("T")
+    slope = ca.Function("slope", [kelvin], [ca.gradient(crystallization.rate(kelvin, psi, PCL, MELTING), kelvin)])
+    at, step = CELSIUS + celsius, 1e-4
+    around = [crystallization.rate(at + shift, psi, PCL, MELTING) for shift in (-step, step)]
+    assert float(slope(at)) == pytest.approx((around[1] - around[0]) / (2.0 * step), rel=1e-4, abs=1e-7)
+
+
+def test_slower_cooling_freezes_at_a_higher_temperature() -> None:
+    peaks = [peak(rate, PCL) for rate in (0.5, 2.0, 10.0, 20.0)]
+    assert all(hotter > colder + 3.0 for hotter, colder in pairwise(peaks))

@@ -1,0 +1,236 @@
+"""Polycaprolactone: melting curve, frozen modulus, and the one spectrum of every state between solid and melt."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from tvimdesign.base.record import Record
+from tvimdesign.catalog import Catalog
+from tvimdesign.device.core.joint_impedance import melt_modes
+from tvimdesign.physics.polymers import polymer
+
+CELSIUS = 273.15
+# Capa 6500 and 6800: 76.7 kJ/kg. Specific heats: the middles of 1.7-2.0 and 2.0-2.2 kJ/kg K.
+MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
+MODES = ((1.0, 2.0e5), (0.1, 3.0e5), (0.01, 5.0e5))
+GRADES = ("pcl_50k", "pcl_80k")
+
+
+def solid_of(record: Record) -> polymer.SolidModulus:
+    names = ("flexural_modulus", "reference_temperature", "softening_slope", "softening_onset", "softening_width",
+             "poissons_ratio")  # fmt: skip
+    return polymer.SolidModulus(*(record.value(name) for name in names))
+
+
+def modes_of(record: Record) -> list[tuple[float, float]]:
+    return list(melt_modes(record))
+
+
+def rheology_of(grade: str) -> polymer.Rheology:
+    record = Catalog().record("polymers", grade)
+    solid = [(row["relaxation_time"], row["relative_modulus"]) for row in record.table("solid_spectrum")]
+    return polymer.Rheology(solid_of(record), solid, modes_of(record), 35e3, CELSIUS + 100.0)
+
+
+@given(celsius=st.one_of(st.floats(-20.0, 40.0), st.floats(55.0, 60.0), st.floats(75.0, 180.0)))
+def test_temperature_inverts_enthalpy_away_from_the_corners(celsius: float) -> None:
+    enthalpy = polymer.enthalpy(CELSIUS + celsius, MELTING)
+    assert polymer.temperature(enthalpy, MELTING) == pytest.approx(CELSIUS + celsius, abs=0.01)
+
+
+def test_sharp_corners_are_the_limit_of_rounded_ones() -> None:
+    sharp = MELTING._replace(smoothing=1e-3)
+    for celsius in (49.9, 50.1, 64.9, 65.1):
+        enthalpy = polymer.enthalpy(CELSIUS + celsius, sharp)
+        assert polymer.temperature(enthalpy, sharp) == pytest.approx(CELSIUS + celsius, abs=1e-6)
+
+
+@given(first=st.floats(-2e5, 6e5), second=st.floats(-2e5, 6e5))
+def test_temperature_rises_and_the_solid_fraction_falls_with_enthalpy(first: float, second: float) -> None:
+    low, high = sorted((first, second))
+    assert polymer.temperature(low, MELTING) <= polymer.temperature(high, MELTING)
+    assert polymer.solid_fraction(low, MELTING) >= polymer.solid_fraction(high, MELTING) - 1e-12
+
+
+def test_heat_between_50_and_65_degrees_is_the_latent_heat_and_the_mean_sensible_heat() -> None:
+    taken = polymer.enthalpy(CELSIUS + 65.0, MELTING) - polymer.enthalpy(CELSIUS + 50.0, MELTING)
+    assert taken == pytest.approx(76.75e3 + 15.0 * 0.5 * (1850.0 + 2100.0), rel=1e-9)
+    assert polymer.solid_fraction(polymer.enthalpy(CELSIUS + 57.5, MELTING), MELTING) == pytest.approx(0.5, abs=1e-6)
+
+
+def test_heat_from_22_to_100_degrees_is_231_kilojoules_a_kilogram_a_third_of_it_latent() -> None:
+    taken = polymer.enthalpy(CELSIUS + 100.0, MELTING) - polymer.enthalpy(CELSIUS + 22.0, MELTING)
+    assert taken == pytest.approx(231e3, rel=5e-3)
+    assert MELTING.latent_heat / taken == pytest.approx(1.0 / 3.0, rel=0.02)
+
+
+def test_zero_of_enthalpy_is_the_solid_at_0_degrees() -> None:
+    assert polymer.enthalpy(CELSIUS, MELTING) == 0.0
+    assert polymer.enthalpy(CELSIUS + 10.0, MELTING) == pytest.approx(18.5e3, rel=1e-12)
+
+
+def test_slopes_outside_the_window_are_the_specific_heats() -> None:
+    for celsius, specific_heat in ((10.0, 1850.0), (120.0, 2100.0)):
+        rise = polymer.enthalpy(CELSIUS + celsius + 1.0, MELTING) - polymer.enthalpy(CELSIUS + celsius, MELTING)
+        assert rise == pytest.approx(specific_heat, rel=1e-9)
+
+
+@pytest.mark.parametrize("grade", GRADES)
+@pytest.mark.parametrize(
+    ("celsius", "low", "high"),
+    [
+        (23.0, 410.9, 411.1),  # Capa data sheets, flexural modulus in MPa
+        (37.0, 300.0, 380.0),  # published tensile moduli of polycaprolactone
+        (50.0, 120.0, 220.0),
+    ],
+)
+def test_frozen_modulus_stays_in_the_published_ranges(grade: str, celsius: float, low: float, high: float) -> None:
+    solid = solid_of(Catalog().record("polymers", grade))
+    youngs = 2.0 * (1.0 + solid.poissons_ratio) * polymer.solid_shear_modulus(CELSIUS + celsius, solid)
+    assert low <= youngs / 1e6 <= high
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_shear_modulus_at_30_degrees_is_about_130_megapascals(grade: str) -> None:
+    solid = solid_of(Catalog().record("polymers", grade))
+    assert polymer.solid_shear_modulus(CELSIUS + 30.0, solid) == pytest.approx(130e6, rel=0.1)
+
+
+@pytest.mark.parametrize("frequency", [0.3, 3.0, 30.0, 300.0])
+def test_maxwell_moduli_are_the_fourier_integral_of_the_relaxation_modulus(frequency: float) -> None:
+    # Ferry, ch. 3: G' = w int G(t) sin(wt) dt, G'' = w int G(t) cos(wt) dt for a fluid.
+    def relaxation(time: float) -> float:
+        return sum(modulus / 1e5 * np.exp(-time / tau) for tau, modulus in MODES)
+
+    kind = {"epsabs": 1e-9, "limlst": 500, "limit": 500}
+    sine, _ = quad(relaxation, 0.0, np.inf, weight="sin", wvar=frequency, **kind)
+    cosine, _ = quad(relaxation, 0.0, np.inf, weight="cos", wvar=frequency, **kind)
+    found = polymer.maxwell_moduli(frequency, MODES)
+    assert found == pytest.approx((1e5 * frequency * sine, 1e5 * frequency * cosine), rel=1e-5)
+
+
+@pytest.mark.parametrize(("grade", "low", "high"), [("pcl_50k", 430.0, 661.0), ("pcl_80k", 1900.0, 4201.0)])
+def test_slow_melt_flows_with_its_zero_shear_viscosity(grade: str, low: float, high: float) -> None:
+    # Pa s at 100 degC, extrapolated from melts of 16.9-35.5 kg/mol with viscosity ~ M^3.9.
+    record = Catalog().record("polymers", grade)
+    modes = modes_of(record)
+    storage, loss = polymer.maxwell_moduli(1e-4, modes)
+    assert low <= loss / 1e-4 <= high
+    assert loss / 1e-4 == pytest.approx(record.value("zero_shear_viscosity"), rel=1e-3)
+    assert storage / 1e-8 == pytest.approx(sum(g * tau**2 for tau, g in modes), rel=1e-6)
+
+
+def test_spectrum_of_a_melt_is_the_power_law_by_hand() -> None:
+    """Two modes half a decade apart: t^-0.2 makes the faster one 10^0.1 = 1.2589 times as stiff."""
+    (slow, soft), (fast, stiff) = polymer.melt_spectrum(1000.0, 1e6, 2)
+    assert slow / fast == pytest.approx(3.16228, rel=1e-5)
+    assert stiff / soft == pytest.approx(1.25893, rel=1e-5)
+    assert soft + stiff == pytest.approx(1e6)
+    assert soft * slow + stiff * fast == pytest.approx(1000.0)
+
+
+def test_viscosity_moves_the_times_and_plateau_modulus_the_moduli() -> None:
+    one, thicker, stiffer = (polymer.melt_spectrum(*how, 6) for how in ((1e3, 1e6), (1e2, 1e6), (1e3, 1e4)))
+    for (time, modulus), (own_time, own_modulus), (longer, softer) in zip(one, thicker, stiffer, strict=True):
+        assert (own_time, own_modulus) == pytest.approx((0.1 * time, modulus))
+        assert (longer, softer) == pytest.approx((100.0 * time, 0.01 * modulus))
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_fast_melt_is_a_rubber_of_its_plateau_modulus(grade: str) -> None:
+    storage, loss = polymer.maxwell_moduli(1e9, modes_of(Catalog().record("polymers", grade)))
+    assert storage == pytest.approx(0.95e6, rel=0.06)  # 0.9-1.0 MPa
+    assert loss < 1e-2 * storage
+
+
+def test_melt_viscosity_falls_with_temperature_as_arrhenius_says() -> None:
+    # 35 kJ/mol from 100 to 120 degC: exp(35000/8.3145 (1/393.15 - 1/373.15)) = exp(-0.57388) = 0.5633.
+    assert polymer.arrhenius_shift(393.15, 373.15, 35e3) == pytest.approx(0.5633, rel=1e-3)
+    assert polymer.arrhenius_shift(373.15, 373.15, 35e3) == 1.0
+
+
+@given(celsius=st.floats(70.0, 160.0))
+def test_melt_at_another_temperature_is_the_melt_at_a_shifted_frequency(celsius: float) -> None:
+    rheology = rheology_of("pcl_80k")
+    viscosity = polymer.moduli(CELSIUS + celsius, 0.0, 1e-5, rheology)[1] / 1e-5
+    reference = polymer.moduli(373.15, 0.0, 1e-5, rheology)[1] / 1e-5
+    slope = np.log(viscosity / reference) / (1.0 / (CELSIUS + celsius) - 1.0 / 373.15) if celsius != 100.0 else 4209.6
+    assert slope == pytest.approx(35e3 / 8.314462618, rel=1e-3)
+
+
+SWEEP = np.geomspace(0.1, 628.0, 60)
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_frozen_polymer_has_a_loss_factor_near_5_percent_over_the_rheometers_range(grade: str) -> None:
+    storage, loss = polymer.moduli(CELSIUS + 30.0, 1.0, SWEEP, rheology_of(grade))
+    assert np.all(np.abs(loss / storage - 0.05) < 0.0035)
+    # With a constant loss factor G' grows as w^(2 delta/pi): 0.0318 a unit of ln w.
+    slope = np.polyfit(np.log(SWEEP), np.log(storage), 1)[0]
+    assert slope == pytest.approx(2.0 / np.pi * np.arctan(0.05), rel=0.05)
+
+
+@pytest.mark.parametrize("grade", GRADES)
+@pytest.mark.parametrize("celsius", [-5.0, 23.0, 37.0, 50.0])
+def test_frozen_polymer_at_1_hertz_has_the_data_sheets_modulus(grade: str, celsius: float) -> None:
+    # 411 MPa at 23 degC, nu 0.45, and ln E falling by 0.09*5*ln(1 + exp((T - 42)/5)).
+    fall = [0.45 * np.log1p(np.exp((at - 42.0) / 5.0)) for at in (23.0, celsius)]
+    expected = 411e6 * np.exp(fall[0] - fall[1]) / 2.9
+    storage, _ = polymer.moduli(CELSIUS + celsius, 1.0, 2.0 * np.pi, rheology_of(grade))
+    assert storage == pytest.approx(expected, rel=1e-9)
+
+
+def test_part_frozen_polymer_mixes_paired_modes_by_their_logarithms() -> None:
+    # At the melt's reference and the solid's: a quarter solid is the geometric mean with weights 1/4 and 3/4.
+    stiff = polymer.SolidModulus(2.9e8, 373.15, 0.09, 900.0, 5.0, 0.45)
+    rheology = polymer.Rheology(stiff, [(1e12, 1.0)], [(1e-4, 1e4)], 35e3, 373.15)
+    ((time, modulus),) = polymer.spectrum(373.15, 0.25, rheology)
+    assert modulus == pytest.approx(1e5, rel=1e-9)  # 1e8 and 1e4 Pa
+    assert time == pytest.approx(1.0, rel=1e-9)  # 1e12 and 1e-4 s
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_molten_polymer_is_the_melts_spectrum_shifted(grade: str) -> None:
+    rheology = rheology_of(grade)
+    shift = np.exp(35e3 / 8.314462618 * (1.0 / (CELSIUS + 120.0) - 1.0 / (CELSIUS + 100.0)))
+    found = polymer.spectrum(CELSIUS + 120.0, 0.0, rheology)
+    expected = [(tau * shift, g) for tau, g in modes_of(Catalog().record("polymers", grade))]
+    assert np.allclose(found, expected, rtol=1e-9, atol=0.0)
+
+
+@given(celsius=st.floats(-20.0, 70.0), fraction=st.floats(-1e-3, 1.001), frequency=st.floats(1e-3, 1e4))
+def test_every_state_is_passive_and_stiffer_the_more_is_frozen(
+    celsius: float, fraction: float, frequency: float
+) -> None:
+    rheology = rheology_of("pcl_80k")
+    assert all(tau > 0.0 and g > 0.0 for tau, g in polymer.spectrum(CELSIUS + celsius, fraction, rheology))
+    storage, loss = polymer.moduli(CELSIUS + celsius, fraction, frequency, rheology)
+    assert storage > 0.0
+    assert loss > 0.0
+    more, _ = polymer.moduli(CELSIUS + celsius, fraction + 0.01, frequency, rheology)
+    assert more > storage
+
+
+def test_spectrum_takes_symbols_and_arrays_as_it_takes_floats() -> None:
+    import casadi as ca
+
+    rheology = rheology_of("pcl_80k")
+    temperature, fraction = ca.SX.sym("T"), ca.SX.sym("X")
+    pairs = [part for mode in polymer.spectrum(temperature, fraction, rheology) for part in mode]
+    symbolic = ca.Function("spectrum", [temperature, fraction], [ca.vertcat(*pairs)])
+    arrays = polymer.spectrum(np.array([300.0, 333.0, 370.0]), np.array([1.0, 0.4, 0.0]), rheology)
+    for i, (at, frozen) in enumerate([(300.0, 1.0), (333.0, 0.4), (370.0, 0.0)]):
+        plain = [part for mode in polymer.spectrum(at, frozen, rheology) for part in mode]
+        assert np.allclose(np.asarray(symbolic(at, frozen)).ravel(), plain, rtol=1e-12, atol=0.0)
+        assert np.allclose([part[i] for mode in arrays for part in mode], plain, rtol=1e-12, atol=0.0)
+
+
+def test_five_percent_of_the_modulus_are_gone_at_the_linear_limit() -> None:
+    limits = polymer.LinearRange(solid=0.003, melt=0.3)
+    assert polymer.damping_function(0.003, polymer.linear_strain(1.0, limits)) == pytest.approx(0.95, rel=1e-12)
+    assert polymer.damping_function(0.3, polymer.linear_strain(0.0, limits)) == pytest.approx(0.95, rel=1e-12)
+    assert polymer.linear_strain(0.5, limits) == pytest.approx(0.03, rel=1e-12)  # the geometric mean
+    # Soskey and Winter: far beyond the limit the modulus falls with the square of the strain.
+    assert polymer.damping_function(300.0, 0.3) / polymer.damping_function(30.0, 0.3) == pytest.approx(0.01, rel=3e-3)

@@ -1,0 +1,174 @@
+"""One spectrum in every test: creep against relaxation, time against frequency, storage against loss."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad, solve_ivp
+
+from tvimdesign.physics.polymers import viscoelasticity
+from tvimdesign.physics.polymers.polymer import maxwell_moduli
+from tvimdesign.physics.polymers.viscoelasticity import creep_compliance, relaxation_modulus, retardation
+
+Modes = list[tuple[float, float]]
+MELT = [(2.07e-2, 8.25e4), (6.5e-3, 1.04e5), (2.07e-3, 1.31e5), (6.5e-4, 1.65e5), (2.07e-4, 2.07e5), (6.5e-5, 2.61e5)]
+SOLID = [(1e10, 1.2e8), (10.0, 1.0e7), (1.0, 9.5e6), (0.1, 1.05e7), (1e-2, 1.08e7), (1e-3, 1.46e7)]
+BETWEEN = [(math.sqrt(a * c), math.sqrt(b * d)) for (a, b), (c, d) in zip(MELT, SOLID, strict=True)]
+NAMED = pytest.mark.parametrize("modes", [MELT, SOLID, BETWEEN], ids=["melt", "solid", "between"])
+SPECTRA = st.lists(
+    st.tuples(st.floats(-5.0, 10.0), st.floats(3.0, 9.0)),
+    min_size=1,
+    max_size=7,
+    unique_by=lambda pair: round(pair[0], 1),
+).map(lambda pairs: [(10.0**time, 10.0**modulus) for time, modulus in pairs])
+
+
+def inverse_laplace_identity(modes: Modes, s: complex) -> complex:
+    """Q(s) of the relaxation spectrum times 1/Q(s) of the retardation spectrum, which is one."""
+    response = retardation(modes)
+    stiff = sum(g * s * tau / (1.0 + s * tau) for tau, g in modes)
+    soft = response.instant_compliance + sum(j / (1.0 + s * lag) for lag, j in response.modes)
+    return stiff * (soft + 1.0 / (s * response.viscosity))
+
+
+@given(modes=SPECTRA, exponent=st.floats(-10.0, 6.0))
+def test_complex_compliance_is_one_over_the_complex_modulus(modes: Modes, exponent: float) -> None:
+    assert inverse_laplace_identity(modes, 1j * 10.0**exponent) == pytest.approx(1.0, rel=1e-6)
+
+
+@given(modes=SPECTRA)
+def test_times_of_retardation_lie_between_those_of_relaxation(modes: Modes) -> None:
+    response = retardation(modes)
+    relaxing, retarding = sorted(tau for tau, _ in modes), sorted(lag for lag, _ in response.modes)
+    assert len(retarding) == len(relaxing) - 1
+    for short, lag, long in zip(relaxing, retarding, relaxing[1:], strict=False):
+        assert short * (1.0 - 1e-9) <= lag <= long * (1.0 + 1e-9)
+    assert all(compliance > 0.0 for _, compliance in response.modes)
+
+
+@NAMED
+@pytest.mark.parametrize("time", [1e-3, 0.3, 40.0])
+def test_creep_and_relaxation_convolve_to_the_time(modes: Modes, time: float) -> None:
+    # Ferry, ch. 3: int G(t - s) J(s) ds = t.
+    response = retardation(modes)
+
+    def product(s: float) -> float:
+        return float(relaxation_modulus(time - s, modes) * creep_compliance(s, response))
+
+    near = [time * (1.0 - 10.0**-k) for k in range(1, 9) if 10.0**-k < 0.5]
+    edges = sorted({0.0, *(time * 10.0**-k for k in range(9)), *near, time})
+    whole = sum(quad(product, a, b, epsabs=0.0, epsrel=1e-9, limit=200)[0] for a, b in pairwise(edges))
+    assert whole == pytest.approx(time, rel=1e-6)
+
+
+def test_one_mode_creeps_as_maxwells_body() -> None:
+    # J = 1/G + t/(G tau).
+    response = retardation([(2.0, 5.0)])
+    assert response.modes == ()
+    assert creep_compliance(3.0, response) == pytest.approx(0.2 + 0.3, rel=1e-12)
+
+
+def test_spring_beside_one_mode_creeps_as_the_standard_linear_solid() -> None:
+    # Findley, ch. 5: J = 1/R - (1/R - 1/(R + G)) exp(-t R/((R + G) tau)), here R = 2, G = 6, tau = 0.5.
+    response = retardation([(1e14, 2.0), (0.5, 6.0)])
+    for time in (0.0, 0.4, 3.0, 100.0):
+        expected = 0.5 - (0.5 - 0.125) * math.exp(-time * 2.0 / (8.0 * 0.5))
+        assert creep_compliance(time, response) == pytest.approx(expected, rel=1e-9)
+
+
+def test_modes_of_one_time_are_one_mode() -> None:
+    together, apart = retardation([(1.0, 5.0), (0.1, 7.0)]), retardation([(1.0, 2.0), (0.1, 7.0), (1.0, 3.0)])
+    assert np.allclose(together.modes, apart.modes, rtol=1e-12)
+    assert together.viscosity == pytest.approx(apart.viscosity)
+
+
+@NAMED
+def test_nothing_moves_before_the_load(modes: Modes) -> None:
+    assert np.all(creep_compliance(np.array([-5.0, -1e-9]), retardation(modes)) == 0.0)
+
+
+@NAMED
+def test_strain_under_and_after_a_load_is_what_the_internal_equations_integrate_to(modes: Modes) -> None:
+    # Modes in parallel: e_m' = gamma' - e_m/tau_m and sum G_m e_m = sigma, sigma constant, then none.
+    taus, moduli = np.array(modes).T
+
+    def rates(_: float, state: np.ndarray) -> np.ndarray:
+        elastic = state[:-1]
+        flow = np.sum(moduli * elastic / taus) / np.sum(moduli)
+        return np.append(flow - elastic / taus, flow)
+
+    jump = 50.0 / np.sum(moduli)
+    loaded = solve_ivp(rates, (0.0, 30.0), np.full(len(modes) + 1, jump), "Radau", rtol=1e-9, atol=1e-20)
+    assert loaded.success
+    after = solve_ivp(rates, (0.0, 60.0), loaded.y[:, -1] - jump, "Radau", rtol=1e-9, atol=1e-20)
+    assert after.success
+    found = viscoelasticity.creep_and_recovery(np.array([30.0 - 1e-9, 90.0]), 50.0, 30.0, retardation(modes))
+    assert found[0] == pytest.approx(loaded.y[-1, -1], rel=1e-6)
+    assert found[1] == pytest.approx(after.y[-1, -1], rel=1e-3, abs=1e-7 * loaded.y[-1, -1])
+
+
+@NAMED
+def test_storage_and_loss_obey_kramers_and_kronig(modes: Modes) -> None:
+    # G''(w) = -(2 w/pi) P int (G'(x) - G'(w))/(x^2 - w^2) dx (Tschoegl);
+    # in ln x, the pole taken out by symmetry.
+    for omega in (0.5, 20.0):
+
+        def pair(y: float, omega: float = omega) -> float:
+            above, _ = maxwell_moduli(omega * math.exp(y), modes)
+            below, _ = maxwell_moduli(omega * math.exp(-y), modes)
+            return float((above - below) / (2.0 * math.sinh(y)))
+
+        edges = [1e-9, 0.1, 1.0, 3.0, 6.0, 10.0, 15.0, 25.0, 40.0]
+        integral = sum(quad(pair, a, b, epsrel=1e-9, limit=200)[0] for a, b in pairwise(edges))
+        _, loss = maxwell_moduli(omega, modes)
+        assert 2.0 / math.pi * integral == pytest.approx(loss, rel=1e-5)
+
+
+@NAMED
+@pytest.mark.parametrize("omega", [0.3, 30.0])
+def test_sine_in_time_shows_the_moduli_of_the_frequency_domain_within_one_percent(modes: Modes, omega: float) -> None:
+    # Strain sin(wt) from rest, e_m' = gamma' - e_m/tau_m; the first harmonic of the stress over the sixth cycle.
+    taus, moduli = np.array(modes).T
+    period = 2.0 * math.pi / omega
+    cycle = np.linspace(5.0 * period, 6.0 * period, 2001)
+    found = solve_ivp(lambda t, e: omega * math.cos(omega * t) - e / taus, (0.0, cycle[-1]), np.zeros(len(modes)),
+                      "Radau", t_eval=cycle, rtol=1e-7, atol=1e-10)  # fmt: skip
+    assert found.success
+    stress = moduli @ found.y
+    storage, loss = (2.0 / period * np.trapezoid(stress * wave(omega * cycle), cycle) for wave in (np.sin, np.cos))
+    assert (storage, loss) == pytest.approx(maxwell_moduli(omega, modes), rel=1e-2)
+
+
+@NAMED
+def test_start_up_adds_the_relaxation_modulus_up_and_ends_at_the_viscosity(modes: Modes) -> None:
+    for time in (1e-3, 0.2):
+        edges = [0.0, *(time * 10.0**-k for k in range(6, -1, -1))]
+        summed = sum(quad(relaxation_modulus, a, b, args=(modes,), epsabs=0.0)[0] for a, b in pairwise(edges))
+        assert viscoelasticity.start_up_viscosity(time, modes) == pytest.approx(summed, rel=1e-8)
+    end = viscoelasticity.start_up_viscosity(1e12, modes)
+    assert end == pytest.approx(viscoelasticity.zero_shear_viscosity(modes), rel=1e-9)
+    assert end == pytest.approx(sum(tau * g for tau, g in modes), rel=1e-9)
+
+
+def test_slow_melt_flows_with_its_zero_shear_viscosity_however_it_is_moved() -> None:
+    viscosity = viscoelasticity.zero_shear_viscosity(MELT)
+    assert viscoelasticity.complex_viscosity(1e-3, MELT) == pytest.approx(viscosity, rel=1e-6)
+    assert retardation(MELT).viscosity == pytest.approx(viscosity, rel=1e-12)
+    assert viscoelasticity.loss_factor(1e-3, MELT) > 1e3
+
+
+@NAMED
+def test_a_quick_ramp_is_a_step_and_a_slow_one_a_flow(modes: Modes) -> None:
+    stress = viscoelasticity.ramped_stress(1.0, 0.1, 1e-7, modes)
+    assert stress == pytest.approx(0.1 * relaxation_modulus(1.0, modes), rel=1e-4, abs=1e-9 * sum(g for _, g in modes))
+    slow = viscoelasticity.ramped_stress(0.5, 0.1, 1.0, modes)
+    assert slow == pytest.approx(0.1 * viscoelasticity.start_up_viscosity(0.5, modes), rel=1e-12)
+
+
+def test_long_after_a_ramp_a_melt_has_a_tiny_stress_and_not_none() -> None:
+    # One mode by hand: s' = G g' - s/tau gives G g' tau (1 - exp(-t_r/tau)) at the end of the rise, fading from there.
+    by_hand = 1e5 * (0.1 / 0.1) * 0.02 * (1.0 - math.exp(-5.0)) * math.exp(-0.9 / 0.02)
+    assert viscoelasticity.ramped_stress(1.0, 0.1, 0.1, [(0.02, 1e5)]) == pytest.approx(by_hand, rel=1e-9, abs=0.0)

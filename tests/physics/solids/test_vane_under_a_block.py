@@ -1,0 +1,55 @@
+"""The vane as a cantilever integrated along its height, and the plate let into a sector by counting."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_bvp
+
+from tvimdesign.physics.bodies.shapes import radial_strip
+from tvimdesign.physics.solids import vane
+
+YOUNGS, SHEAR, WIDTH, THICKNESS, HEIGHT = 2.1e9, 0.76e9, 11e-3, 4e-3, 12e-3
+
+
+@pytest.mark.parametrize("height", [4e-3, 12e-3, 40e-3])
+def test_mean_deflection_is_that_of_a_beam_with_shear_integrated_along_its_height(height: float) -> None:
+    load = 1000.0  # N/m, even
+    inertia, area = WIDTH * THICKNESS**3 / 12.0, WIDTH * THICKNESS
+
+    def slopes(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        turn, moment, force = y[1], y[2], y[3]
+        deflection = turn + force / (5.0 / 6.0 * SHEAR * area)
+        return np.vstack([deflection, moment / (YOUNGS * inertia), -force, np.full_like(x, -load)])
+
+    def ends(root: np.ndarray, tip: np.ndarray) -> np.ndarray:
+        return np.array([root[0], root[1], tip[2], tip[3]])
+
+    grid = np.linspace(0.0, height, 201)
+    solved = solve_bvp(slopes, ends, grid, np.zeros((4, grid.size)), tol=1e-8)
+    mean = quad(lambda x: solved.sol(x)[0], 0.0, height)[0] / height
+    assert vane.stiffness(YOUNGS, SHEAR, WIDTH, THICKNESS, height) == pytest.approx(load * height / mean, rel=1e-5)
+
+
+def test_a_slender_vane_yields_in_bending_and_a_stub_in_shear() -> None:
+    strength, arm = 31e6, 80e-3
+    # Stress at the surface of a cantilever: F a (t/2)/I.
+    bending = strength * (WIDTH * THICKNESS**3 / 12.0) / (arm * 0.5 * THICKNESS)
+    assert vane.force_at_yield(strength, WIDTH, THICKNESS, arm) == pytest.approx(bending, rel=1e-3)
+    stub = strength / np.sqrt(3.0) * WIDTH * THICKNESS
+    assert vane.force_at_yield(strength, WIDTH, THICKNESS, 1e-6) == pytest.approx(stub, rel=1e-5)
+
+
+def test_a_vane_yields_where_mises_says() -> None:
+    force = vane.force_at_yield(31e6, WIDTH, THICKNESS, 6e-3)
+    bending, shear = 6.0 * force * 6e-3 / (WIDTH * THICKNESS**2), force / (WIDTH * THICKNESS)
+    stress = np.array([[bending, shear, 0.0], [shear, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    deviator = stress - np.trace(stress) / 3.0 * np.eye(3)
+    assert np.sqrt(1.5 * np.sum(deviator**2)) == pytest.approx(31e6, rel=1e-9)
+
+
+@pytest.mark.parametrize("thickness", [0.5e-3, 1.5e-3, 6e-3])
+def test_a_plate_let_into_a_sector_covers_what_points_count(thickness: float) -> None:
+    inner, outer = 13e-3, 24e-3
+    x, y = np.meshgrid((np.arange(3000) + 0.5) * outer / 3000, (np.arange(600) + 0.5) * thickness / 600, indexing="ij")
+    r = np.hypot(x, y)
+    counted = np.mean((r > inner) & (r < outer)) * outer * thickness
+    assert radial_strip(thickness, inner, outer) == pytest.approx(counted, rel=1e-3)

@@ -1,0 +1,132 @@
+"""The leg of a spring on its pin, against the line constructed with vectors, and against energy."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from scipy.optimize import brentq
+
+from tvimdesign.physics.springs import transmission
+
+HANDS = (1.0, -1.0)
+lengths = {
+    "pin": st.floats(10e-3, 45e-3),
+    "placement": st.floats(50e-3, 80e-3),
+    "azimuth": st.floats(-0.5, 0.5),
+    "share": st.floats(0.0, 0.9),
+    "hand": st.sampled_from(HANDS),
+}
+
+
+def constructed_direction(pin: float, placement: float, azimuth: float, offset: float, hand: float) -> float:
+    """Angle of the line that passes the coil centre at the distance `offset` and runs through the pin.
+
+    A right-hand coil (+1) is run through counterclockwise towards its leg, so the leg stands to the right of the
+    direction in which it points, as a tangent of the coil does.
+    """
+    to_pin = np.array([pin * np.cos(azimuth) - placement, pin * np.sin(azimuth)])
+
+    def beside(angle: float) -> float:
+        right = np.array([np.sin(angle), -np.cos(angle)])
+        return float(hand * right @ to_pin - offset)
+
+    towards = np.arctan2(to_pin[1], to_pin[0]) % (2.0 * np.pi)
+    return float(brentq(beside, towards - 0.5 * np.pi, towards + 0.5 * np.pi, xtol=1e-15, rtol=1e-14))
+
+
+@given(**lengths)
+def test_direction_is_that_of_the_line_constructed_with_vectors(
+    pin: float, placement: float, azimuth: float, share: float, hand: float
+) -> None:
+    offset = share * (placement - pin)
+    expected = constructed_direction(pin, placement, azimuth, offset, hand)
+    assert transmission.leg_direction(pin, placement, azimuth, offset, hand) == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize("pin", [12e-3, 28.5e-3, 38e-3, 50e-3])
+def test_ratio_of_a_leg_without_offset_is_pin_radius_over_its_length(pin: float) -> None:
+    # A point p from O and |r - p| from C: p dphi = |r - p| dw.
+    assert abs(transmission.leg_ratio(pin, 57e-3, 0.0, 0.0)) == pytest.approx(pin / abs(57e-3 - pin), rel=1e-12)
+
+
+@given(**lengths)
+def test_ratio_is_the_derivative_of_the_direction(
+    pin: float, placement: float, azimuth: float, share: float, hand: float
+) -> None:
+    offset = share * (placement - pin)
+    # The complex step cannot pass atan2; a five-point stencil is good to 1e-9 here.
+    slope = five_points(lambda f: transmission.leg_direction(pin, placement, f, offset, hand), azimuth)
+    assert transmission.leg_ratio(pin, placement, azimuth, offset, hand) == pytest.approx(slope, rel=1e-6, abs=1e-7)
+
+
+@given(**lengths)
+def test_curvature_is_the_derivative_of_the_ratio(
+    pin: float, placement: float, azimuth: float, share: float, hand: float
+) -> None:
+    offset = share * (placement - pin)
+    step = 1e-30
+    slope = transmission.leg_ratio(pin, placement, azimuth + 1j * step, offset, hand).imag / step
+    assert transmission.leg_curvature(pin, placement, azimuth, offset, hand) == pytest.approx(slope, rel=1e-9, abs=1e-9)
+
+
+@given(**lengths)
+def test_the_left_hand_spring_is_the_mirror_image(
+    pin: float, placement: float, azimuth: float, share: float, hand: float
+) -> None:
+    offset = share * (placement - pin)
+    left = transmission.leg_direction(pin, placement, azimuth, offset, -hand)
+    right = transmission.leg_direction(pin, placement, -azimuth, offset, hand)
+    assert left + right == pytest.approx(2.0 * np.pi, rel=1e-12)
+
+
+@pytest.mark.parametrize(("pin", "expected"), [(28.5e-3, 5.61), (38e-3, 22.4)])
+def test_four_springs_of_the_paper_make_its_output_stiffness(pin: float, expected: float) -> None:
+    # Exley et al.: K_s = N k (dalpha/dtheta)^2 with N = 4, k = 1.4023 N*m/rad; springs at 57 mm, radial pins.
+    ratio = transmission.leg_ratio(pin, 57e-3, 0.0, 0.0)
+    curvature = transmission.leg_curvature(pin, 57e-3, 0.0, 0.0)
+    assert transmission.output_stiffness(4, 1.4023, 0.15, ratio, curvature) == pytest.approx(expected, rel=5e-3)
+
+
+@given(pin=lengths["pin"], placement=lengths["placement"], share=lengths["share"], preload=st.floats(0.0, 1.0))
+def test_output_stiffness_is_the_curvature_of_the_springs_energy(
+    pin: float, placement: float, share: float, preload: float
+) -> None:
+    # Two right- and two left-hand springs; each stores k (a_pre + w)^2/2, w from the line constructed with vectors.
+    # A right-hand coil winds up where its leg turns counterclockwise, a left-hand one clockwise.
+    offset, rate = share * (placement - pin), 1.4
+    assume(placement - pin > 8e-3)
+    rest = {hand: constructed_direction(pin, placement, 0.0, offset, hand) for hand in HANDS}
+
+    def energy(angle: float) -> float:
+        windings = [hand * (constructed_direction(pin, placement, angle, offset, hand) - rest[hand]) for hand in HANDS]
+        return sum(2.0 * 0.5 * rate * (preload + winding) ** 2 for winding in windings)
+
+    step = 0.02 * (1.0 - share) * min(1.0, (placement - pin) / pin)
+    weights = zip((-3, -2, -1, 0, 1, 2, 3), (2, -27, 270, -490, 270, -27, 2), strict=True)
+    expected = sum(weight * energy(i * step) for i, weight in weights) / (180.0 * step**2)
+    # The device's choice of signs: a right-hand spring winds where the rotor turns clockwise.
+    ratio = -transmission.leg_ratio(pin, placement, 0.0, offset)
+    curvature = transmission.leg_curvature(pin, placement, 0.0, offset)
+    stiffness = transmission.output_stiffness(4, rate, preload, ratio, curvature)
+    scale = 4.0 * rate * (ratio**2 + preload * abs(curvature))
+    assert stiffness == pytest.approx(expected, abs=1e-4 * scale)
+
+
+def test_torque_of_one_spring_is_that_of_its_force_on_the_pin() -> None:
+    # Statics: the spring's moment M is a force M/L across the leg, L = sqrt(s^2 - e^2) from the coil to the pin.
+    pin, placement, offset, azimuth, moment = 28.5e-3, 57e-3, 15.4e-3, 0.08, 0.3
+    direction = constructed_direction(pin, placement, azimuth, offset, 1.0)
+    position = pin * np.array([np.cos(azimuth), np.sin(azimuth)])
+    arm = np.sqrt(np.sum((position - [placement, 0.0]) ** 2) - offset**2)
+    # A wound right-hand spring pushes its leg clockwise, so the pin to the leg's right.
+    force = moment / arm * np.array([np.sin(direction), -np.cos(direction)])
+    torque = position[0] * force[1] - position[1] * force[0]
+    # Energy: the springs' torque on the rotor is -M dw/dphi, w the leg's direction.
+    expected = -moment * transmission.leg_ratio(pin, placement, azimuth, offset)
+    assert torque == pytest.approx(expected, rel=1e-9)
+
+
+def five_points(function, at: float, step: float = 1e-3) -> float:
+    return (8.0 * (function(at + step) - function(at - step)) - function(at + 2 * step) + function(at - 2 * step)) / (
+        12.0 * step
+    )

@@ -1,0 +1,181 @@
+"""Torsion springs against handbook examples and against the mechanics the equations come from."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import brentq
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.physics.springs import spring
+
+INCH = 0.0254
+POUND_FORCE_INCH = 0.1129848290276167  # N*m
+KPSI = 6.894757293168e6
+TURN = 2.0 * np.pi
+HALF_PERCENT = 5e-3
+
+# Shigley, 10th ed., example 10-8: music wire .072 in, outer diameter 19/32 in, 4.25 body coils, two legs of 1 in.
+WIRE = 0.072 * INCH
+COIL = (19.0 / 32.0 - 0.072) * INCH
+
+
+def test_active_coils_of_shigleys_example_10_8() -> None:
+    assert spring.active_coils(4.25, COIL, 2.0 * INCH) == pytest.approx(4.6567, rel=1e-4)
+
+
+def test_rate_of_shigleys_example_10_8() -> None:
+    rate = spring.rate(28_500 * KPSI, WIRE, COIL, spring.active_coils(4.25, COIL, 2.0 * INCH), "smi")
+    assert rate * TURN / POUND_FORCE_INCH == pytest.approx(29.2, rel=HALF_PERCENT)
+
+
+def test_inner_fibre_factor_of_shigleys_example_10_8() -> None:
+    assert spring.inner_fibre_factor(spring.spring_index(WIRE, COIL)) == pytest.approx(1.1146, rel=1e-4)
+
+
+def test_coil_diameter_under_load_of_shigleys_example_10_8() -> None:
+    assert spring.loaded_coil_diameter(COIL, 4.25, 0.236 * TURN) / INCH == pytest.approx(0.4943, rel=1e-3)
+
+
+def test_stress_at_the_deflection_of_shigleys_example_10_8_is_the_yield_strength_in_bending() -> None:
+    # The example winds the body by .236 turn because .78 S_ut allows it, S_ut = 201 kpsi/.072^.145 (d in inch).
+    torque = 0.236 * TURN * spring.rate(28_500 * KPSI, WIRE, COIL, 4.25, "smi")
+    stress = spring.bending_stress(torque, WIRE, spring.inner_fibre_factor(COIL / WIRE))
+    assert stress == pytest.approx(0.78 * 201 * KPSI / 0.072**0.145, rel=HALF_PERCENT)
+
+
+@pytest.mark.parametrize(
+    ("modulus", "wire", "coil", "count", "model", "expected"),
+    [
+        (207e9, 2e-3, 20e-3, 5.0, "smi", 3.06667 / TURN),  # 3066.67 N*mm a turn, the SMI formula worked by hand
+        (203.4e9, 2e-3, 20e-3, 5.0, "bending", 0.5085),
+        (203.4e9, 2e-3, 20e-3, 5.0, "smi", 0.47959),
+        # Exley et al., table I. The 12.5 printed there is 12.41 in*lbf/rad, not N*m/rad.
+        (210e9, 2.413e-3, 24.4094e-3, 3.25, "bending", 1.4023),
+        (210e9, 2.413e-3, 24.4094e-3, 3.25, "bending", 12.41 * POUND_FORCE_INCH),
+    ],
+)
+def test_rate_agrees_with_published_springs(
+    modulus: float, wire: float, coil: float, count: float, model: spring.RateModel, expected: float
+) -> None:
+    assert spring.rate(modulus, wire, coil, count, model) == pytest.approx(expected, rel=HALF_PERCENT)
+
+
+def test_rate_in_bending_is_that_of_the_straightened_wire() -> None:
+    # Castigliano: a wire of the length pi D n turns by M L/(E I) under a constant moment, I = pi d^4/64.
+    wire, coil, count, modulus = 1.7e-3, 15e-3, 6.2, 200e9
+    straight = modulus * np.pi * wire**4 / 64.0 / (np.pi * coil * count)
+    assert spring.rate(modulus, wire, coil, count) == pytest.approx(straight, rel=1e-12)
+
+
+def test_a_bending_leg_counts_a_third_of_its_length() -> None:
+    # Cantilever with a load at its end: the slope's work is M^2 L/(6 E I), that of a coil M^2 (pi D)/(2 E I).
+    assert spring.active_coils(5.0, 20e-3, 3.0 * np.pi * 20e-3) == pytest.approx(6.0, rel=1e-12)
+
+
+@given(
+    rate=st.floats(0.05, 20.0),
+    wire=st.floats(0.5e-3, 8e-3),
+    index=st.floats(4.0, 20.0),
+    modulus=st.floats(180e9, 215e9),
+)
+def test_mass_follows_from_rate_and_wire_whatever_the_coil_diameter(
+    rate: float, wire: float, index: float, modulus: float
+) -> None:
+    # The wire's length E I/k holds no D: m = rho pi^2 E d^6/(256 k).
+    coil = index * wire
+    count = spring.rate(modulus, wire, coil, 1.0) / rate
+    assert spring.rate(modulus, wire, coil, count) == pytest.approx(rate, rel=1e-12)
+    mass = 7850.0 * np.pi * coil * count * 0.25 * np.pi * wire**2
+    assert mass == pytest.approx(7850.0 * np.pi**2 * modulus * wire**6 / (256.0 * rate), rel=1e-9)
+
+
+@pytest.mark.parametrize("index", [4.0, 6.0, 8.0, 10.0, 12.0, 20.0])
+def test_stress_factors_are_those_of_a_curved_bar(index: float) -> None:
+    # Winkler-Bach, lengths in wire diameters: r_n = r^2/(2 (R - sqrt(R^2 - r^2))), sigma_i = M c_i/(A e r_i).
+    mean, radius = 0.5 * index, 0.5
+    neutral = radius**2 / (2.0 * (mean - np.sqrt(mean**2 - radius**2)))
+    inner = mean - radius
+    stress = (neutral - inner) / (np.pi * radius**2 * (mean - neutral) * inner)
+    exact = stress / (32.0 / np.pi)
+    assert spring.inner_fibre_factor(index) == pytest.approx(exact, rel=5e-4)
+    assert spring.inner_fibre_factor_en(index) == pytest.approx(exact, rel=0.02)
+
+
+def test_bending_stress_of_a_straight_bar_is_moment_over_section_modulus() -> None:
+    # 10 N*m on a round bar of 10 mm: W = pi d^3/32 = 98.17 mm^3, 101.86 MPa.
+    assert spring.bending_stress(10.0, 10e-3, 1.0) == pytest.approx(101.86e6, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("record", "diameter", "expected"),
+    [
+        # Shigley, 10th ed., table 10-4, from its columns for inches: A in kpsi*in^m, d in inch.
+        ("music_wire", 0.095 * INCH, 201 * KPSI / 0.095**0.145),
+        ("music_wire", 0.020 * INCH, 201 * KPSI / 0.020**0.145),
+        ("oil_tempered", 0.125 * INCH, 147 * KPSI / 0.125**0.187),
+        ("hard_drawn", 0.080 * INCH, 140 * KPSI / 0.080**0.190),
+        ("chrome_vanadium", 0.162 * INCH, 169 * KPSI / 0.162**0.168),
+        ("chrome_silicon", 0.135 * INCH, 202 * KPSI / 0.135**0.108),
+        ("stainless_302", 0.050 * INCH, 169 * KPSI / 0.050**0.146),
+        ("stainless_302", 0.150 * INCH, 128 * KPSI / 0.150**0.263),
+        ("stainless_302", 0.300 * INCH, 90 * KPSI / 0.300**0.478),
+        # EN 10270-1: R_m = 1971 - 740 log10 d (SM), 2220 - 820 log10 d (SH), d in mm.
+        ("patented_wire_sm", 0.5e-3, (1971 - 740 * np.log10(0.5)) * 1e6),
+        ("patented_wire_sm", 2.4e-3, (1971 - 740 * np.log10(2.4)) * 1e6),
+        ("patented_wire_sh", 1.0e-3, (2220 - 820 * np.log10(1.0)) * 1e6),
+        ("patented_wire_sh", 8.0e-3, (2220 - 820 * np.log10(8.0)) * 1e6),
+    ],
+)
+def test_wire_strength_agrees_with_the_handbook(record: str, diameter: float, expected: float) -> None:
+    rows = Catalog().record("spring_materials", record).table("strength")
+    strength = spring.tensile_strength(diameter, [(row["coefficient"], row["exponent"]) for row in rows])
+    assert strength == pytest.approx(expected, rel=8e-3)
+
+
+@given(tensile=st.floats(1e9, 2.5e9), ratio=st.floats(0.3, 0.6))
+def test_endurance_limit_lies_on_the_gerber_line_through_the_repeated_bending_strength(
+    tensile: float, ratio: float
+) -> None:
+    # S_r is a stress from zero: amplitude and mean are both S_r/2, and the part just fails.
+    half = 0.5 * ratio * tensile
+    endurance = spring.endurance_strength(tensile, ratio)
+    assert half / endurance + (half / tensile) ** 2 == pytest.approx(1.0, rel=1e-12)
+
+
+@given(
+    amplitude=st.floats(1e6, 1e9), mean=st.floats(0.0, 1e9), endurance=st.floats(2e8, 8e8), tensile=st.floats(1e9, 3e9)
+)
+def test_gerber_safety_solves_gerbers_equation(amplitude: float, mean: float, endurance: float, tensile: float) -> None:
+    def beyond(factor: float) -> float:
+        return factor * amplitude / endurance + (factor * mean / tensile) ** 2 - 1.0
+
+    root = brentq(beyond, 0.0, 2.0 * endurance / amplitude, xtol=1e-15, rtol=1e-14)
+    assert spring.gerber_safety(amplitude, mean, endurance, tensile) == pytest.approx(root, rel=1e-9)
+
+
+def test_a_spring_wound_up_keeps_its_wire() -> None:
+    # pi D n is the length of the wire; a turn of winding adds a turn of coil.
+    coil, count, angle = 24e-3, 3.25, 1.2
+    wound = spring.loaded_coil_diameter(coil, count, angle)
+    assert wound * (count + angle / TURN) == pytest.approx(coil * count, rel=1e-12)
+
+
+def test_body_length_grows_by_a_wire_for_each_turn() -> None:
+    # Shigley, section 10-12: d (n_b + 1 + theta).
+    assert spring.body_length(2e-3, 4.25, 0.0) == pytest.approx(10.5e-3, rel=1e-12)
+    assert spring.body_length(2e-3, 4.25, TURN) == pytest.approx(12.5e-3, rel=1e-12)
+    assert spring.body_length(2e-3, 4.25, TURN, coil_gap=0.1e-3) == pytest.approx(13.025e-3, rel=1e-12)
+
+
+def test_free_angle_of_the_papers_spring_varies_by_18_7_degrees_in_din_grade_2() -> None:
+    # DIN 2194 as coded in public spring calculators; 2.4 * 3.25^0.76 * sqrt(10.116) degrees.
+    tolerance = spring.free_angle_tolerance(3.25, 24.4094 / 2.413, 1.0)
+    assert np.degrees(tolerance) == pytest.approx(18.7, rel=HALF_PERCENT)
+
+
+@pytest.mark.parametrize(("grade_factor", "millimetres"), [(0.63, 0.3309), (1.0, 0.5252), (1.6, 0.8404)])
+def test_diameter_of_the_papers_spring_varies_as_din_2194_says(grade_factor: float, millimetres: float) -> None:
+    # 0.025 * 24.4094 * 2.413^-0.17 = 0.5254 mm: exp(-0.17 * 0.88087) = 0.86093.
+    tolerance = spring.diameter_tolerance(2.413e-3, 24.4094e-3, grade_factor)
+    assert tolerance == pytest.approx(millimetres * 1e-3, rel=HALF_PERCENT)

@@ -1,0 +1,1 @@
+"""Areas, volumes and inertias of simple shapes."""

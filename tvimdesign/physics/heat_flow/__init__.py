@@ -1,0 +1,1 @@
+"""Heat: conduction, melting and freezing through a stack, and Peltier modules."""

@@ -1,0 +1,1 @@
+"""The polymer between two faces: sheared, squeezed, held under a load."""

@@ -1,0 +1,1 @@
+"""Parts of the structure: how stiff and strong they are."""
