@@ -163,7 +163,7 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
 
 def _refine(whole, mm) -> None:
     """Make elements small where stress is looked at: the core's foot, and the edges of the arcs."""
-    top, low, high = mm["rotor_top_level"], -0.01, mm["pcl_thickness"] + 0.01
+    top, low, high = mm["rotor_top_level"], -0.01, mm.get("pcl_thickness", -1.0) + 0.01
     for edge in whole.edges:
         box = edge.bounding_box
         flat = box[1].z - box[0].z < 1e-4
@@ -206,7 +206,9 @@ def _edges(mesh, tensor, mm, torque) -> dict[str, float]:
 
     Of the whole inner and outer edges and ends, and the highest of all stretches of two millimetres along them.
     """
-    inner, outer, span, thick = (mm[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span", "pcl_thickness"))
+    inner, outer, span, thick = (
+        mm[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span", "pcl_thickness")
+    )
     deep = (np.arange(3) + 0.5) / 3 * thick
     level = (np.arange(3) + 0.5) / 3 * thick
     found, highest = {}, 0.0
@@ -225,12 +227,12 @@ def _edges(mesh, tensor, mm, torque) -> dict[str, float]:
                 else:
                     radius = inner + inward if name == "inner" else outer - inward
                     turn = span * (way - 0.5)
-                turn = turn + 2 * np.pi * arc / round(mm["arc_count"])
+                turn = turn + 2 * np.pi * arc / round(mm["arc_count"]) + np.pi / mm["spring_count"]
                 values = _sampled(mesh, sliding, radius * np.cos(turn), radius * np.sin(turn), up)
                 means.append(np.nanmean(values, axis=(1, 2)) * 1e3 / torque)
         stretch = max(round(2.0 * count / length), 1)
         running = [np.convolve(one, np.ones(stretch) / stretch, "valid").max() for one in means]
-        found[f"edge_{name}"] = float(np.mean(means))
+        found[f"edge_{name}"] = float(np.nanmean(means))
         highest = max(highest, *running)
     return found | {"edge_highest": highest}
 
