@@ -247,7 +247,7 @@ def holding_torque(
     core_holding_torque: Scalar,
     link_holding_torque: Scalar,
 ) -> Scalar:
-    """Torque the frozen joint holds: the least of what blocks, vanes, core and the link's screws bear."""
+    """Torque the frozen joint holds: the least of what blocks, vanes, core and what holds the link bear."""
     vanes = np.fmin(rotor_vane_holding_torque, housing_vane_holding_torque)
     return np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
 

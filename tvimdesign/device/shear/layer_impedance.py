@@ -116,7 +116,7 @@ def layer_holding_torque(
     "N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque")
 )
 def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
-    """Torque the frozen joint holds: the least of what the layer, the core and the link's screws bear."""
+    """Torque the frozen joint holds: the least of what the layer, the core and what holds the link bear."""
     return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
 
 
