@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 from tvimdesign.physics.polymers import large_strain, polymer
@@ -26,7 +27,7 @@ INNER = OPTIMUM["pcl_inner_radius"] / OPTIMUM["pcl_outer_radius"]
 
 
 def module(mode: str = "shear", **changes: Any) -> dict[str, Any]:
-    found = {**given(read_study_text(f"mode: {mode}\n", "a test")), **changes}
+    found = {**given(read_study_text(f"mode: {mode}\n", "a test")), **STIFF_WHEN_WARM, **changes}
     return {**found, **table_for(mode).evaluate(found, ROWS)}
 
 

@@ -31,8 +31,7 @@ def stroke_branch(
     frequency_at_hot: Scalar,
     pcl_modes_at_hot: Modes,
     linear_strain_at_hot: Scalar,
-    elastic_support: Scalar,
-    support_loss: Scalar,
+    support_at_hot: tuple[Scalar, Scalar],
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness [N*m/rad] of the molten PCL and what is in series, at full stroke."""
     angular = 2.0 * np.pi * frequency_at_hot
@@ -41,7 +40,7 @@ def stroke_branch(
         for strain, share in stroke_strains
     ]
     storage, loss = (sum(share * moduli[part] for share, moduli in softened) for part in (0, 1))
-    return layer.series_stiffness(storage, loss, elastic_support, support_loss)
+    return layer.series_stiffness(storage, loss, *support_at_hot)
 
 
 @quantities.output("N*m/rad")
@@ -62,8 +61,7 @@ def hot_damping_at_stroke_least(
     frequency_at_hot: Scalar,
     pcl_modes_at_hot: Modes,
     linear_strain_at_hot: Scalar,
-    elastic_support: Scalar,
-    support_loss: Scalar,
+    support_at_hot: tuple[Scalar, Scalar],
 ) -> Scalar:
     """Damping of the hot joint over its whole stroke if the melt remembered all of it: the least it can be.
 
@@ -75,7 +73,7 @@ def hot_damping_at_stroke_least(
         for strain, share in stroke_strains
     ]
     storage, loss = (sum(share * moduli[part] for share, moduli in softened) for part in (0, 1))
-    return layer.series_stiffness(storage, loss, elastic_support, support_loss)[1] / angular
+    return layer.series_stiffness(storage, loss, *support_at_hot)[1] / angular
 
 
 @quantities.output("kPa", headline=True)
