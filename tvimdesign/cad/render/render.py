@@ -115,12 +115,9 @@ def poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
     points = vtkPoints()
     placed = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
     points.SetData(numpy_to_vtk(placed, deep=True))  # type: ignore[no-untyped-call]  # vtk says no types here
-    cells = np.hstack((np.full((len(mesh.faces), 1), 3), mesh.faces)).astype(np.int64)
+    corners = numpy_to_vtkIdTypeArray(mesh.faces.ravel().astype(np.int64), deep=True)  # type: ignore[no-untyped-call]  # vtk says no types here
     triangles = vtkCellArray()
-    triangles.SetCells(
-        len(mesh.faces),
-        numpy_to_vtkIdTypeArray(cells.ravel(), deep=True),  # type: ignore[no-untyped-call]  # vtk says no types here
-    )
+    triangles.SetData(3, corners)
     data = vtkPolyData()
     data.SetPoints(points)
     data.SetPolys(triangles)
