@@ -282,7 +282,9 @@ def test_two_solids_are_not_one() -> None:
 def test_what_goes_on_too_early_is_in_the_way(
     dims: Dimensions, drawn: dict[str, cq.Solid], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    placed = instances(dims, drawn, place(dims, drawn))
+    kept = ("housing", "rotor", "link", "spring_right_1", "link_screw_1")  # all parts take seven times as long
+    placed = {name: one for name, one in instances(dims, drawn, place(dims, drawn)).items() if name in kept}
+    assert len(placed) == len(kept)
     assert [check.text for check in order_checks(dims, placed) if check.level != "pass"] == []
     whole = order.sequence(list(placed))
     link_first = sorted(whole, key=lambda one: (one.name != "housing", one.name != "link"))
