@@ -81,9 +81,8 @@ def another_cycle(model: DeviceFunctions) -> AnotherCycle:
     return AnotherCycle(heated, kinetic, equilibrium, far_face)
 
 
-@pytest.mark.parametrize(
-    "design", [pytest.param(name, marks=[] if name == "thin" else pytest.mark.slow) for name in DESIGNS]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("design", DESIGNS)
 def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cells(
     design: str, build: Callable[..., DeviceFunctions]
 ) -> None:
