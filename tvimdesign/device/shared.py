@@ -20,6 +20,7 @@ from tvimdesign.device.core import (
     structure_stiffness,
     thermal_stack,
     torsion_springs,
+    warm_structure,
 )
 from tvimdesign.device.fixtures import (
     axial_preload,
@@ -43,6 +44,7 @@ ROOMS = (
     joint_impedance,
     lost_motion,
     structure_stiffness,
+    warm_structure,
     large_motion,
     creep_under_hold,
     thermal_stack,
