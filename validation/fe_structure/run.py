@@ -3,8 +3,8 @@
     python validation/fe_structure/run.py --fe-python FE/bin/python [--work FOLDER] [STUDY ...]
 
 Run it where the package and CadQuery are; FE/bin/python has netgen-mesher, ngsolve and pyyaml. Each study is run, its
-parts are exported as STEP, and FE finds the rate of a spring, the stiffness of the joint and of its parts, and stresses.
-What is in the work folder already is not made again. Without a name: all studies that ship.
+parts are exported as STEP, and FE finds the rate of a spring, the stiffness of the joint and of its parts, and
+stresses. What is in the work folder already is not made again. Without a name: all studies that ship.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 import yaml
-from models import Row, design_rows, model_values
+from models import Row, design_rows, fe_values, model_values
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -54,7 +54,8 @@ def solved(study: str, work: Path, fe_python: Path) -> dict[str, float]:
     done([fe_python, HERE / "solve.py", parts], work / study / "structure.yaml")
     done([fe_python, HERE.parent / "fe_spring/solve.py", parts], work / study / "spring.yaml")
     (spring,) = yaml.safe_load((work / study / "spring.yaml").read_text())["parts"]
-    return {**yaml.safe_load((work / study / "structure.yaml").read_text())["parts"], "spring_rate": spring["rate"]}
+    found = yaml.safe_load((work / study / "structure.yaml").read_text())["parts"]
+    return fe_values({**found, "spring_rate": spring["rate"]})
 
 
 def rows_of(study: str, work: Path, fe_python: Path) -> list[Row]:
