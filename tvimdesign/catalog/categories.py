@@ -92,8 +92,17 @@ CATEGORIES: Mapping[str, Category] = {
             "yield_strength": "MPa",
             "yield_strength_across_layers": "MPa",
             "loss_factor": "1",
+            "modulus_slope": "1/K",
+            "softening_temperature": "degC",
+            "softening_width": "K",
+            "softened_share": "1",
+            "softening_loss_factor": "1",
+            "creep_share": "1",
+            "creep_exponent": "1",
+            "creep_energy": "kJ/mol",
             "service_temperature": "degC",
-        }
+        },
+        may_be_zero=("creep_share",),
     ),
     "processes": Category(
         values={
@@ -133,15 +142,17 @@ CATEGORIES: Mapping[str, Category] = {
             "head_height": "mm",
             "clearance_hole": "mm",
             "tap_drill": "mm",
+            "hexagon_key": "mm",
             "density": "kg/m^3",
         },
         tables={"lengths": Columns({"length": "mm"})},
-        words={"insert": ()},
+        words={"insert": (), "designation": ()},
         rising=(("tap_drill", "nominal_diameter", "clearance_hole", "head_diameter"),),
     ),
     "dowel_pins": Category(
         values={"diameter": "mm", "shear_strength": "MPa", "density": "kg/m^3"},
         tables={"lengths": Columns({"length": "mm"})},
+        words={"designation": ()},
     ),
     "adhesives": Category(
         values={"shear_strength": "MPa", "service_temperature": "degC", "gap_fill": "mm", "density": "kg/m^3"}

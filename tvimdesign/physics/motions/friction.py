@@ -38,6 +38,14 @@ def tightened_force(stress: Any, diameter: Any) -> Any:
     return stress * 0.25 * np.pi * diameter**2
 
 
+def tightening_torque(force: Any, diameter: Any, nut_factor: Any) -> Any:
+    """Torque [N*m] that tightens a screw to a force, K F d.
+
+    `force` [N], nominal `diameter` [m], `nut_factor` K [1]. Shigley, Mechanical Engineering Design, 10th ed., eq. 8-27.
+    """
+    return nut_factor * force * diameter
+
+
 def journal_torque(friction: Any, force: Any, diameter: Any) -> Any:
     """Torque [N*m] with which a loaded bearing or bore resists turning, 0.5 mu F d.
 
@@ -53,3 +61,15 @@ def equivalent_damping(torque: Any, angular_frequency: Any, amplitude: Any) -> A
     Den Hartog, Mechanical Vibrations, section 8-9; `angular_frequency` [rad/s], `amplitude` [rad].
     """
     return 4.0 * torque / (np.pi * angular_frequency * amplitude)
+
+
+def loaded_damping(share: Any, stiffness: Any, loss_stiffness: Any, angular_frequency: Any) -> Any:
+    """Viscous damping that loses as much in a cycle as friction that grows with the load [N*m*s/rad].
+
+    The friction torque is `share` [1] of the load's |K theta_0 sin(omega t + delta)|, delta = atan(K''/K'). Times the
+    speed and summed up over a cycle that is 2 share |K| theta_0^2 (cos delta + delta sin delta): half of what a
+    constant friction takes where the load is a spring, pi/4 of it where the load is a dashpot.
+    """
+    phase = np.arctan2(loss_stiffness, stiffness)
+    size = np.sqrt(stiffness**2 + loss_stiffness**2)
+    return 2.0 * share * size * (np.cos(phase) + phase * np.sin(phase)) / (np.pi * angular_frequency)
