@@ -66,7 +66,7 @@ def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made
 
 def test_step_and_mesh_read_back_as_the_parts(made: Made) -> None:
     for kind in MODULES[made.design.mode].kinds(dimensions(made.design)):
-        copies = {"link_screw": 4, "link_dowel": 2}.get(kind, 1)
+        copies = {"link_screw": 4, "link_dowel": 4}.get(kind, 1)
         if kind in ("pcl_arc", "pcl_block", "peltier_pad"):
             copies = COPIES[made.design.mode]
         expected = 1e9 * made.design.values[KINDS[kind].volume] / copies

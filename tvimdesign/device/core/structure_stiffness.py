@@ -1,7 +1,7 @@
 """What carries the PCL's torque out to the link: stiffness of core, plate, floor and link, and when the core yields.
 
-Pilot holes count as empty. The link stands in series beyond the core's top: `joint_stiffness` is told there, at the
-hub, and `joint_stiffness_at_link` at the link's tool hole.
+Holes of screws and dowel pins count as empty. The link stands in series beyond the core's top: `joint_stiffness` is
+told there, at the hub, and `joint_stiffness_at_link` at the link's tool hole.
 """
 
 from __future__ import annotations
@@ -13,15 +13,31 @@ from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers.layer import series_stiffness
-from tvimdesign.physics.solids import structure
+from tvimdesign.physics.solids import structure, warm
 
 quantities = QuantityGroup(shared.group)
 
 
 @quantities.helper()
-def core_weakening(link_screw_hole: Scalar, link_bolt_circle_radius: Scalar, core_radius: Scalar) -> Scalar:
-    """Share of the core's torsional stiffness that the holes of the link screws cost [1]."""
-    return structure.hole_weakening(0.5 * link_screw_hole, link_bolt_circle_radius, LINK_SCREWS, core_radius)
+def core_screw_bores(
+    link_screw_hole: Scalar, link_bolt_circle_radius: Scalar, core_radius: Scalar, link_screw_depth: Scalar
+) -> structure.Bores:
+    """Holes of the link screws in the core."""
+    share = structure.hole_weakening(0.5 * link_screw_hole, link_bolt_circle_radius, LINK_SCREWS, core_radius)
+    return structure.Bores(share, link_screw_depth)
+
+
+@quantities.helper()
+def core_dowel_bores(
+    link_dowel_diameter: Scalar,
+    link_dowel_circle_radius: Scalar,
+    dowels_fitted: Scalar,
+    core_radius: Scalar,
+    link_dowel_depth: Scalar,
+) -> structure.Bores:
+    """Holes of the dowel pins in the core; they cost nothing where there are none."""
+    share = structure.hole_weakening(0.5 * link_dowel_diameter, link_dowel_circle_radius, dowels_fitted, core_radius)
+    return structure.Bores(share, link_dowel_depth)
 
 
 @quantities.output("N*m/rad")
@@ -30,13 +46,14 @@ def core_stiffness(
     core_radius: Scalar,
     link_bottom_level: Scalar,
     rotor_top_level: Scalar,
-    link_screw_depth: Scalar,
-    core_weakening: Scalar,
+    core_screw_bores: structure.Bores,
+    core_dowel_bores: structure.Bores,
 ) -> Scalar:
     """Torsional stiffness of the core between rotor plate and output link."""
     length = link_bottom_level - rotor_top_level
-    bored = np.fmin(link_screw_depth, length)
-    return structure.bored_shaft_stiffness(structure_shear_modulus, core_radius, length, core_weakening, bored)
+    return structure.bored_shaft_stiffness(
+        structure_shear_modulus, core_radius, length, core_screw_bores, core_dowel_bores
+    )
 
 
 @quantities.output("N*m/rad")
@@ -93,11 +110,12 @@ def stiffness_beyond_link(
     spring_stiffness: Scalar,
     branch_stiffness: tuple[Scalar, Scalar],
     link_stiffness: Scalar,
-    structure_loss_factor: Scalar,
+    core_temperature: Scalar,
+    structure_softening: warm.Softening,
 ) -> tuple[Scalar, Scalar]:
-    """Real and imaginary stiffness of the joint with its link [N*m/rad]."""
-    link_loss = structure.loss_stiffness(link_stiffness, structure_loss_factor)
-    return series_stiffness(spring_stiffness + branch_stiffness[0], branch_stiffness[1], link_stiffness, link_loss)
+    """Real and imaginary stiffness of the joint with its link, which is as warm as the core [N*m/rad]."""
+    link = (link_stiffness * part for part in warm.complex_modulus(core_temperature, structure_softening))
+    return series_stiffness(spring_stiffness + branch_stiffness[0], branch_stiffness[1], *link)
 
 
 @quantities.output("N*m/rad", per_point=True, headline=True)
@@ -114,13 +132,17 @@ def joint_damping_at_link(stiffness_beyond_link: tuple[Scalar, Scalar], frequenc
 
 @quantities.output("N*m")
 def core_holding_torque(
-    structure_layer_strength: Scalar,
+    cold_layer_strength: Scalar,
     core_radius: Scalar,
-    core_weakening: Scalar,
+    core_screw_bores: structure.Bores,
+    core_dowel_bores: structure.Bores,
     link_bolt_circle_radius: Scalar,
+    link_dowel_circle_radius: Scalar,
+    dowels_fitted: Scalar,
     holding_safety: Scalar,
 ) -> Scalar:
-    """Torque the core bears in torsion, beside its screw holes too, by `holding_safety` below yield."""
-    shear = structure.shear_yield(structure_layer_strength)
-    borne = structure.bored_shaft_torque(shear, core_radius, core_weakening, link_bolt_circle_radius)
-    return borne / holding_safety
+    """Torque the core bears in torsion, beside the holes of screws and pins too, by `holding_safety` below yield."""
+    shear = structure.shear_yield(cold_layer_strength)
+    outermost = np.fmax(link_bolt_circle_radius, np.fmin(dowels_fitted, 1.0) * link_dowel_circle_radius)
+    weakening = core_screw_bores.weakening + core_dowel_bores.weakening
+    return structure.bored_shaft_torque(shear, core_radius, weakening, outermost) / holding_safety

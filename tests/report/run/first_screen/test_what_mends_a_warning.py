@@ -78,7 +78,8 @@ def test_the_line_that_is_proposed_mends(output: str) -> None:
     assert line.startswith("module: {")
     words = yaml.safe_load(line)["module"]
     again = _published("".join(f"  {name}: {word}\n" for name, word in words.items()))
-    assert output not in {check.output for check in again.warnings}
+    # With adjusters nothing is asked of the bond of tangs: what a module lacks has no advice.
+    assert not {output, "tang_bond_safety"} & {check.output for check in again.warnings}
 
 
 def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask() -> None:
