@@ -54,7 +54,7 @@ operating_points: {hot: {temperature: 90 degC}}
 
 
 class WholeRun(NamedTuple):
-    """A run with all that one can ask for but parts, in a process of its own."""
+    """A run with its plots and yield, in a process of its own; of the slow ones with sensitivities as well."""
 
     done: CompletedProcess[str]
     folder: Path
@@ -62,15 +62,20 @@ class WholeRun(NamedTuple):
 
 @pytest.fixture(
     scope="module",
-    params=[SHEAR, pytest.param(COMPRESSION, marks=pytest.mark.slow)],
-    ids=["shear", "compression"],
+    params=[
+        (SHEAR, []),
+        pytest.param((SHEAR, ["--sensitivities"]), marks=pytest.mark.slow),
+        pytest.param((COMPRESSION, ["--sensitivities"]), marks=pytest.mark.slow),
+    ],
+    ids=["quick", "shear", "compression"],
 )
 def whole_run(request: pytest.FixtureRequest, process: Command, tmp_path_factory: pytest.TempPathFactory) -> WholeRun:
     folder = tmp_path_factory.mktemp("whole")
-    (folder / "study.yaml").write_text(request.param)
+    text, more = request.param
+    (folder / "study.yaml").write_text(text)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONWARNINGS", "always")
-        words = ("run", folder / "study.yaml", "--no-cad", "--sensitivities", "--out", folder / "out")
+        words = ("run", folder / "study.yaml", "--no-cad", *more, "--out", folder / "out")
         done = process(*words, spread="on")
     assert done.returncode == 0, done.stderr
     return WholeRun(done, folder / "out")
