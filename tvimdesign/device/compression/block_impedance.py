@@ -16,7 +16,7 @@ from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.physics.solids import vane
+from tvimdesign.physics.solids import structure, vane
 
 quantities = QuantityGroup(shared.group)
 SHEET = 3.0
