@@ -20,6 +20,7 @@ from tvimdesign.device.core import (
     structure_stiffness,
     thermal_stack,
     torsion_springs,
+    viscous_heating,
 )
 from tvimdesign.device.fixtures import (
     axial_preload,
@@ -46,6 +47,7 @@ ROOMS = (
     large_motion,
     creep_under_hold,
     thermal_stack,
+    viscous_heating,
     softening,
     stiffening,
     mass_properties,

@@ -8,7 +8,7 @@ import pytest
 from tvimdesign.device import table_for
 from tvimdesign.device.core import softening
 from tvimdesign.device.table.phases import EQUILIBRIUM_STIFFENING, SOFTENING, STIFFENING
-from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.heat_flow import heat, lumps
 
 TABLE = table_for("shear")
 SPAN, INNER, OUTER = 0.85, 26e-3, 40e-3
@@ -63,7 +63,7 @@ def test_core_and_link_hang_on_a_ring_and_hold_the_rest_of_what_turns(known: dic
     masses = TABLE.evaluate(known, ["rotor_mass", "link_mass", "retainer_mass"]).values()
     plate = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     assert plate + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * sum(masses), rel=1e-9)
-    assert core.surface == heat.NOWHERE
+    assert core.surface == lumps.NOWHERE
 
 
 def test_a_sink_stands_on_the_open_cold_sides(known: dict[str, Any], stack: heat.Stack) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import crystallization, polymer
 
 Array = NDArray[np.float64]
@@ -21,18 +21,18 @@ AREA = 1579.2e-6
 PCL = polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
 FREEZING = crystallization.Kinetics(3.0, 170.0, 313.15, 6.08e4, 347.15, 213.15, 6270.0, 0.5)
 PADS = peltier.PeltierModule(0.025, 3.0, 0.12)
-SINK = heat.Lump(5.0, 30.0, heat.Surface(15e-3, 10.0, 0.85))
-STRIP = heat.Lump(0.4, 12.0, heat.Surface(4e-3, 6.0, 0.9))
-CORE = heat.Lump(0.05, 40.0, heat.NOWHERE)
+SINK = lumps.Lump(5.0, 30.0, lumps.Surface(15e-3, 10.0, 0.85))
+STRIP = lumps.Lump(0.4, 12.0, lumps.Surface(4e-3, 6.0, 0.9))
+CORE = lumps.Lump(0.05, 40.0, lumps.NOWHERE)
 
 
 def cycle_stack(**changes: Any) -> heat.Stack:
     """A stack with everything: a sink, a strip and a core beside the plate, radiation from all that meets the air."""
     stack = heat.Stack(
         area=AREA, thickness=1e-3, density=1145.0, conductivity_solid=0.225, conductivity_melt=0.18, melting=PCL,
-        peltier=PADS, cold_capacity=4.0, hot_capacity=2.5, cold_surface=heat.NOWHERE, hot_contact=1e4,
+        peltier=PADS, cold_capacity=4.0, hot_capacity=2.5, cold_surface=lumps.NOWHERE, hot_contact=1e4,
         plate_contact=1e4, plate_thickness=4e-3, plate_conductivity=0.24, plate_heat_capacity=1270.0 * 1200.0,
-        plate_surface=heat.Surface(AREA, 5.0, 0.9), ambient=AMBIENT, plate_cells=3, beside=(STRIP, CORE), sink=SINK,
+        plate_surface=lumps.Surface(AREA, 5.0, 0.9), ambient=AMBIENT, plate_cells=3, beside=(STRIP, CORE), sink=SINK,
     )  # fmt: skip
     return stack._replace(**changes)
 
@@ -108,9 +108,9 @@ def test_a_layer_that_is_taken_over_anywhere_keeps_its_fraction_and_nearly_its_t
 
 def test_a_surface_radiates_as_stefan_and_boltzmann_say() -> None:
     # 0.01 m^2 of emissivity 0.9 at 80 degC: 5.670374e-8 * 0.009 * (353.15^4 - 295.15^4) = 4.0648 W, by hand.
-    assert heat.surface_heat(heat.Surface(0.01, 0.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648, rel=2e-5)
-    assert heat.surface_heat(heat.Surface(0.01, 10.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648 + 5.8, rel=2e-5)
-    assert heat.surface_heat(heat.Surface(0.01, 10.0, 0.9), AMBIENT, AMBIENT) == 0.0
+    assert lumps.surface_heat(lumps.Surface(0.01, 0.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648, rel=2e-5)
+    assert lumps.surface_heat(lumps.Surface(0.01, 10.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648 + 5.8, rel=2e-5)
+    assert lumps.surface_heat(lumps.Surface(0.01, 10.0, 0.9), AMBIENT, AMBIENT) == 0.0
 
 
 def test_a_radiating_plate_cools_as_its_face_at_the_surface_does() -> None:
@@ -125,7 +125,7 @@ def test_a_radiating_plate_cools_as_its_face_at_the_surface_does() -> None:
 
 
 def test_a_cold_side_in_the_air_is_cooled_by_its_own_surface(bare_stack: Callable[..., heat.Stack]) -> None:
-    stack = bare_stack(cold_capacity=4.0, cold_surface=heat.Surface(2e-3, 12.0, 0.8))
+    stack = bare_stack(cold_capacity=4.0, cold_surface=lumps.Surface(2e-3, 12.0, 0.8))
     state = heat.initial_state(stack, 3, AMBIENT)
     state[0] = 0.6  # 60 degC
     expected = -2e-3 * flux(12.0, 0.8, 333.15) / 4.0 / 100.0
@@ -136,8 +136,8 @@ def test_cold_side_and_sink_warm_as_two_lumps_do(
     bare_stack: Callable[..., heat.Stack], integrate: Callable[..., Any]
 ) -> None:
     # At 2 A half of I^2 R = 4 W warms the cold side: C1 T1' = 2 - G (T1 - T2), C2 T2' = G (T1 - T2) - h A (T2 - Ta).
-    sink = heat.Lump(0.5, 30.0, heat.Surface(15e-3, 10.0))
-    stack = bare_stack(cold_capacity=4.0, cold_surface=heat.Surface(1.0, 1e3), hot_capacity=1e9, sink=sink)
+    sink = lumps.Lump(0.5, 30.0, lumps.Surface(15e-3, 10.0))
+    stack = bare_stack(cold_capacity=4.0, cold_surface=lumps.Surface(1.0, 1e3), hot_capacity=1e9, sink=sink)
     times = [5.0, 60.0, 300.0, 3000.0]
     history = integrate(stack, heat.initial_state(stack, 3, AMBIENT), times, current=2.0)
     matrix = np.array([[-0.5 / 4.0, 0.5 / 4.0], [0.5 / 30.0, -(0.5 + 0.15) / 30.0]])
@@ -155,7 +155,7 @@ def test_reversed_current_cools_to_the_balance_of_the_peltier_equations(
     seebeck, ohms, leak, loss = 0.025, 3.0, 0.12, 0.3
     stack = bare_stack(
         peltier=peltier.PeltierModule(seebeck, ohms, leak), cold_capacity=4.0, hot_capacity=2.5, hot_contact=1e4,
-        cold_surface=heat.Surface(0.03, 10.0),
+        cold_surface=lumps.Surface(0.03, 10.0),
     )  # fmt: skip
     joule = 0.5 * current**2 * ohms
     matrix = np.array([[-seebeck * current - leak, leak], [leak, seebeck * current - leak - loss]])
