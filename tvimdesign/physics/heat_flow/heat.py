@@ -1,7 +1,7 @@
 """Transient heat through the stack: air or sink | Peltier cold side | hot side | polymer | plate | air.
 
-One dimension through the stack, finite volumes; what the plate is part of takes up heat sideways, as a chain of lumps,
-and so does what the pads are set in, at the edges of pads and layer. Gaps of air join the two chains (`lumps`).
+One dimension through the stack, finite volumes. What the plate is part of takes up heat sideways, as a chain of lumps;
+so does what the pads are set in, from the edges of pads and layer. Gaps of air join the two chains (`lumps`).
 The polymer's states are enthalpies, not temperatures with an apparent heat capacity, so the latent heat is never
 stepped over (Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709). Between polymer cells flows the difference
 of their conduction potentials (`conduction`); other faces carry the two half-cell resistances in series (Patankar,
