@@ -34,7 +34,7 @@ def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed: dict[
     # Half of I^2 R goes to the hot side; 231 kJ/kg take polycaprolactone from 22 to 100 degC, a third of it latent.
     area = 12 * 14e-3 * 3.5e-3
     power = 0.5 * 1.5**2 * 3.0 * area / 1600e-6
-    time = far_face_time(squeezed, **conducting(100.0))
+    time = far_face_time(squeezed, current=1.5, **conducting(100.0))
     assert time == pytest.approx(1145.0 * area * 7e-3 * 231e3 / power, rel=0.02)
 
 

@@ -1,7 +1,8 @@
 """What the heat passes in the compression module: along the blocks into half of a rotor vane, and up into the plate.
 
 By symmetry no heat passes the middle of a rotor vane, which a block heats from either side. Blocks and pads lose heat
-through their free sides to the housing, above and below through a running clearance, in and out through the chamber.
+through their free sides: below and above through the air of a running clearance to floor and rotor plate, in and out
+through the chamber to the housing.
 """
 
 from __future__ import annotations
@@ -94,44 +95,58 @@ def rotor_beside(
     return (above,)
 
 
-@quantities.output("mm")
-def edge_length(vane_count: Scalar, block_width: Scalar, block_height: Scalar) -> Scalar:
-    """Length of the edges of all blocks together: those of the pads are as long."""
-    return 2.0 * vane_count * 2.0 * (block_width + block_height)
-
-
 @quantities.helper()
-def side_coefficient(
-    block_width: Scalar,
+def open_sides(
     block_height: Scalar,
-    running_clearance: Scalar,
-    air_conductivity: Scalar,
+    vane_count: Scalar,
     housing_coefficient: Scalar,
     surface_emissivity: Scalar,
     ambient_temperature: Scalar,
 ) -> Scalar:
-    """What free sides give to the housing [W/m^2 K], the mean over all four.
+    """What the inner and outer sides of all blocks give to the chamber, by convection and radiation [W/m K].
 
-    Above and below through the still air of a running clearance, in and out by convection and radiation.
+    For a metre of their depth, or of the pads'.
     """
-    open_side = lumps.surface_coefficient(
-        lumps.Surface(1.0, housing_coefficient, surface_emissivity), ambient_temperature, ambient_temperature
-    )
-    narrow = air_conductivity / running_clearance
-    return (block_width * narrow + block_height * open_side) / (block_width + block_height)
+    chamber = lumps.Surface(2.0 * vane_count * 2.0 * block_height, housing_coefficient, surface_emissivity)
+    return chamber.area * lumps.surface_coefficient(chamber, ambient_temperature, ambient_temperature)
 
 
 @quantities.helper()
-def free_sides(side_coefficient: Scalar, edge_length: Scalar, block_depth: Scalar) -> Scalar:
-    """Conductance from the blocks' free sides to what they face [W/K]."""
-    return side_coefficient * edge_length * block_depth
+def narrow_sides(
+    vane_count: Scalar, block_width: Scalar, air_conductivity: Scalar, running_clearance: Scalar
+) -> Scalar:
+    """What the lower sides of all blocks give through the air of a running clearance [W/m K]; the upper ones as much.
+
+    For a metre of their depth, or of the pads'.
+    """
+    return 2.0 * vane_count * block_width * air_conductivity / running_clearance
+
+
+@quantities.helper()
+def free_sides(open_sides: Scalar, narrow_sides: Scalar, block_depth: Scalar) -> Scalar:
+    """Conductance from the blocks' inner, outer and lower sides to the housing [W/K]."""
+    return (open_sides + narrow_sides) * block_depth
+
+
+@quantities.helper()
+def upper_sides(
+    narrow_sides: Scalar,
+    block_depth: Scalar,
+    block_width: Scalar,
+    vane_count: Scalar,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+) -> Scalar:
+    """Conductance from the blocks' upper sides to the rotor plate [W/K], through a running clearance and half of it."""
+    above = 2.0 * vane_count * block_width * block_depth
+    return lumps.in_series(narrow_sides * block_depth, 2.0 * structure_conductivity * above / rotor_thickness)
 
 
 @quantities.helper()
 def around_pads(
-    side_coefficient: Scalar,
+    open_sides: Scalar,
+    narrow_sides: Scalar,
     peltier_thickness: Scalar,
-    edge_length: Scalar,
     block_depth: Scalar,
     block_width: Scalar,
     vane_count: Scalar,
@@ -147,25 +162,22 @@ def around_pads(
     housing_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> tuple[lumps.Lump, ...]:
-    """What the free sides of blocks and pads face: floor and plate next to them, as thick as the floor; the housing.
+    """What the free sides of blocks and pads face: the floor below them, and the housing.
 
     In plastic the first tenths of a millimetre warm up and then keep the heat in; metal is one body with the rest.
     """
-    facing = 4.0 * vane_count * block_width * (block_depth + peltier_thickness)
-    first, *others = lumps.strip(
-        facing,
-        floor_thickness * structure_density * structure_specific_heat,
-        structure_conductivity * facing / floor_thickness,
-        lumps.NOWHERE,
-    )
+    facing = 2.0 * vane_count * block_width * (block_depth + peltier_thickness)
+    capacity = floor_thickness * structure_density * structure_specific_heat
+    through = structure_conductivity * facing / floor_thickness
+    first, *others = lumps.strip(facing, capacity, through, lumps.NOWHERE)
     outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
     outside = outside + np.pi * housing_inner_radius**2
     housing = lumps.Lump(
-        conductance=structure_conductivity * facing / floor_thickness,
-        capacity=housing_mass * structure_specific_heat,
+        conductance=through,
+        capacity=housing_mass * structure_specific_heat - capacity * facing,
         surface=lumps.Surface(outside, housing_coefficient, surface_emissivity),
     )
-    edges = 0.5 * side_coefficient * peltier_thickness * edge_length
+    edges = 0.5 * peltier_thickness * (open_sides + 2.0 * narrow_sides)
     return (first._replace(conductance=lumps.in_series(edges, first.conductance)), *others, housing)
 
 

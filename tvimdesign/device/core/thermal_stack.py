@@ -2,8 +2,8 @@
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`; what takes heat
-from the edges of pads and layer (`around_pads`, `free_sides`), and where that faces the rotor (`air_gaps`); and by
-`moment_now` what a partly molten layer is to the joint.
+from the edges of pads and layer (`around_pads`, `free_sides`, `upper_sides`), and where that faces the rotor
+(`air_gaps`); and by `moment_now` what a partly molten layer is to the joint.
 """
 
 from __future__ import annotations
@@ -115,6 +115,7 @@ def stack(
     sink: lumps.Lump | None,
     around_pads: tuple[lumps.Lump, ...],
     free_sides: Scalar,
+    upper_sides: Scalar | None,
     air_gaps: tuple[lumps.Gap, ...],
 ) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
@@ -143,6 +144,7 @@ def stack(
         sink=sink,
         around=around_pads,
         free_sides=free_sides,
+        upper_sides=upper_sides,
         gaps=air_gaps,
     )
 

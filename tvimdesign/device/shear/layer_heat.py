@@ -162,6 +162,11 @@ def free_sides(
 
 
 @quantities.helper()
+def upper_sides() -> None:
+    """Sides of the layer that face the rotor beside the plate: none, the layer's free sides face the floor's ledge."""
+
+
+@quantities.helper()
 def air_gaps(
     beside_area: Scalar, pcl_thickness: Scalar, air_conductivity: Scalar, surface_emissivity: Scalar
 ) -> tuple[lumps.Gap, ...]:

@@ -12,7 +12,8 @@ carries its own history instead, and freezes late and supercooled.
 
 A state is a one-dimensional array: cold side, hot side, polymer cells from the hot side on, plate cells, the lumps
 beside the plate, the sink if there is one, the lumps around the pads, and with kinetics one extended fraction for each
-polymer cell. Temperatures stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the order of one.
+polymer cell. Temperatures stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the
+order of one.
 """
 
 from __future__ import annotations
@@ -68,6 +69,8 @@ class Stack(NamedTuple):
     """What the pads are set in: the first takes heat from the edges of both their sides, each by its conductance."""
     free_sides: Any = 0.0
     """Conductance of the polymer's free sides to the first lump around the pads [W/K]."""
+    upper_sides: Any = None
+    """Conductance of the polymer's free sides to the first lump beside the plate [W/K], where some face it."""
     gaps: tuple[Gap, ...] = ()
     """Air between lumps beside the plate and lumps around the pads."""
     motion_heat: Any = 0.0
@@ -226,14 +229,18 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
     cold_heat = peltier.cold_side_heat(stack.peltier, current, now.hot, now.cold)
     from_cold, sink = _cold_end(now, stack)
     edges, free_sides = _edges(now, stack)
+    upper_sides = _upper_sides(now, stack)
     sides = np.append(
         -(cold_heat + from_cold + edges[0]) / stack.cold_capacity,
         (hot_heat - now.through_layer[0] - edges[1]) / stack.hot_capacity,
     )
-    layer = (stack.motion_heat - np.diff(now.through_layer) - free_sides) / _cell_mass(stack, len(now.cells))
+    layer = (stack.motion_heat - np.diff(now.through_layer) - free_sides - upper_sides) / _cell_mass(
+        stack, len(now.cells)
+    )
     sideways = _sideways(now, stack)
     plate = (-np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
-    beside, around = _chains(now, stack, np.sum(sideways), edges[0] + edges[1] + np.sum(free_sides))
+    to_around = edges[0] + edges[1] + np.sum(free_sides)
+    beside, around = _chains(now, stack, np.sum(sideways) + np.sum(upper_sides), to_around)
     bodies = np.append(np.append(np.append(plate, beside), sink), around) / TEMPERATURE_SCALE
     heated = np.append(np.append(sides / TEMPERATURE_SCALE, layer / ENTHALPY_SCALE), bodies)
     if stack.freezing is None:
@@ -268,6 +275,13 @@ def _edges(now: Profile, stack: Stack) -> tuple[tuple[Any, Any], Any]:
     place, conductance = now.around[0], stack.around[0].conductance
     each = stack.free_sides / len(now.cells)
     return (conductance * (now.cold - place), conductance * (now.hot - place)), each * (now.cells - place)
+
+
+def _upper_sides(now: Profile, stack: Stack) -> Any:
+    """Heat [W] each polymer cell gives to the first lump beside the plate through its free side."""
+    if stack.upper_sides is None:
+        return 0.0
+    return stack.upper_sides / len(now.cells) * (now.cells - now.beside[0])
 
 
 def _sideways(now: Profile, stack: Stack) -> Any:
