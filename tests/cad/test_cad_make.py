@@ -18,6 +18,7 @@ from cad_designs import Made
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.product_data import _linear
 from tvimdesign.cad.export.part21 import in_fixed_order
 from tvimdesign.cad.export.step_file import Product, write_assembly
 from tvimdesign.cad.geometry.dimensions import dimensions
@@ -65,7 +66,7 @@ def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made
 
 def test_step_and_mesh_read_back_as_the_parts(made: Made) -> None:
     for kind in MODULES[made.design.mode].kinds(dimensions(made.design)):
-        copies = {"link_screw": 4, "link_dowel": 2}.get(kind, 1)
+        copies = {"link_screw": 4, "link_dowel": 4}.get(kind, 1)
         if kind in ("pcl_arc", "pcl_block", "peltier_pad"):
             copies = COPIES[made.design.mode]
         expected = 1e9 * made.design.values[KINDS[kind].volume] / copies
@@ -101,6 +102,27 @@ def test_glb_is_the_module_in_metres_with_y_up(made: Made) -> None:
     width, height = values["envelope_diameter"], values["envelope_height"]
     assert scene.extents == pytest.approx([width, height, width], rel=1e-3)
     assert {"housing", "spring_left_4", f"peltier_pad_{COPIES[made.design.mode]}"} <= set(scene.graph.nodes_geometry)
+
+
+def test_colours_of_the_glb_are_in_linear_light(made: Made) -> None:
+    # glTF 2.0, 3.9.2: factors are linear. By IEC 61966-2-1 half of full sRGB is 0.214 of the light.
+    assert _linear(0.5) == pytest.approx(0.2140, abs=5e-5)
+    scene = trimesh.load_scene(made.report.folder / "assembly.glb")
+    factors = scene.geometry["rotor"].visual.material.baseColorFactor[:3] / 255.0
+    assert factors == pytest.approx([_linear(part) for part in KINDS["rotor"].colour], abs=1.0 / 255.0)
+
+
+def test_the_section_shows_pad_polymer_and_a_spring_that_is_cut(made: Made) -> None:
+    image = matplotlib.image.imread(made.report.folder / "views/section.png")[:560, :, :3]
+    for kind in ("peltier_pad", "pcl_arc" if made.design.mode == "shear" else "pcl_block", "rotor", "housing"):
+        hue = np.array(KINDS[kind].colour) / max(KINDS[kind].colour)
+        bright = image.max(axis=2)
+        alike = np.abs(image / np.maximum(bright, 1e-6)[:, :, None] - hue).max(axis=2) < 0.06
+        assert np.count_nonzero(alike & (bright > 0.3)) > 150, kind
+    rows, columns = np.nonzero(np.any(image < 0.95, axis=2))
+    assert rows.min() > 0  # nothing is cropped
+    assert columns.min() > 0
+    assert columns.max() < image.shape[1] - 1
 
 
 def test_picture_shows_the_parts(made: Made) -> None:

@@ -31,7 +31,7 @@ ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_an
 BLOCKS = {
     "coil_diameter": 12.0198 * MM, "coil_count": 6.6, "core_radius": 8.0 * MM, "pcl_inner_radius": 13.0 * MM,
     "pcl_outer_radius": 24.0 * MM, "rotor_rim": 7.5 * MM, "block_height": 11.964 * MM, "block_depth": 4.0 * MM,
-    "vane_thickness": 4.0 * MM,
+    "vane_thickness": 4.0 * MM, "link_dowel": "iso_8734_2",
 }  # fmt: skip
 WRIST_BLOCKS = {name: value for name, value in WRIST.items() if name not in {"arc_span", "pcl_thickness"}} | {
     "coil_diameter": 7.0 * MM, "coil_count": 6.2, "pcl_inner_radius": 9.5 * MM, "pcl_outer_radius": 16.0 * MM,
@@ -49,7 +49,8 @@ BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 *
 BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "corner_radius": 0.5 * MM,
                            "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "pcl_inner_radius": 17.0 * MM,
                            "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 4.3 * MM,
-                           "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate"}  # fmt: skip
+                           "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate",
+                           "link_dowel_count": 2}  # fmt: skip
 # A flange for a torque sensor between hub and windows, and one between a hub with bearings and slots.
 FLANGE = {"sensor_flange": "iso_9409_40_4_m6", "core_radius": 9.0 * MM, "foot_height": 12.0 * MM,
           "flange_screw_reach": 10.5 * MM}  # fmt: skip

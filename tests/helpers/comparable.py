@@ -38,6 +38,7 @@ module:
   coil_diameter: 12.02 mm
   coil_count: 6.6
   core_radius: 8 mm
+  link_dowel: iso_8734_2
   rotor_rim: 7.5 mm
   pcl_inner_radius: 13 mm
   pcl_outer_radius: 24 mm

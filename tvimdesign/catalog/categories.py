@@ -133,15 +133,17 @@ CATEGORIES: Mapping[str, Category] = {
             "head_height": "mm",
             "clearance_hole": "mm",
             "tap_drill": "mm",
+            "hexagon_key": "mm",
             "density": "kg/m^3",
         },
         tables={"lengths": Columns({"length": "mm"})},
-        words={"insert": ()},
+        words={"insert": (), "designation": ()},
         rising=(("tap_drill", "nominal_diameter", "clearance_hole", "head_diameter"),),
     ),
     "dowel_pins": Category(
         values={"diameter": "mm", "shear_strength": "MPa", "density": "kg/m^3"},
         tables={"lengths": Columns({"length": "mm"})},
+        words={"designation": ()},
     ),
     "adhesives": Category(
         values={"shear_strength": "MPa", "service_temperature": "degC", "gap_fill": "mm", "density": "kg/m^3"}

@@ -7,6 +7,7 @@ What carries no torque (journal, hub above the floor, pins, posts) is cut away: 
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import sys
@@ -15,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import yaml
+from netgen.libngpy._meshing import NgException
 from netgen.occ import Cylinder, Dir, Glue, OCCGeometry, Pnt
 from ngsolve import (
     CF,
@@ -80,6 +82,7 @@ def parts(folder: Path, mm: dict[str, float]) -> list:
     return [shape for shape, _, _ in found]
 
 
+FOOT, EDGE = float(os.environ.get("FOOT", "1")), float(os.environ.get("EDGE", "0"))  # mm; zero: as the layer
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": float(os.environ.get("LAYER", "5"))}  # mm
 
 
@@ -89,6 +92,7 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
     whole = Glue(parts(folder, mm))
+    _refine(whole, mm)
     ground = -mm["floor_thickness"] - mm["foot_height"]
     top = mm["link_bottom_level"]
     for face in whole.faces:
@@ -151,7 +155,86 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
     torque = total  # N*mm at one radian
     result = {"elements": mesh.ne, "unknowns": space.ndof, "hub": total * 1e-3}
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
-    return result | _stresses(mesh, stress(strain), mm, torque) | {"seconds": time.time() - began}
+    result |= _stresses(mesh, stress(strain), mm, torque) | _foot(mesh, stress(strain), mm, torque)
+    if not mm.get("vane_count"):
+        result |= _edges(mesh, stress(strain), mm, torque)
+    return result | {"seconds": time.time() - began}
+
+
+def _refine(whole, mm) -> None:
+    """Make elements small where stress is looked at: the core's foot, and the edges of the arcs."""
+    top, low, high = mm["rotor_top_level"], -0.01, mm.get("pcl_thickness", -1.0) + 0.01
+    for edge in whole.edges:
+        box = edge.bounding_box
+        flat = box[1].z - box[0].z < 1e-4
+        wide = max(box[1].x - box[0].x, box[1].y - box[0].y)
+        centre = edge.center
+        if flat and abs(box[0].z - top) < 1e-3 and wide < 2.02 * mm["core_radius"]:
+            if np.hypot(centre.x, centre.y) < mm["core_radius"] + 0.01 and wide > 0.5 * mm["core_radius"]:
+                edge.maxh = FOOT
+        elif EDGE and flat and low < box[0].z < high and np.hypot(centre.x, centre.y) > mm["core_radius"] + 0.5:
+            edge.maxh = EDGE
+
+
+def _mises(tensor):
+    deviator = tensor - Trace(tensor) / 3 * Id(3)
+    return sqrt(1.5 * InnerProduct(deviator, deviator))
+
+
+def _foot(mesh, tensor, mm, torque) -> dict[str, float]:
+    """Core's von Mises stress [MPa] at one newton metre beside its foot, a mean over the first millimetre above it."""
+    angles, levels = np.meshgrid(np.linspace(0, 2 * np.pi, 73)[:-1], (np.arange(10) + 0.5) / 10)
+    radius = mm["core_radius"] * 0.998
+    places = radius * np.cos(angles), radius * np.sin(angles), mm["rotor_top_level"] + levels
+    along = _sampled(mesh, _mises(tensor), *places) * 1e3 / torque
+    mean = np.nanmean(along, axis=0)
+    return {"foot_highest": np.nanmax(mean), "foot_mean": np.nanmean(mean),
+            "foot_lower_half": np.nanmax(np.nanmean(along[:5], axis=0))}  # fmt: skip
+
+
+def _sampled(mesh, field, *places):
+    """Field at places [mm]; nan where the mesh's curved elements leave one out."""
+    found = np.full(places[0].shape, np.nan)
+    for index in np.ndindex(found.shape):
+        with contextlib.suppress(NgException):
+            found[index] = field(mesh(*(float(axis[index]) for axis in places)))
+    return found
+
+
+def _edges(mesh, tensor, mm, torque) -> dict[str, float]:
+    """Layer's shear [MPa] at one newton metre, means over one thickness in from the arcs' edges.
+
+    Of the whole inner and outer edges and ends, and the highest of all stretches of two millimetres along them.
+    """
+    inner, outer, span, thick = (
+        mm[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span", "pcl_thickness")
+    )
+    deep = (np.arange(3) + 0.5) / 3 * thick
+    level = (np.arange(3) + 0.5) / 3 * thick
+    found, highest = {}, 0.0
+    sliding = sqrt(tensor[0, 2] ** 2 + tensor[1, 2] ** 2)
+    for name in ("inner", "outer", "end"):
+        length = (outer - inner) if name == "end" else span * (inner if name == "inner" else outer)
+        count = max(int(length / 0.5), 4)
+        share = (np.arange(count) + 0.5) / count
+        means = []
+        for arc in range(round(mm["arc_count"])):
+            for sense in (-1, 1) if name == "end" else (1,):
+                way, inward, up = np.meshgrid(share, deep, level, indexing="ij")
+                if name == "end":
+                    radius = inner + (outer - inner) * way
+                    turn = sense * (0.5 * span - inward / radius)
+                else:
+                    radius = inner + inward if name == "inner" else outer - inward
+                    turn = span * (way - 0.5)
+                turn = turn + 2 * np.pi * arc / round(mm["arc_count"]) + np.pi / mm["spring_count"]
+                values = _sampled(mesh, sliding, radius * np.cos(turn), radius * np.sin(turn), up)
+                means.append(np.nanmean(values, axis=(1, 2)) * 1e3 / torque)
+        stretch = max(round(2.0 * count / length), 1)
+        running = [np.convolve(one, np.ones(stretch) / stretch, "valid").max() for one in means]
+        found[f"edge_{name}"] = float(np.nanmean(means))
+        highest = max(highest, *running)
+    return found | {"edge_highest": highest}
 
 
 def _stresses(mesh, tensor, mm, torque) -> dict[str, float]:
@@ -160,8 +243,7 @@ def _stresses(mesh, tensor, mm, torque) -> dict[str, float]:
     material = np.array([e.mat for e in mesh.Elements(VOL)])
     each = len(points) // len(material)
     names = np.repeat(material, each)
-    deviator = tensor - Trace(tensor) / 3 * Id(3)
-    mises = np.asarray(sqrt(1.5 * InnerProduct(deviator, deviator))(points)).ravel() * 1e3 / torque
+    mises = np.asarray(_mises(tensor)(points)).ravel() * 1e3 / torque
     sliding = np.asarray(sqrt(tensor[0, 2] ** 2 + tensor[1, 2] ** 2)(points)).ravel() * 1e3 / torque
     level = np.asarray(z(points)).ravel()
     layer = sliding[names == "pcl"]

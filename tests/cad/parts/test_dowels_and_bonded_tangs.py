@@ -23,11 +23,11 @@ from tvimdesign.cad.inspection.size_checks import interference_checks, size_chec
 from tvimdesign.cad.parts import dowel_parts
 from tvimdesign.study.design import Design
 
-FOUR = {"link_dowel_count": 4, "link_dowel": "iso_8734_2_5", "core_radius": 11.0 * MM}
+TWO = {"link_dowel_count": 2, "link_dowel": "iso_8734_2"}
 MODULES: Mapping[str, tuple[str, Mapping[str, float | str]]] = {
-    "two": ("shear", {}),
-    "four": ("shear", FOUR),
-    "compression": ("compression", {"core_radius": 8.0 * MM}),
+    "two": ("shear", TWO),
+    "four": ("shear", {}),
+    "compression": ("compression", {"core_radius": 8.0 * MM, **TWO}),
 }
 
 

@@ -146,7 +146,10 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
         (p["link_bottom_level"] - p["pin_top_level"], core),
         (-p["link_screw_depth"], lambda x, y: near(x, y, 0.5 * p["link_screw_pilot"], p["link_bolt_circle_radius"], 4)),
         (-p["retainer_screw_depth"], lambda x, y: np.hypot(x, y) < 0.5 * p["retainer_screw_pilot"]),
-        (-p["link_dowel_depth"], lambda x, y: near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 2)),
+        (
+            -p["link_dowel_depth"],
+            lambda x, y: near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 4, 0.25 * np.pi),
+        ),
     ]
     volume, polar = stack_up(slabs, p["rotor_radius"], [0.5 * p["retainer_screw_pilot"], *rims(p)])
     assert p["rotor_volume"] == pytest.approx(volume, rel=3e-3)

@@ -133,7 +133,7 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
         return np.hypot(x, y) < 0.5 * p["retainer_screw_pilot"]
 
     def dowels(x: Array, y: Array) -> NDArray[np.bool_]:
-        return near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 2)
+        return near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 4, 0.25 * np.pi)
 
     low = p["floor_thickness"] + p["running_clearance"]  # the core's end below the floor's upper face
     slabs = [
@@ -159,7 +159,9 @@ def test_link_and_retainer_have_the_volume_and_inertia_of_their_outlines(part: d
         bar = np.hypot(x - along, y) < p["link_half_width"]
         screws = near(x, y, 0.5 * p["link_screw_clearance"], p["link_bolt_circle_radius"], 4)
         tool = np.hypot(x - p["link_length"], y) < 0.5 * p["link_tool_hole"]
-        return bar & ~screws & ~tool & ~near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 2)
+        return (
+            bar & ~screws & ~tool & ~near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 4, 0.25 * np.pi)
+        )
 
     def retainer(x: Array, y: Array) -> NDArray[np.bool_]:
         r = np.hypot(x, y)

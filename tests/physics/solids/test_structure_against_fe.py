@@ -33,8 +33,8 @@ def weakening(mm: dict[str, float]) -> float:
 def test_the_core_with_its_empty_holes_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(JOINTS[name])
     length = mm["link_bottom_level"] - mm["rotor_top_level"]
-    bored = min(mm["link_screw_depth"], length)
-    found = structure.bored_shaft_stiffness(shear, mm["core_radius"], length, weakening(mm), bored)
+    screws, pins = structure.Bores(weakening(mm), mm["link_screw_depth"]), structure.Bores(0.0, 0.0)
+    found = structure.bored_shaft_stiffness(shear, mm["core_radius"], length, screws, pins)
     fe = JOINTS[name]["found"]["core"]
     assert found == pytest.approx(fe, rel=0.10 if length > 0.8 * mm["core_radius"] else 0.13)  # hardly a bar
     assert structure.shaft_stiffness(shear, mm["core_radius"], length) > 1.15 * fe  # what stood here: no hole, no entry

@@ -44,7 +44,7 @@ def glb_bytes(placed: Mapping[str, Instance]) -> bytes:
             continue
         known.add(kind)
         material = trimesh.visual.material.PBRMaterial(
-            name=kind, baseColorFactor=[*KINDS[kind].colour, 1.0], metallicFactor=0.1, roughnessFactor=0.6
+            name=kind, baseColorFactor=[*map(_linear, KINDS[kind].colour), 1.0], metallicFactor=0.1, roughnessFactor=0.6
         )
         body = trimesh.Trimesh(
             instance.mesh.vertices, instance.mesh.faces, process=False,
@@ -52,6 +52,11 @@ def glb_bytes(placed: Mapping[str, Instance]) -> bytes:
         )  # fmt: skip
         scene.add_geometry(body, node_name=name, geom_name=kind, transform=matrix)
     return bytes(scene.export(file_type="glb", include_normals=True))
+
+
+def _linear(part: float) -> float:
+    """One part of a colour of the screen (sRGB, IEC 61966-2-1) in the linear light that glTF asks for."""
+    return part / 12.92 if part <= 0.04045 else float(((part + 0.055) / 1.055) ** 2.4)
 
 
 def _matrix(location: cq.Location) -> Array:

@@ -172,14 +172,16 @@ def _bill_and_note(job: Job) -> list[SolidCheck]:
 
 def _pictures(job: Job) -> list[SolidCheck]:
     """The module whole and opened, taken apart, and cut through."""
+    from tvimdesign.cad.render.exploded import write_exploded
     from tvimdesign.cad.render.preview import write_preview
-    from tvimdesign.cad.render.views import write_exploded, write_section
+    from tvimdesign.cad.render.section import write_section
 
     drawn = _solids(job.needs)
-    placed = instances(job.dims, drawn, place(job.dims, drawn))
+    solids = place(job.dims, drawn)
+    placed = instances(job.dims, drawn, solids)
     write_preview(_place(job.folder, file_names.PREVIEW), job.dims, drawn, placed)
     write_exploded(_place(job.folder, file_names.EXPLODED), placed)
-    write_section(_place(job.folder, file_names.SECTION), placed)
+    write_section(_place(job.folder, file_names.SECTION), solids, placed)
     return []
 
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
+from tvimdesign.base.record import Record
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
@@ -57,13 +58,25 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
 
 
 def _titles(design: Design) -> dict[str, str]:
-    """What the catalogue calls the records a design was made of; a record that is not here has its name only."""
+    """What the records a design was made of are called, or ordered by where the catalogue says it.
+
+    A record that is not here has its name only.
+    """
     titles = {}
     for row in table_for(design.mode).choices:
         with contextlib.suppress(CatalogError):
             if row.category and row.name in design.choices:
-                titles[row.name] = catalog_of(design).record(row.category, design.choices[row.name]).title
+                record = catalog_of(design).record(row.category, design.choices[row.name])
+                titles[row.name] = _ordered_by(record, design, row.name)
     return titles
+
+
+def _ordered_by(record: Record, design: Design, row: str) -> str:
+    """The designation of a standard part, its length filled in; else the record's title."""
+    length = design.values.get(f"{row}_length")
+    if "designation" not in record.words or not isinstance(length, int | float):
+        return record.title
+    return record.words["designation"].format(length=f"{1e3 * length:.3g}")
 
 
 def _hand_out(done: Done, out: Path) -> list[str]:

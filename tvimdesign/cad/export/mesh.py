@@ -48,6 +48,10 @@ class Instance:
     matrix: Array
     """4 x 4, from the part's coordinates to the module's."""
 
+    def points(self) -> Array:
+        """Its vertices where they stand in the module [mm], one a row."""
+        return np.asarray(self.mesh.vertices @ self.matrix[:3, :3].T + self.matrix[:3, 3])
+
 
 def solid_mesh(solid: cq.Solid) -> Mesh:
     """Triangulate a solid in its own coordinates."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from math import cos, inf, pi, sin
+from math import cos, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -28,9 +28,7 @@ _STEEPEST = -0.1
 _WAY = {"above": np.array([0.0, 0.0, 1.0]), "below": np.array([0.0, 0.0, -1.0])}
 """Back out, by the side a part comes from."""
 TOOL_LENGTH = 60.0
-"""Free length of a driver [mm]; assumed: bits and long keys have 50 to 100 mm."""
-TOOL_RADIUS = 3.2
-"""Of a driver [mm]; assumed: a hexagonal bit of 6.35 mm, ISO 1173, turned down at its end; bare keys are thinner."""
+"""Free length of a hexagon key's long leg [mm]; assumed: 50 to 100 mm."""
 _TOOL_RAYS = 24
 
 
@@ -92,7 +90,8 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[S
         there |= {name: meshes[name] for name in names}
         if kind_of(names[0]).endswith("_screw"):
             standing, out = Standing(there), _WAY[group[0].side]
-            yield from (_driver(name, _end(meshes[name], out), out, standing) for name in names)
+            key = dims.of(kind_of(names[0]), "key")
+            yield from (_driver(name, _end(meshes[name], out), out, standing, key) for name in names)
     if not any(kind_of(name) == "mount_screw" for name in meshes):
         yield from mount_checks(dims, Standing(there))
 
@@ -155,24 +154,26 @@ def _end(mesh: Mesh, out: Array) -> Array:
 def mount_checks(dims: Dimensions, there: Standing) -> Iterator[SolidCheck]:
     """Whether a driver comes from above to the screws that fix the housing, the module complete and at rest."""
     for index, (x, y) in enumerate(mounts(dims)):
-        yield _driver(f"mount_screw_{index + 1}", np.array([x, y, 0.0]), _WAY["above"], there)
+        yield _driver(f"mount_screw_{index + 1}", np.array([x, y, 0.0]), _WAY["above"], there, dims.mount_screw_key)
 
 
-def _driver(name: str, head: Array, out: Array, there: Standing) -> SolidCheck:
-    """Whether a driver comes to a screw along its axis; the screw itself lies behind the rays."""
+def _driver(name: str, head: Array, out: Array, there: Standing, key: float) -> SolidCheck:
+    """Whether a hexagon key comes to a screw along its axis; the screw itself lies behind the rays.
+
+    `key` is the key's width across its flats [mm].
+    """
+    radius = key / sqrt(3.0)  # of its corners
     angles = np.arange(_TOOL_RAYS) * 2.0 * pi / _TOOL_RAYS
-    rim = [
-        [share * TOOL_RADIUS * cos(one), share * TOOL_RADIUS * sin(one), 0.0] for share in (0.5, 1.0) for one in angles
-    ]
+    rim = [[share * radius * cos(one), share * radius * sin(one), 0.0] for share in (0.5, 1.0) for one in angles]
     starts = head + _SKIN * out + np.array([[0.0, 0.0, 0.0], *rim])
     free = there.triangles.first_hits(starts, np.tile(out, (len(starts), 1))).distance
     least = float(free.min())
-    text = f"a driver {2.0 * TOOL_RADIUS:.3g} mm thick has {TOOL_LENGTH:.3g} mm before the screw"
+    text = f"a key of {key:.3g} mm has {TOOL_LENGTH:.3g} mm before the screw"
     place = None
     if least < TOOL_LENGTH:
         place = starts[int(np.argmin(free))] + least * out
-        text = f"a driver {2.0 * TOOL_RADIUS:.3g} mm thick meets {there.nearest(place)} {least:.3g} mm before the screw"
+        text = f"a key of {key:.3g} mm meets {there.nearest(place)} {least:.3g} mm before the screw"
     return finding(
         name, "driver", min(least, TOOL_LENGTH) if least < inf else TOOL_LENGTH, TOOL_LENGTH, "mm",
-        at_least(least, TOOL_LENGTH), text, place=place, resolution=2.0 * pi * TOOL_RADIUS / _TOOL_RAYS,
+        at_least(least, TOOL_LENGTH), text, place=place, resolution=2.0 * pi * radius / _TOOL_RAYS,
     )  # fmt: skip

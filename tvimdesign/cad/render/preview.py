@@ -13,9 +13,11 @@ from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.export.mesh import Instance, solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, kind_of
-from tvimdesign.cad.render.render import actors, legend, legend_height, lit, write_png
+from tvimdesign.cad.render.camera import look, renderer_on_white
+from tvimdesign.cad.render.render import actors, legend, legend_height, write_png
 
 _SIZE = (1800, 800)
+_FROM = (1.0, -1.35, 1.25)
 _CUT = ("housing", "rotor")
 _HIDDEN = ("link", "link_dowel", "cover", "cover_screw")
 
@@ -27,9 +29,11 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
         opened[name] = Instance(solid_mesh(_without_quarter(drawn[name], dims)), np.eye(4))
     kinds = MODULES[dims.mode].kinds(dims)
     views = []
+    below = legend_height(kinds, _SIZE)
+    aspect = _SIZE[1] * (1.0 - below) / (0.5 * _SIZE[0])
     for left, right, shown in ((0.0, 0.5, placed), (0.5, 1.0, opened)):
-        renderer = _view(shown, dims)
-        renderer.SetViewport(left, legend_height(kinds, _SIZE), right, 1.0)
+        renderer = _view(shown, aspect)
+        renderer.SetViewport(left, below, right, 1.0)
         views.append(renderer)
     write_png(path, _SIZE, [*views, legend(kinds, _SIZE)])
 
@@ -40,25 +44,11 @@ def _without_quarter(solid: cq.Solid, dims: Dimensions) -> cq.Solid:
     return solid.cut(cq.Solid.makeBox(size, size, 2.0 * size, cq.Vector(0, -size, -size)))
 
 
-def _view(placed: Mapping[str, Instance], dims: Dimensions) -> vtkRenderer:
+def _view(placed: Mapping[str, Instance], aspect: float) -> vtkRenderer:
     """Everything that is placed, seen from the front, above and the right."""
-    renderer = vtkRenderer()
-    renderer.SetBackground(1.0, 1.0, 1.0)
+    renderer = renderer_on_white()
     for name, instance in placed.items():
         for actor in actors(instance.mesh, instance.matrix, KINDS[kind_of(name)].colour):
             renderer.AddActor(actor)
-    camera = renderer.GetActiveCamera()
-    camera.ParallelProjectionOn()
-    camera.SetFocalPoint(0.0, 0.0, 0.0)
-    camera.SetPosition(1.0, -1.35, 1.25)
-    camera.SetViewUp(0.0, 0.0, 1.0)
-    renderer.ResetCamera()
-    middle = 0.5 * (
-        dims.link_bottom_level + dims.link_thickness - dims.floor_thickness - dims.foot_height - dims.drive_height
-    )
-    towards = np.array(camera.GetPosition()) - np.array(camera.GetFocalPoint())
-    camera.SetFocalPoint(0.0, 0.0, middle)
-    camera.SetPosition(towards[0], towards[1], towards[2] + middle)
-    camera.SetParallelScale(0.5 * dims.envelope_diameter + 0.3 * dims.drive_height)
-    lit(renderer)
+    look(renderer, placed, _FROM, aspect)
     return renderer

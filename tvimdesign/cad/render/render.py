@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkLogger, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkPolyDataNormals
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -30,6 +30,7 @@ from tvimdesign.cad.geometry.kinds import KINDS, Rgb
 
 for _back_end in ("vtkRenderingOpenGL2", "vtkRenderingFreeType"):
     import_module(f"vtkmodules.{_back_end}")  # it registers itself as what draws, and what writes
+vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no display is no news: nothing is shown on one
 
 _EDGE_ANGLE = 30.0
 _COLUMN, _LINE = 250, 45
@@ -115,12 +116,9 @@ def poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
     points = vtkPoints()
     placed = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
     points.SetData(numpy_to_vtk(placed, deep=True))  # type: ignore[no-untyped-call]  # vtk says no types here
-    cells = np.hstack((np.full((len(mesh.faces), 1), 3), mesh.faces)).astype(np.int64)
+    corners = numpy_to_vtkIdTypeArray(mesh.faces.ravel().astype(np.int64), deep=True)  # type: ignore[no-untyped-call]  # vtk says no types here
     triangles = vtkCellArray()
-    triangles.SetCells(
-        len(mesh.faces),
-        numpy_to_vtkIdTypeArray(cells.ravel(), deep=True),  # type: ignore[no-untyped-call]  # vtk says no types here
-    )
+    triangles.SetData(3, corners)
     data = vtkPolyData()
     data.SetPoints(points)
     data.SetPolys(triangles)

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.base.record import Record
 from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
@@ -235,7 +237,7 @@ def housing_vane_holding_torque(
 
 _PARTS = (
     "block_holding_torque", "rotor_vane_holding_torque", "housing_vane_holding_torque", "core_holding_torque",
-    "link_holding_torque",
+    "link_holding_torque", "bearing_holding_torque",
 )  # fmt: skip
 
 
@@ -246,10 +248,13 @@ def holding_torque(
     housing_vane_holding_torque: Scalar,
     core_holding_torque: Scalar,
     link_holding_torque: Scalar,
+    bearing: Record | str,
+    bearing_holding_torque: Scalar,
 ) -> Scalar:
-    """Torque the frozen joint holds: the least of what blocks, vanes, core and the link's screws bear."""
+    """Torque the frozen joint holds: the least of what blocks, vanes, core, what holds the link, and bearings bear."""
     vanes = np.fmin(rotor_vane_holding_torque, housing_vane_holding_torque)
-    return np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
+    held = np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
+    return with_bearings(bearing, held, bearing_holding_torque)
 
 
 @quantities.output("1", headline=True)

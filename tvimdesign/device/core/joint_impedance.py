@@ -9,13 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.base.record import Record
-from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import dynamics, motion
 from tvimdesign.physics.polymers import crystallization, polymer
-from tvimdesign.physics.solids import peg, structure
+from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Impedance")
 
@@ -234,19 +233,6 @@ def impedance_range(joint_stiffness_at_cold: Scalar, joint_stiffness_at_hot: Sca
 def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -> Scalar:
     """Damping of the joint cold over hot."""
     return joint_damping_at_cold / joint_damping_at_hot
-
-
-@quantities.output("N*m")
-def link_holding_torque(
-    structure_strength: Scalar,
-    link_screw_pilot: Scalar,
-    link_thickness: Scalar,
-    link_bolt_circle_radius: Scalar,
-    holding_safety: Scalar,
-) -> Scalar:
-    """Torque of the four link screws by `holding_safety` below pressing into the link; friction is not counted."""
-    bearing = peg.bearing_force(structure_strength, link_screw_pilot, link_thickness)
-    return LINK_SCREWS * bearing * link_bolt_circle_radius / holding_safety
 
 
 @quantities.output(

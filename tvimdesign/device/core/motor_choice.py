@@ -31,6 +31,7 @@ for screw, words in (("motor_screw", "motor's retainer screw"), ("mount_screw", 
         ("diameter", "mm", "nominal_diameter", "Nominal diameter"),
         ("pilot", "mm", "tap_drill", "Hole for the thread"),
         ("head", "mm", "head_diameter", "Head diameter"),
+        ("key", "mm", "hexagon_key", "Hexagon key, across its flats,"),
         ("head_height", "mm", "head_height", "Head height"),
         ("density", "kg/m^3", "density", "Density"),
     ):

@@ -64,7 +64,7 @@ def coil_stress_per_angle(
 
 
 @quantities.helper()
-def bend_stress_per_angle(
+def tang_stress_per_angle(
     spring_rate: Scalar,
     wire_diameter: Scalar,
     drawn_spring: drawn.DrawnSpring,

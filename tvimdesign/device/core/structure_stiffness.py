@@ -1,7 +1,7 @@
 """What carries the PCL's torque out to the link: stiffness of core, plate, floor and link, and when the core yields.
 
-Pilot holes count as empty. The link stands in series beyond the core's top: `joint_stiffness` is told there, at the
-hub, and `joint_stiffness_at_link` at the link's tool hole.
+Holes of screws and dowel pins count as empty. The link stands in series beyond the core's top: `joint_stiffness` is
+told there, at the hub, and `joint_stiffness_at_link` at the link's tool hole.
 """
 
 from __future__ import annotations
@@ -19,9 +19,25 @@ quantities = QuantityGroup(shared.group)
 
 
 @quantities.helper()
-def core_weakening(link_screw_hole: Scalar, link_bolt_circle_radius: Scalar, core_radius: Scalar) -> Scalar:
-    """Share of the core's torsional stiffness that the holes of the link screws cost [1]."""
-    return structure.hole_weakening(0.5 * link_screw_hole, link_bolt_circle_radius, LINK_SCREWS, core_radius)
+def core_screw_bores(
+    link_screw_hole: Scalar, link_bolt_circle_radius: Scalar, core_radius: Scalar, link_screw_depth: Scalar
+) -> structure.Bores:
+    """Holes of the link screws in the core."""
+    share = structure.hole_weakening(0.5 * link_screw_hole, link_bolt_circle_radius, LINK_SCREWS, core_radius)
+    return structure.Bores(share, link_screw_depth)
+
+
+@quantities.helper()
+def core_dowel_bores(
+    link_dowel_diameter: Scalar,
+    link_dowel_circle_radius: Scalar,
+    dowels_fitted: Scalar,
+    core_radius: Scalar,
+    link_dowel_depth: Scalar,
+) -> structure.Bores:
+    """Holes of the dowel pins in the core; they cost nothing where there are none."""
+    share = structure.hole_weakening(0.5 * link_dowel_diameter, link_dowel_circle_radius, dowels_fitted, core_radius)
+    return structure.Bores(share, link_dowel_depth)
 
 
 @quantities.output("N*m/rad")
@@ -30,13 +46,14 @@ def core_stiffness(
     core_radius: Scalar,
     link_bottom_level: Scalar,
     rotor_top_level: Scalar,
-    link_screw_depth: Scalar,
-    core_weakening: Scalar,
+    core_screw_bores: structure.Bores,
+    core_dowel_bores: structure.Bores,
 ) -> Scalar:
     """Torsional stiffness of the core between rotor plate and output link."""
     length = link_bottom_level - rotor_top_level
-    bored = np.fmin(link_screw_depth, length)
-    return structure.bored_shaft_stiffness(structure_shear_modulus, core_radius, length, core_weakening, bored)
+    return structure.bored_shaft_stiffness(
+        structure_shear_modulus, core_radius, length, core_screw_bores, core_dowel_bores
+    )
 
 
 @quantities.output("N*m/rad")
@@ -116,11 +133,15 @@ def joint_damping_at_link(stiffness_beyond_link: tuple[Scalar, Scalar], frequenc
 def core_holding_torque(
     structure_layer_strength: Scalar,
     core_radius: Scalar,
-    core_weakening: Scalar,
+    core_screw_bores: structure.Bores,
+    core_dowel_bores: structure.Bores,
     link_bolt_circle_radius: Scalar,
+    link_dowel_circle_radius: Scalar,
+    dowels_fitted: Scalar,
     holding_safety: Scalar,
 ) -> Scalar:
-    """Torque the core bears in torsion, beside its screw holes too, by `holding_safety` below yield."""
+    """Torque the core bears in torsion, beside the holes of screws and pins too, by `holding_safety` below yield."""
     shear = structure.shear_yield(structure_layer_strength)
-    borne = structure.bored_shaft_torque(shear, core_radius, core_weakening, link_bolt_circle_radius)
-    return borne / holding_safety
+    outermost = np.fmax(link_bolt_circle_radius, np.fmin(dowels_fitted, 1.0) * link_dowel_circle_radius)
+    weakening = core_screw_bores.weakening + core_dowel_bores.weakening
+    return structure.bored_shaft_torque(shear, core_radius, weakening, outermost) / holding_safety

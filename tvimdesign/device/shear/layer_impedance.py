@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.base.record import Record
 from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
@@ -112,12 +114,20 @@ def layer_holding_torque(
     return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
 
 
-@quantities.output(
-    "N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque")
-)
-def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
-    """Torque the frozen joint holds: the least of what the layer, the core and the link's screws bear."""
-    return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
+_PARTS = ("layer_holding_torque", "core_holding_torque", "link_holding_torque", "bearing_holding_torque")
+
+
+@quantities.output("N*m", headline=True, least_of=_PARTS)
+def holding_torque(
+    layer_holding_torque: Scalar,
+    core_holding_torque: Scalar,
+    link_holding_torque: Scalar,
+    bearing: Record | str,
+    bearing_holding_torque: Scalar,
+) -> Scalar:
+    """Torque the frozen joint holds: the least of what the layer, the core, what holds the link, and bearings bear."""
+    held = np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
+    return with_bearings(bearing, held, bearing_holding_torque)
 
 
 @quantities.output("1", headline=True)

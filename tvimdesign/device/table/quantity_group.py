@@ -209,6 +209,7 @@ class QuantityGroup:
             function=function,
             hidden=not unit,
             rules=rules,
+            better=directions().get(template_name(function.__name__, of)),
             of=of,
             requires=requires,
         )

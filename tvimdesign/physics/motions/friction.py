@@ -38,6 +38,14 @@ def tightened_force(stress: Any, diameter: Any) -> Any:
     return stress * 0.25 * np.pi * diameter**2
 
 
+def tightening_torque(force: Any, diameter: Any, nut_factor: Any) -> Any:
+    """Torque [N*m] that tightens a screw to a force, K F d.
+
+    `force` [N], nominal `diameter` [m], `nut_factor` K [1]. Shigley, Mechanical Engineering Design, 10th ed., eq. 8-27.
+    """
+    return nut_factor * force * diameter
+
+
 def journal_torque(friction: Any, force: Any, diameter: Any) -> Any:
     """Torque [N*m] with which a loaded bearing or bore resists turning, 0.5 mu F d.
 

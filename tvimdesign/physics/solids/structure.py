@@ -7,7 +7,7 @@ are calibrated stand for ways of the torque that these leave out; FE of the draw
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -44,12 +44,28 @@ SHAFT_ENTRY = 0.07
 """Length over radius by which the way into the plate lengthens a core; calibrated to validation/fe_structure."""
 
 
-def bored_shaft_stiffness(modulus: Any, radius: Any, length: Any, weakening: Any, bored_length: Any) -> Any:
-    """Round bar with holes over a part of its length, standing on a plate [N*m/rad].
+class Bores(NamedTuple):
+    """Holes along a shaft from its end."""
 
-    G pi r^4/2 over L + L_bored w/(1 - w) + 0.07 r, `weakening` w as of `hole_weakening`.
+    weakening: Any
+    """Share [1] of its polar moment that they cost, as of `hole_weakening`."""
+    depth: Any
+    """How deep they are [m]."""
+
+
+def bored_shaft_stiffness(modulus: Any, radius: Any, length: Any, first: Bores, second: Bores) -> Any:
+    """Round bar with two sets of holes from its upper end, standing on a plate [N*m/rad].
+
+    G pi r^4/2 over L + sum l w/(1 - w) + 0.07 r, summed over the length l that both sets reach and that only one does.
     """
-    longer = bored_length * weakening / (1.0 - weakening) + SHAFT_ENTRY * radius
+    deep = [np.fmin(bores.depth, length) for bores in (first, second)]
+    both = np.fmin(*deep)
+    stretches = [
+        (both, first.weakening + second.weakening),
+        (deep[0] - both, first.weakening),
+        (deep[1] - both, second.weakening),
+    ]
+    longer = sum(reach * weakening / (1.0 - weakening) for reach, weakening in stretches) + SHAFT_ENTRY * radius
     return shaft_stiffness(modulus, radius, length + longer)
 
 

@@ -189,6 +189,19 @@ def test_every_headline_and_requirement_is_told_with_what_it_may_be(name: str) -
     assert name == "many" or all(re.search(rf"^{line.name}\s.*{line.may_be}", text, re.MULTILINE) for line in told)
 
 
+def test_what_the_stiffness_may_be_covers_the_whole_stroke() -> None:
+    # A limit on the stiffness holds at every angle; at rest it is stiffest, at full stroke softest.
+    one = case("paper_shear")
+    intervals = one.told.uncertainty["intervals"]
+    (line,) = [line for line in lines_of(one.found, one.table, {}, intervals) if line.name == "spring_stiffness"]
+    low, high = (float(end) for end in line.may_be.split(" to "))
+    angles = ("spring_stiffness", *one.table.output("spring_stiffness").also_limited)
+    assert len(angles) == 5
+    assert low == pytest.approx(min(intervals[angle]["low"] for angle in angles), rel=5e-3)
+    assert high == pytest.approx(max(intervals[angle]["high"] for angle in angles), rel=5e-3)
+    assert low < intervals["spring_stiffness"]["low"] - 0.01
+
+
 def test_the_yield_and_what_is_not_known_are_two_lines() -> None:
     data, text = case("paper_shear").told.uncertainty, case("paper_shear").screen(140)
     (parts,) = [line for line in text if line.startswith("Yield ")]

@@ -64,7 +64,9 @@ def test_the_line_that_is_proposed_mends() -> None:
         assert proposed[output].startswith("module: {")
         words = yaml.safe_load(proposed[output])["module"]
         again = _published("".join(f"  {name}: {word}\n" for name, word in words.items()))
-        assert output not in {check.output for check in again.warnings}
+        warned = {check.output for check in again.warnings}
+        # With adjusters nothing is asked of the bond of tangs: what a module lacks has no advice.
+        assert not {output, "tang_bond_safety"} & warned
     # Of all wave springs the one that goes around the core of 10 mm and lies on the hub of 13.4.
     assert proposed["layer_play"] == "module: {axial_preload: wave_21x25}"
     # No material of the list bears the pads' 127 degC, and a study that varies nothing cannot be asked to.

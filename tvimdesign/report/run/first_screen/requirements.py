@@ -46,7 +46,7 @@ def lines_of(
     for one in answer.design.study["require"]:
         asked.setdefault(one["output"], []).append(one)
     found = [
-        replace(_line(answer, table, name, limits, assumptions), may_be=may_be((intervals or {}).get(name)))
+        replace(_line(answer, table, name, limits, assumptions), may_be=may_be(_interval(name, table, intervals or {})))
         for name, limits in asked.items()
     ]
     rules = sorted(
@@ -56,6 +56,15 @@ def lines_of(
     return found + [
         _of_checks(answer, table, check.output, _limit(check), [check], _NOTHING_ASSUMED) for check in rules
     ]
+
+
+def _interval(name: str, table: Table, intervals: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Any] | None:
+    """What an output may be, and with it all that a limit on it limits too: the stiffness over the whole stroke."""
+    every = [intervals[one] for one in (name, *table.output(name).also_limited) if one in intervals]
+    if name not in intervals or len(every) == 1:
+        return intervals.get(name)
+    lows, highs = ([one[end] for one in every] for end in ("low", "high"))
+    return {"value": None, "low": min(lows), "high": max(highs)} if None not in lows + highs else intervals[name]
 
 
 def _limit(check: ConstraintCheck) -> str:

@@ -43,7 +43,7 @@ class Uncertainty:
         """Compile the module the study starts from, whose numbers under `vary` may change."""
         self.study, self.table = study, study.table
         self.own = bool(study.tolerances)
-        required = [one.output for one in study.require]
+        required = [name for one in study.require for name in (one.output, *self.table.output(one.output).also_limited)]
         self.asked = list(dict.fromkeys([*required, *study.minimize, *FIRST_SCREEN]))
         start = resolve_study(study)
         self.model = UncertaintyModel(self._tolerant(start), self.asked, list(study.vary))

@@ -1,0 +1,89 @@
+"""FE of every shipped study's parts against the model, by one command; writes results.csv.
+
+    python validation/fe_structure/run.py --fe-python FE/bin/python [--work FOLDER] [STUDY ...]
+
+Run it where the package and CadQuery are; FE/bin/python has netgen-mesher, ngsolve and pyyaml. Each study is run, its
+parts are exported as STEP, and FE finds the rate of a spring, the stiffness of the joint and of its parts, and stresses.
+What is in the work folder already is not made again. Without a name: all studies that ship.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+from models import Row, design_rows, model_values
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+RESULTS = HERE / "results.csv"
+HEADER = ("study", "quantity", "unit", "model", "fe", "ratio")
+
+
+def done(command: list[object], into: Path) -> None:
+    """Run a command and keep what it prints; nothing is run where that is there already."""
+    if into.exists():
+        return
+    print(*command, file=sys.stderr, flush=True)
+    found = subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True).stdout
+    into.write_text(found)
+
+
+def solved(study: str, work: Path, fe_python: Path) -> dict[str, float]:
+    """Run a study, export its parts and return what FE finds, by name."""
+    folder, parts = work / study / "run", work / study / "parts"
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    run = [
+        sys.executable,
+        "-m",
+        "tvimdesign",
+        "run",
+        ROOT / f"studies/{study}.yaml",
+        "--no-cad",
+        "--no-plots",
+        "--out",
+        folder,
+    ]
+    done(run, work / study / "run.txt")
+    done([sys.executable, HERE.parent / "export_parts.py", folder / "design.json", parts], work / study / "parts.txt")
+    done([fe_python, HERE / "solve.py", parts], work / study / "structure.yaml")
+    done([fe_python, HERE.parent / "fe_spring/solve.py", parts], work / study / "spring.yaml")
+    (spring,) = yaml.safe_load((work / study / "spring.yaml").read_text())["parts"]
+    return {**yaml.safe_load((work / study / "structure.yaml").read_text())["parts"], "spring_rate": spring["rate"]}
+
+
+def rows_of(study: str, work: Path, fe_python: Path) -> list[Row]:
+    """The design of a study, and its model's values beside those of FE."""
+    fe = solved(study, work, fe_python)
+    values = json.loads((work / study / "run/design.json").read_text())["values"]
+    design = design_rows(study, values)
+    found = [
+        Row(study, name, unit, value, fe[name])
+        for name, (unit, value) in model_values(study, {row.quantity: row.model for row in design}).items()
+        if name in fe
+    ]
+    return [*design, *found]
+
+
+def main() -> None:
+    """Solve what is asked for and put its rows in place of those that stood in results.csv."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("studies", nargs="*", metavar="STUDY")
+    parser.add_argument("--fe-python", type=Path, required=True)
+    parser.add_argument("--work", type=Path, default=Path("fe_work"))
+    asked = parser.parse_args()
+    for study in asked.studies or sorted(path.stem for path in (ROOT / "studies").glob("*.yaml")):
+        fresh = rows_of(study, asked.work, asked.fe_python)
+        with RESULTS.open(newline="") as file:
+            kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
+        with RESULTS.open("w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*kept, *(row.cells() for row in fresh)])])
+
+
+if __name__ == "__main__":
+    main()
