@@ -113,9 +113,14 @@ def test_the_command_line_gives_the_same_and_writes_the_same(
     assert tvim.read_design(str(saved / "design.json")) == result.design
 
 
-def test_results_in_use_are_not_replaced(result: tvim.Result, tmp_path: Path) -> None:
+@pytest.mark.slow
+def test_the_figures_are_saved_too(result: tvim.Result, tmp_path: Path) -> None:
     result.save(tmp_path / "x")
     assert {file.name for file in (tmp_path / "x/plots").iterdir()} >= {"cycle.png", "bounds.png"}
+
+
+def test_results_in_use_are_not_replaced(result: tvim.Result, tmp_path: Path) -> None:
+    result.save(tmp_path / "x", plots=False)
     with pytest.raises(tvim.InputError, match="holds results already"):
         result.save(tmp_path / "x")
     assert result.save(tmp_path / "x", overwrite=True, plots=False) == tmp_path / "x"

@@ -92,6 +92,11 @@ CATEGORIES: Mapping[str, Category] = {
             "yield_strength": "MPa",
             "yield_strength_across_layers": "MPa",
             "loss_factor": "1",
+            "modulus_slope": "1/K",
+            "softening_temperature": "degC",
+            "softening_width": "K",
+            "softened_share": "1",
+            "softening_loss_factor": "1",
             "service_temperature": "degC",
         }
     ),

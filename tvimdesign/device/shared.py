@@ -21,6 +21,7 @@ from tvimdesign.device.core import (
     thermal_stack,
     torsion_springs,
     viscous_heating,
+    warm_structure,
 )
 from tvimdesign.device.fixtures import (
     axial_preload,
@@ -44,6 +45,7 @@ ROOMS = (
     joint_impedance,
     lost_motion,
     structure_stiffness,
+    warm_structure,
     large_motion,
     creep_under_hold,
     thermal_stack,

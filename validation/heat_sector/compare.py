@@ -77,7 +77,7 @@ def strip_times(model: DeviceFunctions, heated: Heating) -> dict[str, float]:
     """The times of the switch by the strip: soft, mean of the layer and mean of its far face at their targets."""
     strip = heated.strip
     known = {**{name: float(model.start[index]) for name, index in model.index.items()}, **model.words}
-    names = ("pcl_rheology", "pcl_moment", "pcl_depth", "elastic_support", "support_loss", "spring_stiffness",
+    names = ("pcl_rheology", "pcl_moment", "pcl_depth", "warm_structure@hot", "spring_stiffness",
              "soft_threshold")  # fmt: skip
     found: dict[str, Any] = model.table.evaluate(known, names)
     target = float(model.start[model.index["target_temperature"]]) - 273.15
@@ -88,7 +88,7 @@ def strip_times(model: DeviceFunctions, heated: Heating) -> dict[str, float]:
         celsius = strip.celsius(state[strip.layer])
         storage, loss = polymer.moduli(celsius + 273.15, strip.solid(celsius), omega, found["pcl_rheology"])
         moduli = shares @ (1.0 / np.mean(1.0 / (storage + 1j * loss), axis=1))
-        support = found["elastic_support"] + 1j * found["support_loss"]
+        support = complex(*found["warm_structure@hot"])
         joint = found["spring_stiffness"] + 1.0 / (found["pcl_depth"] / (moduli * found["pcl_moment"]) + 1.0 / support)
         soft.append(-np.log(abs(joint)))
         means.append(shares @ np.mean(celsius, axis=1))

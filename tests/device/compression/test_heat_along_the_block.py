@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from stiff_when_warm import STIFF_WHEN_WARM
 from support import ROOT, fine
 
 from tvimdesign.device import table_for
@@ -64,7 +65,8 @@ def test_twice_the_depth_of_a_whole_module_tends_from_flux_to_diffusion_and_hard
     # is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the block is. What the
     # free sides lose grows with the depth and is left out.
     study = read_study(ROOT / "studies" / "paper_compression.yaml")
-    module = {**resolve(study), "horizon": 1e5, "air_conductivity": 1e-6, "housing_coefficient": 0.1}
+    lossless = {"air_conductivity": 1e-6, "housing_coefficient": 0.1}
+    module = {**resolve(study), **STIFF_WHEN_WARM, **lossless, "horizon": 1e5}
 
     def ratios(depth: float, current: float) -> tuple[float, float]:
         found = []

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 from tvimdesign.device.core.joint_impedance import melt_modes
@@ -21,7 +22,7 @@ def point(request: pytest.FixtureRequest) -> str:
 
 @pytest.fixture(scope="module")
 def joint(inputs: dict[str, Any]) -> dict[str, Any]:
-    given = {**inputs, "frequency@cold": HERTZ, "frequency@hot": HERTZ}
+    given = {**inputs, **STIFF_WHEN_WARM, "frequency@cold": HERTZ, "frequency@hot": HERTZ}
     algebraic = [
         f"{name}@{point}"
         for name in ("storage_modulus", "loss_modulus", "pcl_stiffness", "pcl_damping", "joint_stiffness",

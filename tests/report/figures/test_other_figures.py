@@ -19,7 +19,9 @@ from tvimdesign.study import read_study
 STUDIES = Path(__file__).parents[3] / "studies"
 
 
-@pytest.fixture(scope="module", params=["paper_as_published", "calibrated_compression"])
+@pytest.fixture(
+    scope="module", params=["paper_as_published", pytest.param("calibrated_compression", marks=pytest.mark.slow)]
+)
 def resolved(request: pytest.FixtureRequest) -> ResolvedModule:
     study = read_study(STUDIES / f"{request.param}.yaml")
     return resolve_study(study)

@@ -10,12 +10,13 @@ import numpy as np
 
 from tvimdesign.base.record import Record
 from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.core.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.physics.solids import structure, vane
+from tvimdesign.physics.solids import vane
 
 quantities = QuantityGroup(shared.group)
 
@@ -117,8 +118,8 @@ def housing_vane_stiffness(
     return vane_count * one * pcl_mean_radius**2
 
 
-@quantities.output("N*m/rad")
-def structure_stiffness(
+@quantities.helper()
+def structure_compliances(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
     rotor_vane_stiffness: Scalar,
@@ -129,17 +130,18 @@ def structure_stiffness(
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     block_area: Scalar,
-) -> Scalar:
-    """Stiffness in series with the blocks: core, plate, vanes of both, pads, and floor up to its feet or its flange."""
-    return structure.series(
-        core_stiffness,
-        plate_stiffness,
-        rotor_vane_stiffness,
-        housing_vane_stiffness,
-        floor_stiffness,
-        # A sheet pressed through its thickness, E = 3 G as of rubber, its pellets' share not counted on top.
-        block.stiffness(3.0 * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness),
-    )
+) -> Compliances:
+    """What is in series with the blocks: core, plate, vanes of both, floor up to its feet or its flange, and pads."""
+    # A sheet pressed through its thickness, E = 3 G as of rubber, its pellets' share not counted on top.
+    pads = block.stiffness(3.0 * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness)
+    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness, 1.0 / rotor_vane_stiffness,
+                       1.0 / housing_vane_stiffness, 1.0 / floor_stiffness, 1.0 / pads)  # fmt: skip
+
+
+@quantities.output("N*m/rad")
+def structure_stiffness(structure_compliances: Compliances) -> Scalar:
+    """Stiffness in series with the blocks, at 23 degC: core, plate, vanes, pads, and floor up to its feet or flange."""
+    return 1.0 / sum(structure_compliances)
 
 
 @quantities.helper()
@@ -152,15 +154,9 @@ def floor_ring(floor_thickness: Scalar, vane_count: Scalar, slot_angle: Scalar) 
 
 
 @quantities.helper()
-def elastic_support(structure_stiffness: Scalar, volume_stiffness: Scalar) -> Scalar:
-    """Stiffness in series with the PCL's shear modes [N*m/rad]: the structure, and the blocks' volume."""
-    return structure.series(structure_stiffness, volume_stiffness)
-
-
-@quantities.helper()
-def support_loss(structure_stiffness: Scalar, structure_loss: Scalar, volume_stiffness: Scalar) -> Scalar:
-    """Imaginary stiffness in series with the PCL's shear modes [N*m/rad]; the blocks' volume is lossless."""
-    return layer.series_stiffness(structure_stiffness, structure_loss, volume_stiffness)[1]
+def lossless_compliance(volume_stiffness: Scalar) -> Scalar:
+    """What is in series with the PCL's shear modes and structure besides [rad/(N*m)]: the blocks' volume."""
+    return 1.0 / volume_stiffness
 
 
 _SQUEEZED = (
@@ -207,7 +203,7 @@ def vane_arm(block_height: Scalar, running_clearance: Scalar) -> Scalar:
 
 @quantities.output("N*m")
 def rotor_vane_holding_torque(
-    structure_layer_strength: Scalar,
+    cold_layer_strength: Scalar,
     block_width: Scalar,
     vane_thickness: Scalar,
     vane_arm: Scalar,
@@ -216,13 +212,13 @@ def rotor_vane_holding_torque(
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque at which the roots of the rotor's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = vane.force_at_yield(structure_layer_strength, block_width, vane_thickness, vane_arm)
+    force = vane.force_at_yield(cold_layer_strength, block_width, vane_thickness, vane_arm)
     return vane_count * force * pcl_mean_radius / holding_safety
 
 
 @quantities.output("N*m")
 def housing_vane_holding_torque(
-    structure_layer_strength: Scalar,
+    cold_layer_strength: Scalar,
     slot_web: Scalar,
     housing_vane_thickness: Scalar,
     vane_arm: Scalar,
@@ -231,7 +227,7 @@ def housing_vane_holding_torque(
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque at which the roots of the housing's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = vane.force_at_yield(structure_layer_strength, 2.0 * slot_web, housing_vane_thickness, vane_arm)
+    force = vane.force_at_yield(cold_layer_strength, 2.0 * slot_web, housing_vane_thickness, vane_arm)
     return vane_count * force * pcl_mean_radius / holding_safety
 
 

@@ -224,11 +224,9 @@ def layer_stiffness_now(
 
 
 @quantities.helper(instant=True)
-def branch_now(
-    layer_stiffness_now: tuple[Scalar, Scalar], elastic_support: Scalar, support_loss: Scalar
-) -> tuple[Scalar, Scalar]:
+def branch_now(layer_stiffness_now: tuple[Scalar, Scalar], support_now: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
-    return layer.series_stiffness(*layer_stiffness_now, elastic_support, support_loss)
+    return layer.series_stiffness(*layer_stiffness_now, *support_now)
 
 
 @quantities.output("N*m/rad", instant=True)

@@ -104,7 +104,7 @@ def freezing_safety(pcl_bond_strength: Scalar, freezing_traction: Scalar) -> Sca
 
 @quantities.output("%")
 def layer_wedge(core_lean: Scalar, pcl_outer_radius: Scalar, pcl_thickness: Scalar) -> Scalar:
-    """Play of core or bearings at the layer's outer edge over its thickness: a molten layer may freeze as that wedge."""
+    """Play of core or bearings at the layer's outer edge over its thickness: a melt may freeze as that wedge."""
     return core_lean * pcl_outer_radius / pcl_thickness
 
 

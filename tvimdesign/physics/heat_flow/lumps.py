@@ -87,6 +87,13 @@ def gap_heat(gap: Gap, warm: Any, cool: Any) -> Any:
     return (gap.conductance + radiation) * (warm - cool)
 
 
+def cooled_through(gap: Gap, lump: Lump, below: Surface, ambient: Any) -> Lump:
+    """A lump that also loses heat to ambient across a gap and then by the `below` surface, near ambient temperature."""
+    across = gap.conductance + gap.radiating_area * 4.0 * STEFAN_BOLTZMANN * ambient**3
+    more = in_series(across, below.area * surface_coefficient(below, ambient, ambient)) / lump.surface.area
+    return lump._replace(surface=lump.surface._replace(coefficient=lump.surface.coefficient + more))
+
+
 def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple[Lump, ...]:
     """A strip heated along its edge, in three bodies in a row from the edge on.
 

@@ -66,7 +66,7 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
 
 
 def _behind(table: Table, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
-    """The rows a limit is put on: the named one, those limited with it, or what there is of those it is the least of."""
+    """The rows a limit is put on: the named one, those limited with it, or those it is the least of."""
     row = table.output(name)
     parts = tuple(part for part in row.least_of if table.output(part).exists(options))
     rows = parts if parts and sense == ">=" else (name, *row.also_limited)

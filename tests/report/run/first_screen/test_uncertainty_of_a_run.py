@@ -37,6 +37,7 @@ def module(found: StudyResult) -> ResolvedModule:
     return replace(resolved, study=resolved.study.model_copy(update={"tolerances": standard_tolerances(TABLE)}))
 
 
+@pytest.mark.slow
 def test_the_yield_is_what_tolerate_says(found: StudyResult, module: ResolvedModule) -> None:
     said = Uncertainty(STUDY).data(found.design, SAMPLES)
     expected = Tolerancing(module, lambda _: None).analyse(SAMPLES, STUDY.solver.seed)
