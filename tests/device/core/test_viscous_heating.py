@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 from tvimdesign.device.table.phases import SOFTENING
@@ -42,14 +43,14 @@ def test_molten_slices_take_up_the_heat() -> None:
 def test_the_paper_s_module_heats_by_a_watt_at_one_hertz(inputs: dict[str, Any]) -> None:
     # An independent reading of the published module, whose melt had 2.8 kPa s then, found 1.1 W.
     frequencies = {"frequency@hot": 1.0, "frequency@cold": 1.0, "pcl_zero_shear_viscosity": 2.8e3}
-    given = {**inputs, "temperature@hot": 373.15, "temperature@cold": 303.15, **frequencies}
+    given = {**inputs, **STIFF_WHEN_WARM, "temperature@hot": 373.15, "temperature@cold": 303.15, **frequencies}
     hot, cold = TABLE.evaluate(given, ["viscous_heating@hot", "viscous_heating@cold"]).values()
     assert hot == pytest.approx(1.1, rel=0.1)
     assert cold < 0.01 * hot  # the torque that turns the hot joint by its stroke hardly turns the frozen one
 
 
 def test_motion_heats_the_layer_and_nothing_else(inputs: dict[str, Any]) -> None:
-    given = {**inputs, "temperature@hot": 373.15, "frequency@hot": 2.0}
+    given = {**inputs, **STIFF_WHEN_WARM, "temperature@hot": 373.15, "frequency@hot": 2.0}
     stack = TABLE.evaluate(given, ["stack"])["stack"]
     instant = {**given, "phase": SOFTENING, "state": heat.initial_state(stack, 5, 373.15), "drive_current": 0.0}
     still, moving = (

@@ -105,7 +105,7 @@ def behind_pcl(
 ) -> BehindPolymer:
     """What the PCL heats, as in the stack; and both faces of the link lose heat, which a phase is too short to tell.
 
-    What is beside the plate loses heat through the gap as well, by the floor's underside to the air.
+    What is beside the plate loses heat through the gap as well, to the floor and from there to the air.
     """
     faces = lumps.Surface(4.0 * link_length * link_half_width, rotor_coefficient, surface_emissivity)
     cooled = list(rotor_beside)
