@@ -97,8 +97,12 @@ CATEGORIES: Mapping[str, Category] = {
             "softening_width": "K",
             "softened_share": "1",
             "softening_loss_factor": "1",
+            "creep_share": "1",
+            "creep_exponent": "1",
+            "creep_energy": "kJ/mol",
             "service_temperature": "degC",
-        }
+        },
+        may_be_zero=("creep_share",),
     ),
     "processes": Category(
         values={
