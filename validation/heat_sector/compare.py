@@ -1,8 +1,8 @@
 """The product's times against the two-dimensional strip, for the shear module of every shipped study as it starts.
 
 `python validation/heat_sector/compare.py` writes `results.csv`. The numbers of a strip are read off the device's table;
-its heat is `sector.py`'s alone. When the joint is soft is decided by the polymer's own spectrum, from the strip's
-temperatures and solid fractions.
+its heat is `sector.py`'s alone. When the joint is soft is decided by the polymer's own spectrum and the structure's
+moduli, from the strip's temperatures and solid fractions.
 """
 
 from __future__ import annotations
@@ -13,9 +13,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from sector import Case, Grid, Heating, heat
+from sector import Case, Grid, Heating, Strip, heat
 
 from tvimdesign.device import table_for
+from tvimdesign.device.core.warm_structure import WAY_OUT, PartTemperatures, in_series
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -73,22 +74,32 @@ def case_of(model: DeviceFunctions) -> Case:
     )  # fmt: skip
 
 
+def parts_of(strip: Strip, state: Any) -> PartTemperatures:
+    """Temperatures of the structure's parts [K] in the strip."""
+    kelvin, shares = strip.temperatures(state) + 273.15, strip.dx / strip.case.half_width
+    cold, hot, plate = shares @ kelvin[strip.cold], shares @ kelvin[strip.hot], shares @ kelvin[strip.plate]
+    core, edge = kelvin[strip.core], np.mean(kelvin[strip.beside[0]])
+    return PartTemperatures(core, core + WAY_OUT * (edge - core), list(plate), 0.5 * (hot + cold), cold)
+
+
 def strip_times(model: DeviceFunctions, heated: Heating) -> dict[str, float]:
     """The times of the switch by the strip: soft, mean of the layer and mean of its far face at their targets."""
     strip = heated.strip
     known = {**{name: float(model.start[index]) for name, index in model.index.items()}, **model.words}
-    names = ("pcl_rheology", "pcl_moment", "pcl_depth", "warm_structure@hot", "spring_stiffness",
-             "soft_threshold")  # fmt: skip
+    names = ("pcl_rheology", "pcl_moment", "pcl_depth", "spring_stiffness", "soft_threshold",
+             "structure_compliances", "structure_softening", "lossless_compliance")  # fmt: skip
     found: dict[str, Any] = model.table.evaluate(known, names)
     target = float(model.start[model.index["target_temperature"]]) - 273.15
     omega = 2.0 * np.pi * float(model.start[model.index["frequency@hot"]])
     shares = strip.dx / strip.case.half_width
+    compliances = found["structure_compliances"]
+    law = (found["structure_softening"], known["clamped_loss_factor"], found["lossless_compliance"])
     soft, means = [], []
     for state in heated.states.T:
         celsius = strip.celsius(state[strip.layer])
         storage, loss = polymer.moduli(celsius + 273.15, strip.solid(celsius), omega, found["pcl_rheology"])
         moduli = shares @ (1.0 / np.mean(1.0 / (storage + 1j * loss), axis=1))
-        support = complex(*found["warm_structure@hot"])
+        support = complex(*in_series(compliances, parts_of(strip, state), *law))
         joint = found["spring_stiffness"] + 1.0 / (found["pcl_depth"] / (moduli * found["pcl_moment"]) + 1.0 / support)
         soft.append(-np.log(abs(joint)))
         means.append(shares @ np.mean(celsius, axis=1))
