@@ -22,6 +22,7 @@ from tvimdesign.device.core import (
     structure_stiffness,
     thermal_stack,
     torsion_springs,
+    viscous_heating,
     warm_structure,
 )
 from tvimdesign.device.fixtures import (
@@ -51,6 +52,7 @@ ROOMS = (
     large_motion,
     creep_under_hold,
     thermal_stack,
+    viscous_heating,
     softening,
     stiffening,
     mass_properties,
