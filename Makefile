@@ -20,14 +20,17 @@ $(STAMP): pyproject.toml constraints.txt
 study: $(STAMP)  ## run studies/paper_shear.yaml and say where the results are
 	$(BIN)/tvimdesign run studies/paper_shear.yaml --overwrite
 
+# Two workers for two processors: a library that starts threads of its own in each would only be in their way.
+PYTEST := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder
+
 test: $(STAMP)  ## the fast tests
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder
+	$(PYTEST)
 
 test-all: $(STAMP)  ## all tests, the long ones too
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder -m ''
+	$(PYTEST) -m ''
 
 test-slow: $(STAMP)  ## the long tests alone
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder -m slow
+	$(PYTEST) -m slow
 
 BENCH := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python
 

@@ -22,7 +22,7 @@ from quick import Quick
 from scipy.integrate import solve_ivp
 
 from tvimdesign.device import table_for
-from tvimdesign.device.core import thermal_stack
+from tvimdesign.device.core import thermal_stack, warm_structure
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import polymer
@@ -61,10 +61,10 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     """Write the equations as a user of numpy and scipy would: floats through `physics.heat`, a state as an array."""
     numbers = {name: float(value) for name, value in zip(model.names, model.start, strict=True)}
     known = {**model.words, **numbers, "rotor_cells": int(numbers["rotor_cells"])}
-    wanted = ["stack", "pcl_rheology", "layer_polar_moment", "structure_stiffness", "structure_loss",
+    wanted = ["stack", "pcl_rheology", "layer_polar_moment", "structure_compliances", "structure_softening",
               "spring_stiffness", "joint_impedance@hot"]  # fmt: skip
     found = model.table.evaluate(known, wanted)
-    stack, rheology, moment, structure, lost, springs, hot = (found[name] for name in wanted)
+    stack, rheology, moment, parts, law, springs, hot = (found[name] for name in wanted)
     target, soft = numbers["target_temperature"], numbers["softening_band"] * hot
 
     current, omega = numbers["current"], 2.0 * np.pi * numbers["frequency@hot"]
@@ -75,7 +75,8 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
         moduli = layer.series_modulus(*polymer.moduli(now.cells, now.fractions, omega, rheology))
-        branch = thermal_stack.branch_now(moduli, moment, numbers["pcl_thickness"], structure, lost)
+        support = warm_structure.in_series(parts, warm_structure.parts_now(now), law, numbers["clamped_loss_factor"])
+        branch = thermal_stack.branch_now(moduli, moment, numbers["pcl_thickness"], support)
         impedance = thermal_stack.impedance_now(springs, branch)
         mean = np.mean(now.cells)
         return [now.near - target, mean - target, now.far - target, np.log(soft / impedance)]

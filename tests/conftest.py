@@ -6,9 +6,10 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
-from support import ROOT, Command
+from support import ROOT, Command, called, environment
 
 pytest_plugins = ["shear_designs"]
 
@@ -16,33 +17,60 @@ pytest_plugins = ["shear_designs"]
 os.environ["NUMBA_DISABLE_JIT"] = "1"
 
 LONGEST = (
-    "test_random_designs.py",
-    "test_studies_as_parts.py",
-    "test_cad_make.py",
-    "test_studies.py",
-    "test_discrete_choices.py",
-    "test_compare.py",
-    "test_worker_and_cache.py",
-    "test_cad_mounts.py",
-    "test_front.py",
-    "test_stiffening.py",
-    "test_docs_commands.py",
+    "tests/cad/test_random_designs.py",
+    "tests/test_studies_as_parts.py",
+    "tests/device/",
+    "tests/test_studies.py",
+    "tests/cad/test_cad_make.py",
+    "tests/report/compare/test_compare.py",
+    "tests/report/paper/",
+    "tests/api/",
+    "tests/report/run/first_screen/",
+    "tests/simulation/working_cycle/",
+    "tests/solve/pareto/test_front.py",
+    "tests/test_docs_commands.py",
+    "tests/test_tutorial.py",
 )
-"""Files of a minute or more, the longest two first."""
+"""Files and rooms that take longest, of the fast or of all tests. A room is dealt out whole, as a file is: its files
+share what takes long to make."""
+
+
+def place(file: str) -> int:
+    """Where a file stands among the longest; behind them if it is none."""
+    return next((rank for rank, begin in enumerate(LONGEST) if file.startswith(begin)), len(LONGEST))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with the longest files: they are dealt out whole, and none shall be alone at the end."""
-    rank = {name: place for place, name in enumerate(LONGEST)}
-    items.sort(key=lambda item: rank.get(item.path.name, len(LONGEST)))
+    """Begin with what takes longest: it is dealt out whole, and none shall be alone at the end."""
+    items.sort(key=lambda item: place(item.nodeid))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Deal out files, and whole rooms where LONGEST has a room."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    class ByRoom(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = nodeid.partition("::")[0]
+            rank = place(file)
+            return LONGEST[rank] if rank < len(LONGEST) else file
+
+    return ByRoom(config, log) if config.getoption("dist") == "loadfile" else None
 
 
 @pytest.fixture(scope="session")
 def tvimdesign() -> Command:
-    """Run `python -m tvimdesign` with arguments; returns the finished process."""
+    """Call the command line with arguments, in this process; returns what a finished process would."""
+    return called
+
+
+@pytest.fixture(scope="session")
+def process() -> Command:
+    """Run `python -m tvimdesign` with arguments as a user's shell does; returns the finished process."""
 
     def call(
-        *arguments: object, cwd: Path = ROOT, timeout: float = 300.0, spread: str = "off"
+        *arguments: object, cwd: Path = ROOT, timeout: float = 600.0, spread: str = "off"
     ) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
             [sys.executable, "-m", "tvimdesign", *map(str, arguments)],
@@ -51,14 +79,7 @@ def tvimdesign() -> Command:
             cwd=cwd,
             timeout=timeout,
             check=False,
-            # Parts are made anew: what an earlier run has kept must not hide what this one would make.
-            env={
-                **os.environ,
-                "PYTHONPATH": str(ROOT),
-                "COLUMNS": "120",
-                "TVIMDESIGN_CACHE": "",
-                "TVIMDESIGN_SPREAD": spread,
-            },
+            env=environment(spread),
         )
 
     return call

@@ -47,8 +47,9 @@ def test_requirements_say_what_holds(result: tvim.Result) -> None:
     said = " ".join(asked.limit)
     for limit in result.design.study["require"]:
         name, at, point = limit["output"].partition("@")
-        for part in table_for("shear").output(name).least_of or (name,):
-            assert f"{part}{at}{point}" in said
+        shear = table_for("shear")
+        for part in shear.output(name).least_of or (name,):
+            assert (f"{part}{at}{point}" in said) == shear.output(part).exists(result.design.choices)
     # Ten limits: one is on the least of three, one on that of two, and two are on the stiffness, each at five angles.
     assert (len(asked), table.kept.all()) == (21, True)
     assert result.table().loc["holding_torque", "status"] == "binds"
@@ -112,9 +113,14 @@ def test_the_command_line_gives_the_same_and_writes_the_same(
     assert tvim.read_design(str(saved / "design.json")) == result.design
 
 
-def test_results_in_use_are_not_replaced(result: tvim.Result, tmp_path: Path) -> None:
+@pytest.mark.slow
+def test_the_figures_are_saved_too(result: tvim.Result, tmp_path: Path) -> None:
     result.save(tmp_path / "x")
     assert {file.name for file in (tmp_path / "x/plots").iterdir()} >= {"cycle.png", "bounds.png"}
+
+
+def test_results_in_use_are_not_replaced(result: tvim.Result, tmp_path: Path) -> None:
+    result.save(tmp_path / "x", plots=False)
     with pytest.raises(tvim.InputError, match="holds results already"):
         result.save(tmp_path / "x")
     assert result.save(tmp_path / "x", overwrite=True, plots=False) == tmp_path / "x"

@@ -9,7 +9,7 @@ import pytest
 
 import tvimdesign as tvim
 
-EVALUATED = {"coil_count": [3.0, 3.5], "wire_diameter": ["2 mm", "2.4 mm", "2.6 mm"]}
+EVALUATED = {"coil_count": [3.0, 3.5], "wire_diameter": ["2 mm", "2.4 mm"]}
 
 
 @pytest.fixture(scope="module")
@@ -47,10 +47,10 @@ def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Swee
 def test_evaluated_cells_are_those_of_single_evaluations(grid: tvim.Sweep) -> None:
     table = grid.table("spring_stiffness", "module_mass")
     assert table[["coil_count", "wire_diameter"]].to_numpy().tolist() == [
-        [pytest.approx(n), pytest.approx(d)] for n in (3.0, 3.5) for d in (2.0, 2.4, 2.6)
+        [pytest.approx(n), pytest.approx(d)] for n in (3.0, 3.5) for d in (2.0, 2.4)
     ]
     alone = tvim.example("paper_as_published").set(coil_count=3.5, wire_diameter="2.4 mm").evaluate(progress=False)
-    assert table.spring_stiffness[4] == pytest.approx(alone["spring_stiffness"].value, rel=1e-12)
+    assert table.spring_stiffness[3] == pytest.approx(alone["spring_stiffness"].value, rel=1e-12)
     assert grid.warm_solves == 0
 
 
@@ -105,6 +105,6 @@ def test_what_cannot_be_swept_is_refused_before_anything_is_solved(
 
 def test_a_figure_has_a_line_for_each_value_of_the_second_axis(grid: tvim.Sweep) -> None:
     (axes,) = grid.plot("spring_stiffness").axes
-    assert len(axes.lines) == 3
+    assert len(axes.lines) == 2
     assert axes.get_xlabel() == "coil count"
     assert axes.get_ylabel() == "spring stiffness (N·m/rad)"

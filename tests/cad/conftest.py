@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import quick_parts
 from cad_designs import BLOCKS, CASES, Made, design_of
 
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.build.cache import FOLDER_VARIABLE
+from tvimdesign.cad.make import JOB
 from tvimdesign.study.design import Design, write_design
 
 QUICK = {"paper", "blocks"}
@@ -42,14 +45,21 @@ def blocks() -> Design:
     return design_of("blocks", BLOCKS, "compression")
 
 
-@pytest.fixture(scope="session", params=["paper", pytest.param("blocks", marks=pytest.mark.slow)])
+@pytest.fixture(
+    scope="session",
+    params=["quick paper", *(pytest.param(name, marks=pytest.mark.slow) for name in ("paper", "blocks"))],
+)
 def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
-    """The parts of the paper's size in either mode."""
-    folder = tmp_path_factory.mktemp("cad")
-    design: Design = request.getfixturevalue(request.param)
+    """The parts of the paper's size in either mode; the quick ones without most of the checks on the solids."""
+    folder, name = tmp_path_factory.mktemp("cad"), request.param.removeprefix("quick ")
+    design: Design = request.getfixturevalue(name)
     write_design(design, folder / "design.json")
     steps: list[str] = []
-    return Made(design, make_cad(folder / "design.json", folder / "cad", 120.0, steps.append), steps)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(Path(quick_parts.__file__).parent), prepend=os.pathsep)
+        job = quick_parts.__name__ if name != request.param else JOB
+        report = make_cad(folder / "design.json", folder / "cad", 300.0, steps.append, job=job)
+    return Made(design, report, steps, whole=name == request.param)
 
 
 @pytest.fixture

@@ -222,3 +222,37 @@ def test_a_data_sheet_is_that_of_the_type() -> None:
                 assert any(one in entry.source for one in types), f"{item}: {name}: {entry.source}"
 
     of_every(EVERY_RECORD, check)
+
+
+def test_a_process_names_a_material_of_the_catalogue() -> None:
+    def check(name: str) -> None:
+        process = CATALOG.record("processes", name)
+        assert process.word("structure_material") in CATALOG.names("structure_materials")
+
+    of_every(CATALOG.names("processes"), check)
+
+
+def test_every_structure_material_can_be_ordered_by_a_process() -> None:
+    made = {CATALOG.record("processes", name).word("structure_material") for name in CATALOG.names("processes")}
+    assert made == set(CATALOG.names("structure_materials"))
+
+
+def test_a_structure_material_is_weakest_across_its_layers_and_serves_below_its_deflection() -> None:
+    def check(name: str) -> None:
+        record = CATALOG.record("structure_materials", name)
+        value = record.value
+        assert value("yield_strength_across_layers") <= value("yield_strength")
+        assert value("yield_strength") < 0.06 * value("youngs_modulus")
+        if {"heat_deflection_450_kpa", "heat_deflection_1800_kpa"} <= set(record.entries):
+            assert value("heat_deflection_1800_kpa") < value("heat_deflection_450_kpa")
+        for load in ("heat_deflection_450_kpa", "heat_deflection_1800_kpa"):
+            if load in record.entries:
+                assert value("service_temperature") < value(load)
+
+    of_every(CATALOG.names("structure_materials"), check)
+
+
+def test_the_specific_heat_of_polyetherimide_follows_from_its_diffusivity() -> None:
+    value = CATALOG.record("structure_materials", "pei_9085").value
+    diffusivity = value("thermal_conductivity") / (value("density") * value("specific_heat"))
+    assert diffusivity == pytest.approx(0.132e-6, rel=2e-3)  # ASTM E1952, page 7 of the sheet

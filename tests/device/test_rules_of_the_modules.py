@@ -11,6 +11,7 @@ OTHERS: dict[str, set[tuple[str, float]]] = {
     "wire_range_margin": {(">=", 1.0)},
     "free_angle_over_preload": {("<=", 1.0)},
     "stiffening_over_freezing": {(">=", 1.0)},
+    "hot_structure_share": {(">=", 0.5)},  # half as stiff as at 23 degC
     "insert_ground": {(">=", 1.0)},
     "block_strain": {("<=", 0.5)}, "layer_play": {("<=", 0.1)}, "melt_loss": {("<=", 0.01)},
     # Least widths of what is made and of what air or a tool passes, and of what is left beyond zero.

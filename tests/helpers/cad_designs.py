@@ -122,6 +122,8 @@ class Made(NamedTuple):
     design: Design
     report: CadReport
     steps: list[str]
+    whole: bool
+    """Whether every check on the solids was made."""
 
 
 def random_blocks(seed: int) -> Design:

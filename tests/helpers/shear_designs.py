@@ -29,13 +29,15 @@ def build() -> Build:
     """A model of one of the designs, built once."""
 
     @cache
-    def make(design: str = "as it is", cells: int = 12, rotor_cells: int | None = None) -> DeviceFunctions:
+    def make(
+        design: str = "as it is", cells: int = 12, rotor_cells: int | None = None, **module: float
+    ) -> DeviceFunctions:
         table = table_for("shear")
         study = read_study_text("mode: shear\n", "a test").model_copy(update={"module": DESIGNS[design]})
         inputs: dict[str, Any] = given(study)
         if rotor_cells is not None:
             inputs["rotor_cells"] = rotor_cells
-        return DeviceFunctions(table, inputs, ("cold", "hot"), cells)
+        return DeviceFunctions(table, {**inputs, **module}, ("cold", "hot"), cells)
 
     return make
 

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import gc
+import io
+import os
+import sys
+import warnings
 from collections.abc import Callable
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 from subprocess import CompletedProcess
+from unittest import mock
 
+from tvimdesign.cli.main import main
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
@@ -32,3 +40,40 @@ def digits(name: str, usual: float) -> float:
 def fine(model: DeviceFunctions) -> Simulator:
     """A simulator ten thousand times as exact as the product's, for what is differenced or held to many digits."""
     return Simulator(model, tolerance=1e-9, steps=200)
+
+
+def environment(spread: str = "off") -> dict[str, str]:
+    """What the command line finds around it in a test."""
+    # Parts are made anew: what an earlier run has kept must not hide what this one would make.
+    return {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "COLUMNS": "120",
+        "TVIMDESIGN_CACHE": "",
+        "TVIMDESIGN_SPREAD": spread,
+    }
+
+
+def called(*arguments: object, cwd: Path = ROOT, spread: str = "off", **more: str) -> CompletedProcess[str]:
+    """The command line called in this process, where the libraries are loaded already; `more` is environment."""
+    words, out, err = ["tvimdesign", *map(str, arguments)], io.StringIO(), io.StringIO()
+    code: object = 0
+    threshold = gc.get_threshold()
+    with (
+        chdir(cwd),
+        redirect_stdout(out),
+        redirect_stderr(err),
+        mock.patch.dict(os.environ, {**environment(spread), **more}),
+        mock.patch.object(sys, "argv", words),
+        mock.patch.object(gc, "freeze"),  # this process goes on, and what is garbage now shall not stay
+        warnings.catch_warnings(),
+    ):
+        warnings.simplefilter("default")  # as in a process of its own, where pytest's filters are unknown
+        try:
+            main()
+        except SystemExit as ended:
+            code = ended.code
+        finally:
+            gc.set_threshold(*threshold)
+    assert code is None or isinstance(code, int), code
+    return CompletedProcess(words, code or 0, out.getvalue(), err.getvalue())

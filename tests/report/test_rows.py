@@ -67,6 +67,11 @@ def test_the_groups_come_first_with_their_counts(printed: Any, width: int) -> No
     assert max(map(len, text.splitlines())) <= width
 
 
+def test_a_row_that_is_called_like_a_group_stands_with_it() -> None:
+    found = {row.name for row in rows.matching(rows.named_rows("shear"), "process")}
+    assert {"process", "minimum_wall"} <= found  # the choice stands in the group of materials
+
+
 def test_a_group_is_listed_whole(printed: Any) -> None:
     text = printed("springs", 100)
     own = [row for row in rows.named_rows("shear") if row.group == "Springs"]

@@ -6,20 +6,20 @@ import csv
 import io
 
 import pytest
-from support import ROOT
+from answers import shipped_answer
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
 from tvimdesign.report.run.first_screen.qualifications import qualification_lines
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.study import read_study, read_study_text
+from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")
 
 
 @pytest.fixture(scope="module")
 def published() -> StudyResult:
-    return answer(read_study(ROOT / "studies/paper_as_published.yaml"))
+    return shipped_answer("paper_as_published")
 
 
 def test_the_papers_ratio_is_told_with_the_stiffness_as_drawn(published: StudyResult) -> None:

@@ -133,6 +133,7 @@ def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
         )
 
 
+@pytest.mark.slow
 def test_a_cycle_with_profiles_is_no_longer_than_one_with_constant_currents() -> None:
     constant = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", ""))
     assert solve(CYCLE).values["cycle_time"] < 0.95 * constant.values["cycle_time"]

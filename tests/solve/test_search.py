@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from answers import shipped_answer
 from scipy.integrate import solve_ivp
 from support import ROOT
 
@@ -42,8 +43,17 @@ def _study(text: str) -> Study:
 
 @pytest.fixture(scope="module")
 def paper() -> Solution:
+    """The paper's study from eleven starts."""
     study = read_study(ROOT / "studies/paper_shear.yaml")
     return _solve(study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 11})}))
+
+
+@pytest.fixture(scope="module")
+def as_shipped() -> Solution:
+    """The paper's study from the three starts it asks for."""
+    solution = shipped_answer("paper_shear").solution
+    assert solution is not None
+    return solution
 
 
 def test_ten_random_starts_come_to_one_optimum() -> None:
@@ -59,7 +69,7 @@ def test_ten_random_starts_come_to_one_optimum() -> None:
 
 @pytest.mark.slow
 def test_the_paper_s_study_ends_in_optima_that_are_all_told(paper: Solution) -> None:
-    """A ring of narrow arcs farther out is an optimum of its own, 7 % worse than four wide ones near the hub."""
+    """Springs of another lever, narrow arcs farther out and both are optima of their own, 2 to 7 % worse."""
     assert sum(start.converged for start in paper.starts) >= 10
     reported = [start.objective for start in paper.distinct_optima()]
     assert paper.objective == pytest.approx(min(reported), rel=1e-3)
@@ -67,20 +77,33 @@ def test_the_paper_s_study_ends_in_optima_that_are_all_told(paper: Solution) -> 
         if start.converged:
             assert any(abs(start.objective - objective) <= 1e-4 * objective for objective in reported)
     best = [start for start in paper.starts if start.objective <= (1.0 + 1e-4) * min(reported)]
-    assert len(best) >= 3
+    assert len(best) >= 2
     for name, value in best[0].end.items():
         assert np.allclose([start.end[name] for start in best], value, rtol=1e-4), name
 
 
-def test_the_starts_are_spread_over_the_ranges(paper: Solution) -> None:
-    begins = [start.begin["coil_diameter"] for start in paper.starts]
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [2, 3])
+def test_a_search_from_other_starts_finds_the_same_best(paper: Solution, seed: int) -> None:
+    """The best is no luck of the study's own start: this one begins six coils long, and shares no start with that."""
+    study = read_study(ROOT / "studies/paper_shear.yaml")
+    elsewhere = {**study.module, "coil_count": 6.0, "wire_diameter": 2.9e-3, "placement_radius": 57e-3}
+    options = study.solver.model_copy(update={"starts": 11, "seed": seed})
+    other = optimize(study.model_copy(update={"module": elsewhere, "solver": options}), reference=paper.reference)
+    shared = {tuple(start.begin.values()) for start in other.starts} & {tuple(s.begin.values()) for s in paper.starts}
+    assert not shared
+    assert other.objective == pytest.approx(paper.objective, rel=1e-3)
+
+
+def test_the_starts_are_spread_over_the_ranges(as_shipped: Solution) -> None:
+    begins = [start.begin["coil_diameter"] for start in as_shipped.starts]
     assert len(set(begins)) == len(begins)
     assert max(begins) > 2.0 * min(begins)
 
 
-def test_the_optimum_is_feasible_outside_the_solver(paper: Solution) -> None:
-    assert paper.status == "optimal"
-    assert paper.feasible
+def test_the_optimum_is_feasible_outside_the_solver(as_shipped: Solution) -> None:
+    assert as_shipped.status == "optimal"
+    assert as_shipped.feasible
 
 
 @pytest.mark.slow

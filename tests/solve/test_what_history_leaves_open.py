@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device.core.joint_impedance import melt_modes
@@ -12,8 +13,12 @@ KELVIN = 273.15
 POINTS = "operating_points: {{cold: {{temperature: {cold} degC}}, hot: {{temperature: {hot} degC}}}}\n"
 
 
+UNITS = ("1/K", "", "")
+STIFF = ", ".join(f"{name}: {value} {unit}" for (name, value), unit in zip(STIFF_WHEN_WARM.items(), UNITS, strict=True))
+
+
 def answered(module: str, cold: float = 30.0, hot: float = 100.0) -> StudyResult:
-    text = f"mode: shear\nmodule: {{{module}}}\n" + POINTS.format(cold=cold, hot=hot)
+    text = f"mode: shear\nmodule: {{{module}, {STIFF}}}\n" + POINTS.format(cold=cold, hot=hot)
     return answer(read_study_text(text, "a test"))
 
 
@@ -73,7 +78,7 @@ def test_the_sweep_over_temperature_reaches_from_liquid_up_inside_the_melting_ra
 def test_a_limit_that_only_some_histories_keep_is_undecided_and_the_design_carries_both_ends() -> None:
     points = "operating_points: {warm: {temperature: 60 degC}}\n"
     require = "require: {joint_stiffness@warm: '>= 100 N.m/rad', joint_stiffness@hot: '>= 1 N.m/rad'}\n"
-    study = read_study_text(f"mode: shear\n{points}{require}", "a test")
+    study = read_study_text(f"mode: shear\nmodule: {{{STIFF}}}\n{points}{require}", "a test")
     found = answer(study)
     assert [check.output for check in found.undecided] == ["joint_stiffness@warm"]
     low, high = found.design.intervals["joint_stiffness@warm"]

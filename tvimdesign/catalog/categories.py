@@ -92,8 +92,17 @@ CATEGORIES: Mapping[str, Category] = {
             "yield_strength": "MPa",
             "yield_strength_across_layers": "MPa",
             "loss_factor": "1",
+            "modulus_slope": "1/K",
+            "softening_temperature": "degC",
+            "softening_width": "K",
+            "softened_share": "1",
+            "softening_loss_factor": "1",
+            "creep_share": "1",
+            "creep_exponent": "1",
+            "creep_energy": "kJ/mol",
             "service_temperature": "degC",
-        }
+        },
+        may_be_zero=("creep_share",),
     ),
     "processes": Category(
         values={

@@ -12,6 +12,7 @@ from tvimdesign.device.core import (
     mass_properties,
     materials,
     motor_choice,
+    preload_creep,
     shrinkage,
     softening,
     spring_as_drawn,
@@ -20,6 +21,7 @@ from tvimdesign.device.core import (
     structure_stiffness,
     thermal_stack,
     torsion_springs,
+    warm_structure,
 )
 from tvimdesign.device.fixtures import (
     axial_preload,
@@ -43,6 +45,8 @@ ROOMS = (
     joint_impedance,
     lost_motion,
     structure_stiffness,
+    warm_structure,
+    preload_creep,
     large_motion,
     creep_under_hold,
     thermal_stack,

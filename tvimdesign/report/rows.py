@@ -66,11 +66,12 @@ def setting_names() -> list[str]:
 
 
 def matching(rows: Sequence[Quantity], word: str) -> list[Quantity]:
-    """The rows of the group of that name; else those with the word, or what engineers mean by it, in their text."""
+    """The group of that name and the row so called; else rows with the word, or what engineers mean by it."""
     word = " ".join(word.lower().split())
-    group = [row for row in rows if row.group.lower() == word]
+    named = [row for row in rows if word in (row.group.lower(), row.name)]
     terms = (word, *_words().get(word, ()))
-    return group or [row for row in rows if any(term in _text(row) for term in terms)]
+    in_group = any(row.group.lower() == word for row in named)
+    return named if in_group else [row for row in rows if any(term in _text(row) for term in terms)]
 
 
 def _text(row: Quantity) -> str:

@@ -157,7 +157,11 @@ def answer(
         solution=_plain(solution),
     )
     checks = tuple(_check(limit, values, table, open_values) for limit in constraints_of(study, table, resolved.values))
-    advice = [limit for limit in advice_of(table) if happened(limit.output, values, table)]
+    advice = [
+        limit
+        for limit in advice_of(table)
+        if table.output(limit.output).exists(design.choices) and happened(limit.output, values, table)
+    ]
     ignored = [check for limit in advice if not (check := _check(limit, values, table, open_values)).kept]
     return StudyResult(
         design=design, checks=checks, warnings=(*(ratings[name] for name in above), *ignored),

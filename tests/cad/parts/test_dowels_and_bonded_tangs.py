@@ -31,7 +31,7 @@ MODULES: Mapping[str, tuple[str, Mapping[str, float | str]]] = {
 }
 
 
-@pytest.fixture(scope="module", params=MODULES)
+@pytest.fixture(scope="module", params=[pytest.param("two", marks=pytest.mark.slow), "four", "compression"])
 def design(request: pytest.FixtureRequest) -> Design:
     mode, overrides = MODULES[request.param]
     return design_of(request.param, overrides, mode)

@@ -14,6 +14,7 @@ from tvimdesign.cad.assembly.assembly import drawn_part, drawn_parts, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import bill
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.inspection.order import sequence
 from tvimdesign.cad.inspection.size_checks import all_checks, interference_checks, size_checks
 from tvimdesign.study.design import Design
 
@@ -84,9 +85,18 @@ def test_the_note_sets_the_spring_in_and_says_how_to_set_the_stop(sprung: Sprung
     assert not spring.made
     assert spring.material == design.choices["axial_preload"]
     note = assembly_note(design, dims, items).decode()
-    assert note.count("wave spring") >= 2
+    where = "in" if design.choices["bearing"] != "none" else "on"
+    assert {"in": "Lay the wave spring into the upper", "on": "lay it on the upper end of the hub"}[where] in note
     if design.mode == "shear":
         assert "0.0701" in note.split("Press the rotor down on its cold PCL")[1][:200]
+
+
+def test_every_part_comes_into_its_place_once(sprung: Sprung) -> None:
+    names = list(sprung.parts)
+    order = [one.name for one in sequence(names)]
+    assert sorted(order) == sorted(names)
+    seat, above = ("bearing_outer_1", "bearing_inner_1") if sprung.case == "sprung bearings" else ("rotor", "retainer")
+    assert order.index("preload_spring") < order.index(seat) < order.index(above)
 
 
 def test_lips_leave_a_running_clearance_above_the_floor_and_end_at_the_layer() -> None:

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 
@@ -14,9 +15,11 @@ HERTZ = 3.0
 
 @pytest.fixture(scope="module")
 def joint(squeezed: dict[str, Any]) -> dict[str, Any]:
-    given = {**squeezed, "frequency@cold": HERTZ, "frequency@hot": HERTZ, "block_height": 10e-3, "block_depth": 5e-3}
+    sizes = {"block_height": 10e-3, "block_depth": 5e-3}
+    given = {**squeezed, **STIFF_WHEN_WARM, **sizes, "frequency@cold": HERTZ, "frequency@hot": HERTZ}
     names = [name for name in TABLE.names(("cold", "hot")) if TABLE.output(name).group == "Impedance"]
-    more = ["link_bottom_level", "rotor_top_level", "housing_vane_angle", "elastic_support", "pcl_moment"]
+    more = ["link_bottom_level", "rotor_top_level", "housing_vane_angle", "pcl_moment"]
+    more += [f"support@{point}" for point in ("cold", "hot")]
     return {**given, **TABLE.evaluate(given, [*names, *more])}
 
 
@@ -51,23 +54,23 @@ def test_joint_is_the_springs_parallel_to_blocks_and_structure_in_series(joint: 
     star = springs + 1.0 / (1.0 / blocks + 1.0 / (joint["structure_stiffness"] * (1.0 + 0.04j)))  # PETG, clamped
     assert joint[f"joint_stiffness@{point}"] == pytest.approx(star.real, rel=1e-9)
     assert joint[f"joint_damping@{point}"] == pytest.approx(star.imag / omega, rel=1e-9)
-    # What the simulations use: shear modes in series with one elastic support, structure and volume together.
-    star = springs + 1.0 / (1.0 / blocks + 1.0 / joint["structure_stiffness"])
+    # What the simulations use: shear modes in series with one support, structure and volume together.
     shear = complex(joint[f"storage_modulus@{point}"], joint[f"loss_modulus@{point}"])
     modes = shear * joint["pcl_moment"] / 5e-3
-    again = springs + 1.0 / (1.0 / modes + 1.0 / joint["elastic_support"])
+    again = springs + 1.0 / (1.0 / modes + 1.0 / complex(*joint[f"support@{point}"]))
     assert again == pytest.approx(star, rel=1e-9)
 
 
 def test_a_molten_film_softens_the_joint_as_a_block_of_its_own_depth_would(squeezed: dict[str, Any]) -> None:
     storage, loss = np.full(12, 1e15), np.zeros(12)
     storage[:3], loss[:3] = 2e4, 3e4  # a quarter has melted, the rest is rigid
-    names = ["impedance_now", "spring_stiffness", "elastic_support", "support_loss"]
-    found = TABLE.evaluate({**squeezed, "slice_moduli": (storage, loss)}, names)
+    names = ["impedance_now", "spring_stiffness"]
+    support = complex(700.0, 30.0)
+    given = {**squeezed, "slice_moduli": (storage, loss), "support_now": (support.real, support.imag)}
+    found = TABLE.evaluate(given, names)
     width, height, thick = 14e-3, 3.5e-3, 0.25 * 7e-3
     shape = width * height / (2.0 * thick * (width + height))
     film = 6 * 3.0 * complex(2e4, 3e4) * (1.0 + 2.0 * shape**2) * width * height * 33e-3**2 / thick
-    support = complex(found["elastic_support"], found["support_loss"])
     star = found["spring_stiffness"] + 1.0 / (1.0 / film + 1.0 / support)
     assert found["impedance_now"] == pytest.approx(abs(star), rel=1e-6)
 

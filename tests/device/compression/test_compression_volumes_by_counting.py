@@ -29,7 +29,7 @@ WANTED = [
 ]  # fmt: skip
 
 
-@pytest.fixture(scope="module", params=SHAPES)
+@pytest.fixture(scope="module", params=["as it is", pytest.param("tall, near the axis", marks=pytest.mark.slow)])
 def part(request: pytest.FixtureRequest, squeezed: dict[str, Any]) -> dict[str, Any]:
     given = {**squeezed, **SHAPES[request.param]}
     return {**given, **TABLE.evaluate(given, WANTED)}

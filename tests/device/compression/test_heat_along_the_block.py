@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from stiff_when_warm import STIFF_WHEN_WARM
 from support import ROOT, fine
 
 from tvimdesign.device import table_for
@@ -63,7 +64,7 @@ def test_twice_the_depth_of_a_whole_module_tends_from_flux_to_diffusion_and_hard
     # Pads and vanes take heat as well, which does not double: a thin block takes less than twice as long. The deeper it
     # is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the block is.
     study = read_study(ROOT / "studies" / "paper_compression.yaml")
-    module = {**resolve(study), "horizon": 1e5}
+    module = {**resolve(study), **STIFF_WHEN_WARM, "horizon": 1e5}
 
     def ratios(depth: float, current: float) -> tuple[float, float]:
         found = []

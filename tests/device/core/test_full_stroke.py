@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 
@@ -139,6 +140,7 @@ def test_bought_springs_spread_as_din_2194_says(bent: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("point", ["cold", "hot"])
 def test_impedance_is_the_magnitude_of_springs_layer_and_structure(inputs: dict[str, Any], point: str) -> None:
+    inputs = {**inputs, **STIFF_WHEN_WARM}
     wanted = ["spring_stiffness", "structure_stiffness"]
     wanted += [f"{name}@{point}" for name in ("pcl_stiffness", "pcl_damping", "joint_impedance")]
     found = TABLE.evaluate(inputs, wanted)

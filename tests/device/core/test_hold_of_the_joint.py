@@ -13,8 +13,8 @@ LEFT = ["hold_angle", "pcl_relaxation", "set_angle", "backlash", "relaxation_los
 
 
 def at(table: Any, given: dict[str, Any], point: str, *more: str) -> dict[str, Any]:
-    rows = ["hold_torque", "spring_stiffness", "elastic_support", *more]
-    found = table.evaluate(given, [*rows, *(f"{name}@{point}" for name in [*LEFT, "pcl_modes"])])
+    rows = ["hold_torque", "spring_stiffness", *more]
+    found = table.evaluate(given, [*rows, *(f"{name}@{point}" for name in [*LEFT, "elastic_support", "pcl_modes"])])
     return {name.partition("@")[0]: value for name, value in found.items()}
 
 
@@ -66,7 +66,11 @@ def test_bonded_layer_relaxes_as_much_and_loses_nothing_because_it_cannot_part(
 def test_same_spectrum_and_support_leave_the_same_set_in_either_mode(
     inputs: dict[str, Any], squeezed: dict[str, Any]
 ) -> None:
-    from_template = {"pcl_modes@hot": [(3.0, 200.0), (0.1, 900.0)], "elastic_support": 700.0, "spring_stiffness": 5.6}
+    from_template = {
+        "pcl_modes@hot": [(3.0, 200.0), (0.1, 900.0)],
+        "elastic_support@hot": 700.0,
+        "spring_stiffness": 5.6,
+    }
     one, other = at(SHEAR, {**inputs, **from_template}, "hot"), at(COMPRESSION, {**squeezed, **from_template}, "hot")
     for name in ("hold_angle", "pcl_relaxation", "set_angle"):
         assert one[name] == pytest.approx(other[name], rel=1e-9), name
@@ -76,8 +80,9 @@ def test_bond_and_blocks_bear_the_load_when_it_has_just_come_on(
     inputs: dict[str, Any], squeezed: dict[str, Any]
 ) -> None:
     def borne(table: Any, given: dict[str, Any], row: str) -> tuple[float, float]:
-        found = table.evaluate(given, [row, "hold_torque", "spring_stiffness", "elastic_support", "pcl_modes@hot"])
-        branch = 1.0 / (1.0 / sum(k for _, k in found["pcl_modes@hot"]) + 1.0 / found["elastic_support"])
+        support = "elastic_support@hot"
+        found = table.evaluate(given, [row, "hold_torque", "spring_stiffness", support, "pcl_modes@hot"])
+        branch = 1.0 / (1.0 / sum(k for _, k in found["pcl_modes@hot"]) + 1.0 / found[support])
         return found[row], found["hold_torque"] * branch / (branch + found["spring_stiffness"])
 
     traction, torque = borne(SHEAR, inputs, "bond_traction@hot")

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 from tvimdesign.physics.polymers import large_strain, polymer
@@ -22,11 +23,12 @@ OPTIMUM = {
     "pcl_thickness": 0.600000e-3,
     "stroke": 0.104,
 }
+SMOOTH = {"pin_friction": 0.0, "bore_friction": 0.0}
 INNER = OPTIMUM["pcl_inner_radius"] / OPTIMUM["pcl_outer_radius"]
 
 
 def module(mode: str = "shear", **changes: Any) -> dict[str, Any]:
-    found = {**given(read_study_text(f"mode: {mode}\n", "a test")), **changes}
+    found = {**given(read_study_text(f"mode: {mode}\n", "a test")), **STIFF_WHEN_WARM, **SMOOTH, **changes}
     return {**found, **table_for(mode).evaluate(found, ROWS)}
 
 
@@ -114,3 +116,31 @@ def test_free_edge_gives_long_before_the_stroke() -> None:
     strain = found["edge_fracture_angle"] * 40e-3 / 1e-3
     assert 0.2 * found["storage_modulus@hot"] * strain**2 == pytest.approx(2.0 * 0.035 / (3.0 * 1e-3), rel=1e-9)
     assert found["edge_fracture_angle"] < 0.2 * found["stroke"]
+
+
+@pytest.mark.parametrize("mode", ["shear", "compression"])
+def test_friction_adds_at_the_stroke_what_its_energy_in_a_cycle_says(mode: str) -> None:
+    more = ["pin_friction_torque", "bearing_friction_torque", "spring_torque_full_stroke", "holding_torque", "stroke"]
+    cold_rows = [f"{name}@cold" for name in ("joint_stiffness", "joint_damping", "bearing_damping")]
+    names = [*ROWS, *more, *cold_rows, "cold_stroke", "cold_damping_at_stroke"]
+    rough = {"pin_friction": 0.25, "bore_friction": 0.3}
+    table, smooth = table_for(mode), module(mode)
+    found = {**smooth, **table.evaluate({**{k: v for k, v in smooth.items() if k not in ROWS}, **rough}, names)}
+    omega, phase = 2.0 * np.pi, np.linspace(0.0, 2.0 * np.pi, 100_001)
+
+    def damping(stiffness: float, viscous: float, reach: float) -> float:
+        load = stiffness * reach * np.sin(phase) + viscous * omega * reach * np.cos(phase)
+        share = found["bearing_friction_torque"] / found["spring_torque_full_stroke"]
+        rubbed = found["pin_friction_torque"] + share * np.abs(load)
+        return float(np.trapezoid(rubbed * np.abs(reach * np.cos(phase)), phase) / (np.pi * omega * reach**2))
+
+    viscous = smooth["hot_damping_at_stroke"]
+    hot = damping(found["hot_stiffness_at_stroke"], viscous, found["stroke"])
+    assert found["hot_damping_at_stroke"] == pytest.approx(viscous + hot, rel=1e-6)
+    stiffness, small = found["joint_stiffness@cold"], found["joint_damping@cold"]
+    reach = min(found["stroke"], found["holding_torque"] / stiffness)
+    assert found["cold_stroke"] == pytest.approx(reach, rel=1e-12)
+    cold = damping(stiffness, small, reach)
+    assert found["cold_damping_at_stroke"] == pytest.approx(small + cold, rel=1e-6)
+    # Small motions and pure torques know nothing of it.
+    assert smooth["joint_damping@hot"] == found["joint_damping@hot"]

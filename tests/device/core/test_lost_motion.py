@@ -59,6 +59,27 @@ def test_a_core_in_a_plain_bore_leans_until_plate_or_retainer_stop_it() -> None:
     assert found["bearing_play"] == pytest.approx((play + lean * height) / (1e3 * found["link_length"]), rel=1e-9)
 
 
+def test_a_core_on_a_wave_spring_leans_until_the_spring_is_flat_or_a_lip_is_down() -> None:
+    rows = "core_lean bearing_play link_bottom_level hub_top_level hub_radius pcl_outer_radius link_length"
+    found = values_of(rows, axial_preload="wave_21x25")
+    # 1.2 mm high frozen, 0.2 mm of wire; a layer of 1 mm grows by 70 um, by which the retainer is below the hub.
+    free = (1.2 - 0.2) + 0.0701
+    assert found["core_lean"] == pytest.approx(free / (2e3 * found["hub_radius"]), rel=1e-4)
+    height = 1e3 * (found["link_bottom_level"] + 2.0 * MM - found["hub_top_level"])
+    shift = 0.4 + found["core_lean"] * height
+    assert found["bearing_play"] == pytest.approx(shift / (1e3 * found["link_length"]), rel=1e-9)
+    # Lips, 0.4 mm above the floor while the layer is frozen and 1.5 mm wide, come down before that.
+    lipped = values_of(rows, axial_preload="wave_21x25", melt_lip="rings")
+    reach = 1e3 * (lipped["hub_radius"] + lipped["pcl_outer_radius"]) + 1.5
+    assert lipped["core_lean"] == pytest.approx((0.4 + 0.0701) / reach, rel=1e-4)
+
+
+def test_vanes_stop_the_lean_of_a_core_in_a_plain_bore() -> None:
+    found = values_of("core_lean hub_radius pcl_outer_radius", "compression", axial_preload="wave_21x25")
+    # Vanes are 0.4 mm above the floor and reach as far out as the blocks.
+    assert found["core_lean"] == pytest.approx(0.4 * MM / (found["hub_radius"] + found["pcl_outer_radius"]), rel=1e-9)
+
+
 def test_bearings_have_the_gaps_of_their_seats_and_of_their_balls() -> None:
     module = {"bearing": "ball_6702", "hub_depth": "5 mm", "foot_height": "11 mm", "core_radius": "7.5 mm"}
     rows = "bearing_play link_bottom_level hub_top_level hub_bottom_level link_length"

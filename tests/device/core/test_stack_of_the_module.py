@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 from tvimdesign.device.core import softening
@@ -89,8 +90,8 @@ def test_slices_are_tested_at_the_frequency_of_where_the_phase_leads(
     # A layer that is everywhere at one temperature is as soft as at an operating point of that temperature.
     stack = TABLE.evaluate(known, ["stack"])["stack"]
     state = heat.initial_state(stack, 5, 368.15)
-    given = {**known, "frequency@hot": 0.3, "frequency@cold": 7.0, f"temperature@{point}": 368.15, "phase": phase,
-             "phase_model": "equilibrium", "state": state}  # fmt: skip
+    given = {**known, **STIFF_WHEN_WARM, "frequency@hot": 0.3, "frequency@cold": 7.0, f"temperature@{point}": 368.15,
+             "phase": phase, "phase_model": "equilibrium", "state": state}  # fmt: skip
     names = ["layer_moduli", "impedance_now", f"storage_modulus@{point}", f"loss_modulus@{point}",
              f"joint_impedance@{point}", "mean_temperature"]  # fmt: skip
     layer, impedance, storage, loss, joint, mean = TABLE.evaluate(given, names).values()

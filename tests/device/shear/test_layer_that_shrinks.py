@@ -97,6 +97,31 @@ def test_without_a_spring_all_its_rows_are_zero() -> None:
     assert set(values_of(rows).values()) == {0.0}
 
 
+def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge() -> None:
+    rows = "layer_wedge upright_moment molten_preload retainer_radius hub_radius"
+    bare = values_of(rows, pcl_thickness="0.6 mm")
+    # A plate that leans until the retainer, 0.4 mm below the hub, meets it: 15 mrad, at 40 mm from the axis.
+    assert bare["layer_wedge"] == pytest.approx(40.0 * 0.4 / (2e3 * bare["hub_radius"]) / 0.6, rel=1e-9)
+    assert bare["upright_moment"] == 0.0
+    sprung = values_of(rows, axial_preload="wave_21x25")
+    assert sprung["upright_moment"] == pytest.approx(sprung["molten_preload"] * sprung["retainer_radius"])
+    assert 0.02 < sprung["upright_moment"] < 0.1  # N m: half a newton at the end of a link of 0.1 m
+    # Milled bearings have 1.5 um at either ring and half of 18 um, over some 4.5 mm.
+    module = {"process": "machine_6061", "bearing": "ball_6802", "hub_depth": "8 mm", "foot_height": "14 mm"}
+    borne = values_of(rows + " hub_top_level hub_bottom_level", pcl_thickness="0.6 mm", **module)
+    spread = 1e3 * (borne["hub_top_level"] - borne["hub_bottom_level"]) - 5.0
+    assert borne["layer_wedge"] < 0.3 * bare["layer_wedge"]
+    assert borne["layer_wedge"] == pytest.approx(40.0 * 2.0 * (2 * 0.0015 + 0.5 * 0.018) / spread / 0.6, rel=0.01)
+
+
+def test_the_ends_of_an_arc_creep_along_its_track() -> None:
+    found = values_of("melt_creep pcl_viscosity@hot", melt_lip="rings")
+    # As between flat faces, by hand: h^2 rho g/(12 eta), 1.07 mm high, an hour.
+    speed = 1.0701e-3**2 * 1070.0 * G / (12.0 * found["pcl_viscosity@hot"])
+    assert found["melt_creep"] == pytest.approx(3600.0 * speed, rel=1e-3)
+    assert found["melt_creep"] < 3e-3  # the narrowest web between two pads
+
+
 def test_a_hot_hour_moves_melt_out_of_open_edges_and_not_past_lips() -> None:
     rows = "melt_loss melt_head melt_hold pcl_viscosity@hot"
     bare = values_of(rows)

@@ -206,6 +206,7 @@ def test_a_process_that_dies_is_told_and_the_other_kept(tmp_path: Path) -> None:
     assert "drawn" in found["there"]
 
 
+@pytest.mark.slow
 def test_studies_that_are_evaluated_only_are_compared_as_drawn(tvimdesign: Command, tmp_path: Path) -> None:
     paths = [ROOT / "studies/paper_as_published.yaml", ROOT / "studies/paper_compression.yaml"]
     done = tvimdesign("compare", *paths, "--no-plots", "--json", "--out", tmp_path / "out")

@@ -57,6 +57,7 @@ def test_an_editor_finds_no_fault(name: str, found: StudyResult) -> None:
 
 
 @pytest.mark.parametrize("count", [0, 1, 80])
+@pytest.mark.parametrize("found", ["optimised"], indirect=True)
 def test_bounds_have_room_for_any_number_of_limits(count: int, data: dict[str, Any]) -> None:
     groups = data["bounds"]["margins"]
     many = [group | {"rows": (group["rows"] * (count // len(group["rows"]) + 1))[:count]} for group in groups]
@@ -94,6 +95,7 @@ def test_a_file_has_the_pixels_of_its_size_and_no_transparent_ones(data: dict[st
     assert picture.info["dpi"] == pytest.approx((300.0, 300.0), abs=0.01)
 
 
+@pytest.mark.parametrize("found", ["optimised"], indirect=True)
 def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, Any]) -> None:
     pdf, svg = ([as_file(signed(drawn("module_figures.torque", data["torque"])), ending) for _ in range(2)]
                 for ending in ("pdf", "svg"))  # fmt: skip

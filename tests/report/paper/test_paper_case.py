@@ -92,6 +92,7 @@ def test_the_machine_s_rules_hold_at_both_ends_of_every_dimension(mode: str) -> 
             assert not broken, f"{name} {end}"
 
 
+@pytest.mark.slow
 def test_what_has_no_range_hardly_moves_the_ratio() -> None:
     pair, event = paper_case.pair(), paper_case.case()["event"]
     needed = set().union(*(model.table.ancestors(event) for model in pair.models))

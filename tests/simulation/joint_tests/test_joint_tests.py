@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from stiff_when_warm import LOSSLESS
 
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests import release as release_test
@@ -23,9 +24,9 @@ POINTS = ("cold", "melting", "hot")
 @pytest.fixture(scope="module")
 def resolved() -> ResolvedModule:
     # Without friction, as the textbook has it (what it does is in test_link_with_dry_friction.py), and without the
-    # structure's loss, which motions in time leave out.
+    # structure's loss (what that does is in test_loss_in_motion.py).
     study = read_study(STUDY)
-    textbook = {"pin_friction": 0.0, "structure_loss_factor": 0.0, "clamped_loss_factor": 0.0}
+    textbook = {"pin_friction": 0.0, **LOSSLESS}
     return resolve_study(study.model_copy(update={"module": {**study.module, **textbook}}))
 
 

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from stiff_when_warm import LOSSLESS
 from support import ROOT
 
 from tvimdesign.physics.motions import one_sided
@@ -30,11 +31,8 @@ POINTS = ("cold", "melting", "hot")
 def resolved() -> ResolvedModule:
     study = read_study(ROOT / "studies" / "paper_compression.yaml")
     # Without its cover the core is shorter, and thicker it is stiffer; without friction, as the textbook has it, and
-    # without the structure's loss, which motions in time leave out.
-    other = {
-        "cover": "none", "core_radius": 9e-3, "pin_friction": 0.0, "structure_loss_factor": 0.0,
-        "clamped_loss_factor": 0.0,
-    }  # fmt: skip
+    # without the structure's loss (what that does is in test_loss_in_motion.py).
+    other = {"cover": "none", "core_radius": 9e-3, "pin_friction": 0.0, **LOSSLESS}
     study = study.model_copy(update={"module": {**study.module, **other}})
     return resolve_study(study)
 
@@ -235,7 +233,7 @@ def test_blocks_that_do_not_relax_swing_as_one_spring_and_lose_no_contact(resolv
     internal = joint_motion.held(case, 0.1, 10.0)
     assert joint_motion.gap(case, internal) == pytest.approx(0.0, abs=1e-15)
     moved = joint_motion.released(case, 0.1, internal)
-    support, springs = resolved.quantity("elastic_support"), resolved.quantity("spring_stiffness")
+    support, springs = resolved.quantity("elastic_support@cold"), resolved.quantity("spring_stiffness")
     rate = np.sqrt((springs + stiffness * support / (stiffness + support)) / resolved.quantity("moving_inertia"))
     assert moved.motion.angle == pytest.approx(0.1 * np.cos(rate * moved.motion.times), abs=1e-7)
     assert moved.lost_share(0.0, moved.first_swing()) == pytest.approx(0.0, abs=1e-9)

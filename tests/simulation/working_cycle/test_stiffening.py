@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from stiff_when_warm import STIFF_WHEN_WARM
 from support import fine
 
 from tvimdesign.physics.polymers import polymer
@@ -80,15 +81,14 @@ def another_cycle(model: DeviceFunctions) -> AnotherCycle:
     return AnotherCycle(heated, kinetic, equilibrium, far_face)
 
 
-@pytest.mark.parametrize(
-    "design", [pytest.param(name, marks=[] if name == "thin" else pytest.mark.slow) for name in DESIGNS]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("design", DESIGNS)
 def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cells(
     design: str, build: Callable[..., DeviceFunctions]
 ) -> None:
     # Eight cells in the rotor leave 1.05 % in the sooner time of the thin layer, 16 leave 0.29 %, 32 leave 0.10 %;
     # more than twelve in the layer change less than 0.02 %.
-    model = build(design, rotor_cells=16)
+    model = build(design, rotor_cells=16, **STIFF_WHEN_WARM)
     values, another = fine(model).run(model.start).values, another_cycle(model)
     assert 10 * model.cells == CELLS
     assert values["response_time"] == pytest.approx(another.heated, rel=0.01)

@@ -68,9 +68,34 @@ def pair(solved: Solved) -> Front:
     return trace_front(solved.trade(), (TIME, MASS), 7)
 
 
+class Notes:
+    """A memory that forgets everything from some question on."""
+
+    def __init__(self) -> None:
+        """Nothing is known."""
+        self.known: dict[int, Point | Failure] = {}
+        self.recalled = 0
+
+    def recall(self, number: int, _: Objective) -> Point | Failure | None:
+        """What is known."""
+        self.recalled += number in self.known
+        return self.known.get(number)
+
+    def keep(self, number: int, _: Objective, found: Point | Failure) -> None:
+        """Note it."""
+        self.known[number] = found
+
+
 @pytest.fixture(scope="module")
-def triple(solved: Solved) -> Front:
-    return trace_front(solved.trade(), (TIME, MASS, SIZE), 9)
+def noted(solved: Solved) -> tuple[Front, Notes]:
+    """A front of three outputs, and what was noted on the way."""
+    notes = Notes()
+    return trace_front(solved.trade(notes), (TIME, MASS, SIZE), 9), notes
+
+
+@pytest.fixture(scope="module")
+def triple(noted: tuple[Front, Notes]) -> Front:
+    return noted[0]
 
 
 def _numbers(front: Front) -> list[tuple[float, ...]]:
@@ -170,29 +195,10 @@ def test_what_can_be_traded_does_not_change_the_optimum(solved: Solved) -> None:
     assert bare.reference.keys() == solved.solution.reference.keys() == solved.study.minimize.keys()
 
 
-class Notes:
-    """A memory that forgets everything from some question on."""
-
-    def __init__(self) -> None:
-        """Nothing is known."""
-        self.known: dict[int, Point | Failure] = {}
-        self.recalled = 0
-
-    def recall(self, number: int, _: Objective) -> Point | Failure | None:
-        """What is known."""
-        self.recalled += number in self.known
-        return self.known.get(number)
-
-    def keep(self, number: int, _: Objective, found: Point | Failure) -> None:
-        """Note it."""
-        self.known[number] = found
-
-
-def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved) -> None:
-    notes = Notes()
-    whole = trace_front(solved.trade(notes), (TIME, MASS, SIZE), 7)
-    notes.known = {number: found for number, found in notes.known.items() if number < 6}
-    again = trace_front(solved.trade(notes), (TIME, MASS, SIZE), 7)
+def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved, noted: tuple[Front, Notes]) -> None:
+    whole, notes = noted[0], Notes()
+    notes.known = {number: found for number, found in noted[1].known.items() if number < 6}
+    again = trace_front(solved.trade(notes), (TIME, MASS, SIZE), 9)
     assert notes.recalled == 6
     assert _numbers(again) == _numbers(whole)
     assert [point.values for point in again.points] == [point.values for point in whole.points]

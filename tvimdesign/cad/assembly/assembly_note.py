@@ -81,7 +81,7 @@ def _is_for(step: Mapping[str, Any], dims: Dimensions) -> bool:
 def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
     """Steps of a module of these kinds of part, in order, as the data file has them."""
     written: list[dict[str, Any]] = yaml.safe_load(_STEPS.read_text("utf-8"))
-    return [step for step in written if kinds.issuperset(step["kinds"])]
+    return [step for step in written if kinds.issuperset(step["kinds"]) and kinds.isdisjoint(step.get("without", ()))]
 
 
 class _Figures(dict[str, Any]):

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkLogger, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkPolyDataNormals
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -30,6 +30,7 @@ from tvimdesign.cad.geometry.kinds import KINDS, Rgb
 
 for _back_end in ("vtkRenderingOpenGL2", "vtkRenderingFreeType"):
     import_module(f"vtkmodules.{_back_end}")  # it registers itself as what draws, and what writes
+vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no display is no news: nothing is shown on one
 
 _EDGE_ANGLE = 30.0
 _COLUMN, _LINE = 250, 45

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.base.record import Record
 from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.core.warm_structure import Compliances
+from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
@@ -133,8 +136,8 @@ def housing_vane_stiffness(
     return vane_count * one * pcl_mean_radius**2
 
 
-@quantities.output("N*m/rad")
-def structure_stiffness(
+@quantities.helper()
+def structure_compliances(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
     rotor_vane_stiffness: Scalar,
@@ -145,16 +148,17 @@ def structure_stiffness(
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     block_area: Scalar,
-) -> Scalar:
-    """Stiffness in series with the blocks: core, plate, vanes of both, pads, and floor up to its feet or its flange."""
-    return structure.series(
-        core_stiffness,
-        plate_stiffness,
-        rotor_vane_stiffness,
-        housing_vane_stiffness,
-        floor_stiffness,
-        block.stiffness(SHEET * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness),
-    )
+) -> Compliances:
+    """What is in series with the blocks: core, plate, vanes of both, floor up to its feet or its flange, and pads."""
+    pads = block.stiffness(SHEET * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness)
+    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness, 1.0 / rotor_vane_stiffness,
+                       1.0 / housing_vane_stiffness, 1.0 / floor_stiffness, 1.0 / pads)  # fmt: skip
+
+
+@quantities.output("N*m/rad")
+def structure_stiffness(structure_compliances: Compliances) -> Scalar:
+    """Stiffness in series with the blocks, at 23 degC: core, plate, vanes, pads, and floor up to its feet or flange."""
+    return 1.0 / sum(structure_compliances)
 
 
 @quantities.helper()
@@ -167,15 +171,9 @@ def floor_ring(floor_thickness: Scalar, vane_count: Scalar, slot_angle: Scalar) 
 
 
 @quantities.helper()
-def elastic_support(structure_stiffness: Scalar, volume_stiffness: Scalar) -> Scalar:
-    """Stiffness in series with the PCL's shear modes [N*m/rad]: the structure, and the blocks' volume."""
-    return structure.series(structure_stiffness, volume_stiffness)
-
-
-@quantities.helper()
-def support_loss(structure_stiffness: Scalar, structure_loss: Scalar, volume_stiffness: Scalar) -> Scalar:
-    """Imaginary stiffness in series with the PCL's shear modes [N*m/rad]; the blocks' volume is lossless."""
-    return layer.series_stiffness(structure_stiffness, structure_loss, volume_stiffness)[1]
+def lossless_compliance(volume_stiffness: Scalar) -> Scalar:
+    """What is in series with the PCL's shear modes and structure besides [rad/(N*m)]: the blocks' volume."""
+    return 1.0 / volume_stiffness
 
 
 _SQUEEZED = (
@@ -222,7 +220,7 @@ def vane_arm(block_height: Scalar, running_clearance: Scalar) -> Scalar:
 
 @quantities.output("N*m")
 def rotor_vane_holding_torque(
-    structure_layer_strength: Scalar,
+    cold_layer_strength: Scalar,
     block_width: Scalar,
     vane_thickness: Scalar,
     vane_arm: Scalar,
@@ -231,13 +229,13 @@ def rotor_vane_holding_torque(
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque at which the roots of the rotor's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = vane.force_at_yield(structure_layer_strength, block_width, vane_thickness, vane_arm)
+    force = vane.force_at_yield(cold_layer_strength, block_width, vane_thickness, vane_arm)
     return vane_count * force * pcl_mean_radius / holding_safety
 
 
 @quantities.output("N*m")
 def housing_vane_holding_torque(
-    structure_layer_strength: Scalar,
+    cold_layer_strength: Scalar,
     slot_web: Scalar,
     housing_vane_thickness: Scalar,
     vane_arm: Scalar,
@@ -246,13 +244,13 @@ def housing_vane_holding_torque(
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque at which the roots of the housing's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = vane.force_at_yield(structure_layer_strength, 2.0 * slot_web, housing_vane_thickness, vane_arm)
+    force = vane.force_at_yield(cold_layer_strength, 2.0 * slot_web, housing_vane_thickness, vane_arm)
     return vane_count * force * pcl_mean_radius / holding_safety
 
 
 _PARTS = (
     "block_holding_torque", "rotor_vane_holding_torque", "housing_vane_holding_torque", "core_holding_torque",
-    "link_holding_torque",
+    "link_holding_torque", "bearing_holding_torque",
 )  # fmt: skip
 
 
@@ -263,10 +261,13 @@ def holding_torque(
     housing_vane_holding_torque: Scalar,
     core_holding_torque: Scalar,
     link_holding_torque: Scalar,
+    bearing: Record | str,
+    bearing_holding_torque: Scalar,
 ) -> Scalar:
-    """Torque the frozen joint holds: the least of what blocks, vanes, core and what holds the link bear."""
+    """Torque the frozen joint holds: the least of what blocks, vanes, core, what holds the link, and bearings bear."""
     vanes = np.fmin(rotor_vane_holding_torque, housing_vane_holding_torque)
-    return np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
+    held = np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
+    return with_bearings(bearing, held, bearing_holding_torque)
 
 
 @quantities.output("1", headline=True)

@@ -24,6 +24,12 @@ def vane_height(block_height: Scalar, running_clearance: Scalar) -> Scalar:
 
 
 @quantities.helper()
+def plate_lean(running_clearance: Scalar, hub_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Angle at which the leaning rotor's vanes are down on the floor [rad], its other side held at the hub."""
+    return running_clearance / (hub_radius + pcl_outer_radius)
+
+
+@quantities.helper()
 def pcl_depth(block_depth: Scalar) -> Scalar:
     """Way of heat and load through the PCL [m]."""
     return block_depth

@@ -1,7 +1,7 @@
 """Stiffness and damping of the joint at its operating points: PCL, structure and springs together.
 
 Each mode says in its own room what its PCL and its structure are: `pcl_stiffness` and `pcl_damping`, and for spectra
-`pcl_moment` over `pcl_depth` times the shear modulus, in series with `elastic_support` and its `support_loss`.
+`pcl_moment` over `pcl_depth` times the shear modulus, in series with `support`. `warm_structure.py` has the structure.
 """
 
 from __future__ import annotations
@@ -166,19 +166,13 @@ def pcl_mean_radius(pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scala
     return 0.5 * (pcl_inner_radius + pcl_outer_radius)
 
 
-@quantities.helper()
-def structure_loss(structure_stiffness: Scalar, structure_loss_factor: Scalar, clamped_loss_factor: Scalar) -> Scalar:
-    """Imaginary stiffness of the structure [N*m/rad]: loss of its material, and of the joints it is clamped with."""
-    return structure.loss_stiffness(structure_stiffness, structure_loss_factor + clamped_loss_factor)
-
-
 @quantities.helper(per_point=True)
 def branch_stiffness(
-    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, structure_stiffness: Scalar, structure_loss: Scalar
+    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, warm_structure: tuple[Scalar, Scalar]
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
     loss = 2.0 * np.pi * frequency * pcl_damping
-    return layer.series_stiffness(pcl_stiffness, loss, structure_stiffness, structure_loss)
+    return layer.series_stiffness(pcl_stiffness, loss, *warm_structure)
 
 
 @quantities.output("N*m/rad", per_point=True)

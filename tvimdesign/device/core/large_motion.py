@@ -17,6 +17,7 @@ from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
+from tvimdesign.physics.motions import friction
 from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.physics.polymers import large_strain
 
@@ -31,8 +32,7 @@ def stroke_branch(
     frequency_at_hot: Scalar,
     pcl_modes_at_hot: Modes,
     linear_strain_at_hot: Scalar,
-    elastic_support: Scalar,
-    support_loss: Scalar,
+    support_at_hot: tuple[Scalar, Scalar],
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness [N*m/rad] of the molten PCL and what is in series, at full stroke."""
     angular = 2.0 * np.pi * frequency_at_hot
@@ -41,7 +41,7 @@ def stroke_branch(
         for strain, share in stroke_strains
     ]
     storage, loss = (sum(share * moduli[part] for share, moduli in softened) for part in (0, 1))
-    return layer.series_stiffness(storage, loss, elastic_support, support_loss)
+    return layer.series_stiffness(storage, loss, *support_at_hot)
 
 
 @quantities.output("N*m/rad")
@@ -51,9 +51,60 @@ def hot_stiffness_at_stroke(spring_stiffness: Scalar, stroke_branch: tuple[Scala
 
 
 @quantities.output("N*m*s/rad")
-def hot_damping_at_stroke(stroke_branch: tuple[Scalar, Scalar], frequency_at_hot: Scalar) -> Scalar:
-    """Damping of the hot joint that swings over its whole stroke; `joint_damping@hot` is that of small motions."""
-    return stroke_branch[1] / (2.0 * np.pi * frequency_at_hot)
+def hot_friction_damping(
+    pin_friction_torque: Scalar,
+    preload_friction_torque: Scalar,
+    bearing_friction_share: Scalar,
+    spring_stiffness: Scalar,
+    stroke_branch: tuple[Scalar, Scalar],
+    frequency_at_hot: Scalar,
+    stroke: Scalar,
+) -> Scalar:
+    """Viscous damping that loses as much in a cycle of the whole stroke as all friction in the hot joint.
+
+    Pins and wave spring rub with a constant torque T, 4 T/(pi omega theta); bearings or bore as a force at the link's
+    end loads them.
+    """
+    angular = 2.0 * np.pi * frequency_at_hot
+    constant = friction.equivalent_damping(pin_friction_torque + preload_friction_torque, angular, stroke)
+    stiffness = spring_stiffness + stroke_branch[0]
+    loaded = friction.loaded_damping(bearing_friction_share, stiffness, stroke_branch[1], angular)
+    return constant + loaded
+
+
+@quantities.output("N*m*s/rad")
+def hot_damping_at_stroke(
+    stroke_branch: tuple[Scalar, Scalar], hot_friction_damping: Scalar, frequency_at_hot: Scalar
+) -> Scalar:
+    """Damping of the hot joint that swings over its whole stroke, friction counted.
+
+    `joint_damping@hot` is that of small motions, without friction.
+    """
+    return stroke_branch[1] / (2.0 * np.pi * frequency_at_hot) + hot_friction_damping
+
+
+@quantities.output("rad")
+def cold_stroke(stroke: Scalar, holding_torque: Scalar, joint_stiffness_at_cold: Scalar) -> Scalar:
+    """Angle over which the cold joint swings: its stroke, or as far as the torque that it holds turns it."""
+    return np.fmin(stroke, holding_torque / joint_stiffness_at_cold)
+
+
+@quantities.output("N*m*s/rad")
+def cold_friction_damping(
+    pin_friction_torque: Scalar, bearing_damping_at_cold: Scalar, frequency_at_cold: Scalar, cold_stroke: Scalar
+) -> Scalar:
+    """Viscous damping that loses as much in a cycle as friction of pins, bearings or bore in the cold joint.
+
+    The wave spring does not rub while the PCL is frozen and the rotor off its stop.
+    """
+    angular = 2.0 * np.pi * frequency_at_cold
+    return friction.equivalent_damping(pin_friction_torque, angular, cold_stroke) + bearing_damping_at_cold
+
+
+@quantities.output("N*m*s/rad")
+def cold_damping_at_stroke(joint_damping_at_cold: Scalar, cold_friction_damping: Scalar) -> Scalar:
+    """Damping of the cold joint that swings over `cold_stroke`, friction counted; `joint_damping@cold` is without."""
+    return joint_damping_at_cold + cold_friction_damping
 
 
 @quantities.output("N*m*s/rad")
@@ -62,10 +113,9 @@ def hot_damping_at_stroke_least(
     frequency_at_hot: Scalar,
     pcl_modes_at_hot: Modes,
     linear_strain_at_hot: Scalar,
-    elastic_support: Scalar,
-    support_loss: Scalar,
+    support_at_hot: tuple[Scalar, Scalar],
 ) -> Scalar:
-    """Damping of the hot joint over its whole stroke if the melt remembered all of it: the least it can be.
+    """Damping of the hot joint over its whole stroke if the melt remembered all of it: the least, without friction.
 
     Chains longer than the grade's mean remember longer than the record's spectrum says.
     """
@@ -75,7 +125,7 @@ def hot_damping_at_stroke_least(
         for strain, share in stroke_strains
     ]
     storage, loss = (sum(share * moduli[part] for share, moduli in softened) for part in (0, 1))
-    return layer.series_stiffness(storage, loss, elastic_support, support_loss)[1] / angular
+    return layer.series_stiffness(storage, loss, *support_at_hot)[1] / angular
 
 
 @quantities.output("kPa", headline=True)

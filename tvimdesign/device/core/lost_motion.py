@@ -71,24 +71,38 @@ class Support(NamedTuple):
 @quantities.helper()
 def core_support(
     bearing: Record | str,
+    axial_preload: Record | str,
     running_clearance: Scalar,
+    stop_play: Scalar,
+    preload_way: Scalar,
     seat_clearance: Scalar,
     bearing_internal_clearance: Scalar,
     hub_top_level: Scalar,
     hub_bottom_level: Scalar,
     bearing_width: Scalar,
     hub_radius: Scalar,
+    plate_lean: Scalar,
 ) -> Support:
     """Play and distance of what guides the core: the bore's ends, or the middles of two bearings.
 
     In a plain bore the plate on the hub and the retainer below stop the lean, the latter a running clearance away.
+    With a wave spring between plate and hub it is the flat spring and the retainer. What reaches down from the plate
+    towards the floor may touch before (`plate_lean`).
     """
     length = hub_top_level - hub_bottom_level
     if isinstance(bearing, str):
-        return Support(running_clearance, length, hub_top_level, running_clearance / (2.0 * hub_radius))
+        free = running_clearance if isinstance(axial_preload, str) else stop_play + preload_way
+        lean = np.fmin(free / (2.0 * hub_radius), plate_lean)
+        return Support(running_clearance, length, hub_top_level, lean)
     # Loose in the seat outside, on the journal inside, and between the rings.
     play = 2.0 * seat_clearance + 0.5 * bearing_internal_clearance
     return Support(play, length - bearing_width, hub_top_level - 0.5 * bearing_width, np.inf)
+
+
+@quantities.output("rad")
+def core_lean(core_support: Support) -> Scalar:
+    """Angle by which the core can lean to one side in its bore or bearings."""
+    return np.fmin(2.0 * core_support.clearance / core_support.spread, core_support.tilt)
 
 
 @quantities.output("rad")

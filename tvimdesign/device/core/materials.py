@@ -40,6 +40,24 @@ for name, unit, field, description in (
     ("structure_strength", "MPa", "yield_strength", "Yield strength of the structure"),
     ("structure_layer_strength", "MPa", "yield_strength_across_layers", "Yield strength across the layers of a print"),
     ("structure_loss_factor", "1", "loss_factor", "Loss factor of the structure at the pace of a limb, tan(delta)"),
+    ("structure_modulus_slope", "1/K", "modulus_slope", "Fall of ln E of the structure per kelvin, far from softening"),
+    (
+        "structure_softening_temperature",
+        "degC",
+        "softening_temperature",
+        "Middle of the structure's softening, in ln E",
+    ),
+    ("structure_softening_width", "K", "softening_width", "Width of that softening"),
+    ("structure_softened_share", "1", "softened_share", "Modulus of the softened structure over that at 23 degC"),
+    ("structure_softening_loss_factor", "1", "softening_loss_factor", "Loss factor in the middle of the softening"),
+    (
+        "structure_creep_share",
+        "1",
+        "creep_share",
+        "Creep of the structure in an hour at 23 degC, of its elastic give",
+    ),
+    ("structure_creep_exponent", "1", "creep_exponent", "Power of time with which the structure creeps"),
+    ("structure_creep_energy", "kJ/mol", "creep_energy", "Activation energy by which warmth hastens that creep"),
     ("structure_service_temperature", "degC", "service_temperature", "Highest continuous temperature of the structure"),
 ):
     quantities.property(name, unit, ("structure_material", field), description)

@@ -13,7 +13,7 @@ from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers.layer import series_stiffness
-from tvimdesign.physics.solids import structure
+from tvimdesign.physics.solids import structure, warm
 
 quantities = QuantityGroup(shared.group)
 
@@ -110,11 +110,12 @@ def stiffness_beyond_link(
     spring_stiffness: Scalar,
     branch_stiffness: tuple[Scalar, Scalar],
     link_stiffness: Scalar,
-    structure_loss_factor: Scalar,
+    core_temperature: Scalar,
+    structure_softening: warm.Softening,
 ) -> tuple[Scalar, Scalar]:
-    """Real and imaginary stiffness of the joint with its link [N*m/rad]."""
-    link_loss = structure.loss_stiffness(link_stiffness, structure_loss_factor)
-    return series_stiffness(spring_stiffness + branch_stiffness[0], branch_stiffness[1], link_stiffness, link_loss)
+    """Real and imaginary stiffness of the joint with its link, which is as warm as the core [N*m/rad]."""
+    link = (link_stiffness * part for part in warm.complex_modulus(core_temperature, structure_softening))
+    return series_stiffness(spring_stiffness + branch_stiffness[0], branch_stiffness[1], *link)
 
 
 @quantities.output("N*m/rad", per_point=True, headline=True)
@@ -131,12 +132,12 @@ def joint_damping_at_link(stiffness_beyond_link: tuple[Scalar, Scalar], frequenc
 
 @quantities.output("N*m")
 def core_holding_torque(
-    structure_layer_strength: Scalar,
+    cold_layer_strength: Scalar,
     core_radius: Scalar,
     core_screw_bores: structure.Bores,
     core_dowel_bores: structure.Bores,
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque the core bears at its foot and beside its holes, by `holding_safety` below yield."""
-    shear = structure.shear_yield(structure_layer_strength)
+    shear = structure.shear_yield(cold_layer_strength)
     return structure.bored_shaft_torque(shear, core_radius, core_screw_bores, core_dowel_bores) / holding_safety

@@ -210,12 +210,11 @@ def branch_now(
     layer_moduli: tuple[Scalar, Scalar],
     moment_now: Scalar,
     pcl_depth: Scalar,
-    elastic_support: Scalar,
-    support_loss: Scalar,
+    support_now: tuple[Scalar, Scalar],
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
     storage, loss = (modulus * moment_now / pcl_depth for modulus in layer_moduli)
-    return layer.series_stiffness(storage, loss, elastic_support, support_loss)
+    return layer.series_stiffness(storage, loss, *support_now)
 
 
 @quantities.output("N*m/rad", instant=True)

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.base.record import Record
 from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.core.warm_structure import Compliances
+from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
@@ -34,22 +37,29 @@ def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness:
     return loss_modulus * layer_polar_moment / pcl_thickness / (2.0 * np.pi * frequency)
 
 
-@quantities.output("N*m/rad")
-def structure_stiffness(
+@quantities.helper()
+def structure_compliances(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
     floor_stiffness: Scalar,
+    structure_shear_modulus: Scalar,
+    rotor_thickness: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_mean_radius: Scalar,
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     layer_polar_moment: Scalar,
-) -> Scalar:
-    """Stiffness in series with the layer: core, rotor plate, pads, and floor up to its feet or its sensor flange."""
-    return structure.series(
-        core_stiffness,
-        plate_stiffness,
-        floor_stiffness,
-        peltier_shear_modulus * layer_polar_moment / peltier_thickness,
-    )
+) -> Compliances:
+    """What is in series with the layer: core, rotor plate inside the arcs and above them, floor, and pads."""
+    above = 1.0 / structure.ring_stiffness(structure_shear_modulus, rotor_thickness, pcl_inner_radius, pcl_mean_radius)
+    pads = peltier_thickness / (peltier_shear_modulus * layer_polar_moment)
+    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, 1.0 / floor_stiffness, pads)
+
+
+@quantities.output("N*m/rad")
+def structure_stiffness(structure_compliances: Compliances) -> Scalar:
+    """Stiffness in series with the layer, at 23 degC: core, plate, pads, and floor up to its feet or sensor flange."""
+    return 1.0 / sum(structure_compliances)
 
 
 @quantities.helper()
@@ -65,15 +75,9 @@ def pcl_moment(layer_polar_moment: Scalar) -> Scalar:
 
 
 @quantities.helper()
-def elastic_support(structure_stiffness: Scalar) -> Scalar:
-    """Stiffness in series with the PCL's shear modes [N*m/rad]: the structure."""
-    return structure_stiffness
-
-
-@quantities.helper()
-def support_loss(structure_loss: Scalar) -> Scalar:
-    """Imaginary stiffness in series with the PCL's shear modes [N*m/rad]: the structure's."""
-    return structure_loss
+def lossless_compliance() -> Scalar:
+    """What is in series with the PCL's shear modes and structure besides [rad/(N*m)]: nothing."""
+    return 0.0
 
 
 @quantities.output("1", headline=True)
@@ -112,12 +116,20 @@ def layer_holding_torque(
     return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
 
 
-@quantities.output(
-    "N*m", headline=True, least_of=("layer_holding_torque", "core_holding_torque", "link_holding_torque")
-)
-def holding_torque(layer_holding_torque: Scalar, core_holding_torque: Scalar, link_holding_torque: Scalar) -> Scalar:
-    """Torque the frozen joint holds: the least of what the layer, the core and what holds the link bear."""
-    return np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
+_PARTS = ("layer_holding_torque", "core_holding_torque", "link_holding_torque", "bearing_holding_torque")
+
+
+@quantities.output("N*m", headline=True, least_of=_PARTS)
+def holding_torque(
+    layer_holding_torque: Scalar,
+    core_holding_torque: Scalar,
+    link_holding_torque: Scalar,
+    bearing: Record | str,
+    bearing_holding_torque: Scalar,
+) -> Scalar:
+    """Torque the frozen joint holds: the least of what the layer, the core, what holds the link, and bearings bear."""
+    held = np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
+    return with_bearings(bearing, held, bearing_holding_torque)
 
 
 @quantities.output("MPa")
@@ -150,11 +162,9 @@ def parting_share() -> Scalar:
 
 
 @quantities.output("N*m", per_point=True)
-def layer_torque(
-    hold_torque: Scalar, spring_stiffness: Scalar, structure_stiffness: Scalar, pcl_modes: Modes
-) -> Scalar:
+def layer_torque(hold_torque: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes) -> Scalar:
     """What the layer bears in a hold when the load has just come on: the springs bear the rest."""
-    return hold.first_torque(hold_torque, spring_stiffness, structure_stiffness, pcl_modes)
+    return hold.first_torque(hold_torque, spring_stiffness, elastic_support, pcl_modes)
 
 
 @quantities.output("MPa", per_point=True)

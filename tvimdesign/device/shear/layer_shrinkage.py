@@ -102,6 +102,12 @@ def freezing_safety(pcl_bond_strength: Scalar, freezing_traction: Scalar) -> Sca
     return pcl_bond_strength / freezing_traction
 
 
+@quantities.output("%")
+def layer_wedge(core_lean: Scalar, pcl_outer_radius: Scalar, pcl_thickness: Scalar) -> Scalar:
+    """Play of core or bearings at the layer's outer edge over its thickness: a melt may freeze as that wedge."""
+    return core_lean * pcl_outer_radius / pcl_thickness
+
+
 _FLOATS = "the rotor can rise by that share of the layer's thickness, and nothing holds it down (assumed, 5 to 20 %)"
 
 

@@ -8,6 +8,8 @@ support.
 
 from __future__ import annotations
 
+import numpy as np
+
 from tvimdesign.device.core.clearances import MM
 from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.layout import quantities as layout
@@ -37,6 +39,16 @@ def melt_lip_height(pcl_thickness: Scalar, running_clearance: Scalar) -> Scalar:
 def melt_lip_inner_radius(pcl_inner_radius: Scalar, rotor_rim: Scalar) -> Scalar:
     """Inner radius of the inner lip, which is as wide as the plate's rim outside; zero without."""
     return pcl_inner_radius - rotor_rim
+
+
+@places.helper()
+def plate_lean(
+    melt_lip: str, running_clearance: Scalar, stop_play: Scalar, hub_radius: Scalar, rotor_radius: Scalar
+) -> Scalar:
+    """Angle at which the leaning rotor's outer lip is down on the floor [rad], its other side held at the hub."""
+    if melt_lip == NO_LIP:
+        return np.inf
+    return (running_clearance + stop_play) / (hub_radius + rotor_radius)
 
 
 @weights.helper(requires=WITH_LIP, default=Section(0.0, 0.0))

@@ -70,6 +70,15 @@ def melt_loss(
     return HOUR * melt_flow.gap_speed(head / length, gap, pcl_viscosity_at_hot) / arc_width
 
 
+@quantities.output("mm")
+def melt_creep(
+    pcl_melt_density: Scalar, pcl_thickness: Scalar, freezing_travel: Scalar, pcl_viscosity_at_hot: Scalar
+) -> Scalar:
+    """Way the ends of an arc creep along its track in an hour at the hot point, the axis level; lips hold no end."""
+    weight = pcl_melt_density * GRAVITY
+    return HOUR * melt_flow.gap_speed(weight, pcl_thickness + freezing_travel, pcl_viscosity_at_hot)
+
+
 @quantities.output("s")
 def layer_drawing_time(
     turning_mass: Scalar,

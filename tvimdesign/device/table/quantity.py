@@ -64,6 +64,11 @@ class Input:
     upper: float = float("inf")
     variable: bool = False
     integer: bool = False
+    period: float | None = None
+    """What it may change by and leave alike what turns with it, as a coil leaves its legs; an optimum has neighbors
+    there, and the search tries them."""
+    part: str = ""
+    """The part that this number and others shape alone: the search takes them together from one optimum to another."""
     per_point: bool = False
     source: str = ""
     """Where the default comes from: `status: source`."""

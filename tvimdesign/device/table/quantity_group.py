@@ -63,6 +63,8 @@ class QuantityGroup:
                     upper=to_si(float(entry["to"]), unit),
                     variable=entry.get("vary", False),
                     integer=entry.get("integer", False),
+                    part=entry.get("part", ""),
+                    period=to_si(float(entry["period"]), unit) if "period" in entry else None,
                     per_point=entry.get("per_point", False),
                     low=to_si(float(entry["low"]), unit) if "low" in entry else None,
                     high=to_si(float(entry["high"]), unit) if "high" in entry else None,

@@ -61,3 +61,15 @@ def equivalent_damping(torque: Any, angular_frequency: Any, amplitude: Any) -> A
     Den Hartog, Mechanical Vibrations, section 8-9; `angular_frequency` [rad/s], `amplitude` [rad].
     """
     return 4.0 * torque / (np.pi * angular_frequency * amplitude)
+
+
+def loaded_damping(share: Any, stiffness: Any, loss_stiffness: Any, angular_frequency: Any) -> Any:
+    """Viscous damping that loses as much in a cycle as friction that grows with the load [N*m*s/rad].
+
+    The friction torque is `share` [1] of the load's |K theta_0 sin(omega t + delta)|, delta = atan(K''/K'). Times the
+    speed and summed up over a cycle that is 2 share |K| theta_0^2 (cos delta + delta sin delta): half of what a
+    constant friction takes where the load is a spring, pi/4 of it where the load is a dashpot.
+    """
+    phase = np.arctan2(loss_stiffness, stiffness)
+    size = np.sqrt(stiffness**2 + loss_stiffness**2)
+    return 2.0 * share * size * (np.cos(phase) + phase * np.sin(phase)) / (np.pi * angular_frequency)

@@ -156,14 +156,6 @@ def series(*stiffnesses: Any) -> Any:
     return 1.0 / sum(1.0 / stiffness for stiffness in stiffnesses)
 
 
-def loss_stiffness(stiffness: Any, loss_factor: Any) -> Any:
-    """Imaginary part [N*m/rad] of a stiffness with hysteretic loss, S* = S (1 + i eta); eta [1] is tan(delta).
-
-    Source: Cremer and Heckl, Structure-Borne Sound, 2nd ed., ch. III (complex moduli).
-    """
-    return stiffness * loss_factor
-
-
 def overhung_load(force: Any, height: Any, spread: Any) -> Any:
     """Load [N] on the nearer of two bearings, `spread` [m] apart, of a force `height` [m] beyond it: F (1 + h/s).
 

@@ -125,6 +125,8 @@ class StartEntry(TypedDict):
     choices: dict[str, str | float]
     relaxed: bool
     second_try: bool
+    by_neighbor: bool
+    crossed: bool
 
 
 @closed

@@ -10,14 +10,15 @@ import numpy as np
 
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.link_motion.lossy_structure import with_loss
 from tvimdesign.simulation.trial import Finding
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
 
 LINEAR = (
-    "The PCL is linear at every strain: it neither softens with strain nor slips, tears or yields; the structure is "
-    "elastic without loss, so that a frozen joint rings longer here than a printed one will."
+    "The PCL is linear at every strain: it neither softens with strain nor slips, tears or yields. The structure loses "
+    "the same share at every pace, exactly that of the operating point at its frequency; it is the stiffer the quicker."
 )
 PUSHES = (
     "Blocks push and never pull: those ahead act against positive angles, those behind against negative ones, and the "
@@ -76,11 +77,10 @@ class Case:
         return {name: found[f"{name}@{self.point}"] for name in names}
 
 
-def joint_of(resolved: ResolvedModule) -> motion.Joint:
-    """Inertia, springs and structure of the module on the bench."""
-    return motion.Joint(
-        *(resolved.quantity(name) for name in ("moving_inertia", "spring_stiffness", "elastic_support"))
-    )
+def joint_of(resolved: ResolvedModule, point: str) -> motion.Joint:
+    """Inertia, springs and structure of the module on the bench, warm as at an operating point."""
+    names = ("moving_inertia", "spring_stiffness", f"elastic_support@{point}")
+    return motion.Joint(*(float(resolved.quantity(name)) for name in names))
 
 
 def with_paper_points(resolved: ResolvedModule) -> ResolvedModule:
@@ -108,15 +108,17 @@ def histories_at(resolved: ResolvedModule, temperature: float) -> tuple[History,
 
 def cases(resolved: ResolvedModule) -> list[Case]:
     """The joint at every operating point, once for each history that matters there, the nominal one first."""
-    joint, one_sided = joint_of(resolved), float(resolved.quantity("parting_share")) > 0.0
+    one_sided = float(resolved.quantity("parting_share")) > 0.0
     friction = float(resolved.quantity("pin_friction_torque"))
     found = []
     for point in resolved.points:
-        temperature = float(resolved.quantity(f"temperature@{point}"))
+        _, loss = resolved.quantity(f"support@{point}")
+        joint, temperature = joint_of(resolved, point), float(resolved.quantity(f"temperature@{point}"))
         for history in histories_at(resolved, temperature):
             case = Case(point, temperature, history, joint, one_sided, (), friction)
-            modes = case.rows(resolved, ("pcl_modes",))["pcl_modes"]
-            found.append(replace(case, modes=[(float(time), float(k)) for time, k in modes]))
+            modes = [(float(time), float(k)) for time, k in case.rows(resolved, ("pcl_modes",))["pcl_modes"]]
+            lossy = with_loss(joint, modes, float(loss), float(resolved.quantity(f"frequency@{point}")))
+            found.append(replace(case, joint=lossy[0], modes=lossy[1]))
     return found
 
 

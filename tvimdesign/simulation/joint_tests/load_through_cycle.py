@@ -139,6 +139,6 @@ def carry(layer: Changing, support: slices.Support, load: float, times: Array) -
 
 
 def support_of(resolved: ResolvedModule) -> slices.Support:
-    """Springs and structure of the module on the bench."""
-    joint = joint_of(resolved)
+    """Springs and structure of the module on the bench, as warm as at the cold point."""
+    joint = joint_of(resolved, "cold")
     return slices.Support(joint.spring_stiffness, joint.structure_stiffness)

@@ -13,11 +13,10 @@ from tvimdesign.solve.infeasibility.conflict_set import SecondTry
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
+from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
-
-NO_DESIGN = "Infeasible_Problem_Detected"
-"""IPOPT's word for a point from which no step brings the limits nearer."""
+from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 
 
 @dataclass(eq=False)
@@ -58,11 +57,11 @@ class Relaxation:
             run = self.optimizer.solve(begin=self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
                 run = second_try.from_conflict_search(run)
-            run.start = replace(
-                run.start, begin=self.optimizer.vector.free_values(begin), choices=dict(self.records),
-                relaxed=bool(self.sizes.names),
-            )  # fmt: skip
+            run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
+        runs = NeighboringOptima(self.optimizer).improve(runs)
+        for run in runs:
+            run.start = replace(run.start, choices=dict(self.records), relaxed=bool(self.sizes.names))
         for run in sorted((run for run in runs if run.start.converged), key=order):
             objective = run.start.objective
             if all(abs(objective - o.start.objective) > SAME_OPTIMUM * abs(objective) for o in self.optima):

@@ -54,7 +54,7 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     asked = [
         replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(table, r.output))
         for r in study.require
-        for output in _behind(table.output(r.output), r.output, r.sense, options)
+        for output in _behind(table, r.output, r.sense, options)
     ]
     own = list(dict.fromkeys(asked))
     taken = {(limit.output, limit.sense) for limit in own}
@@ -65,9 +65,11 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     return own
 
 
-def _behind(row: Output, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
-    """The rows a limit is put on: the named one, those limited with it, or each of those it is the least of."""
-    rows = row.least_of if row.least_of and sense == ">=" else (name, *row.also_limited)
+def _behind(table: Table, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
+    """The rows a limit is put on: the named one, those limited with it, or those it is the least of."""
+    row = table.output(name)
+    parts = tuple(part for part in row.least_of if table.output(part).exists(options))
+    rows = parts if parts and sense == ">=" else (name, *row.also_limited)
     apart = row.parts_differ_with
     alike = apart is not None and options.get(apart.choice) == apart.without
     return rows[:1] if alike else rows

@@ -34,6 +34,10 @@ class Start:
     """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
     second_try: bool = False
     """Whether it converged only from a design that keeps all limits, which was sought from where it began."""
+    by_neighbor: bool = False
+    """Whether it ended a period of a number, such as a turn of the coils, beside where the solver came to first."""
+    crossed: bool = False
+    """Whether it began with a part, such as the springs, of one optimum in another one."""
 
 
 def same_optimum(start: Start, other: Start) -> bool:

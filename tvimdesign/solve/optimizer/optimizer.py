@@ -20,7 +20,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
-from tvimdesign.solve.nlp.ipopt import NLP, solver_of
+from tvimdesign.solve.nlp.ipopt import NLP, Beginning, solver_of
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.nlp.solution import Start
@@ -71,7 +71,7 @@ class Optimizer:
         self.problem = self._problem(self.kept_constraints(limits), objectives)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
-        self._solvers: dict[bool, Any] = {}
+        self._solvers: dict[Beginning, Any] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def with_constant_currents(self) -> Optimizer | None:
@@ -174,11 +174,11 @@ class Optimizer:
         written = self.problem.function
         return ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
 
-    def _solver(self, warm: bool) -> Any:
-        if warm not in self._solvers:
+    def _solver(self, beginning: Beginning) -> Any:
+        if beginning not in self._solvers:
             known = self._solvers.values()
-            self._solvers[warm] = solver_of(self._compiled, self.study.solver, known, warm=warm)
-        return self._solvers[warm]
+            self._solvers[beginning] = solver_of(self._compiled, self.study.solver, known, beginning)
+        return self._solvers[beginning]
 
     def solve(
         self,
@@ -187,16 +187,18 @@ class Optimizer:
         begin: Array | None = None,
         goal: Objective | None = None,
         unknowns: Array | None = None,
+        *,
+        near: bool = False,
     ) -> Run:
         """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within`
         ends of their own.
 
-        `unknowns` stand in place of the switch simulated at `begin`. A `goal` stands in place of the study's weights
-        and bounds what is traded; nothing is built anew.
+        `unknowns` stand in place of the switch simulated at `begin`; `near` an optimum, few iterations are allowed.
+        A `goal` stands in place of the study's weights and bounds what is traded; nothing is built anew.
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        solver = self._solver(warm is not None)
+        solver = self._solver("warm" if warm is not None else "near" if near else "cold")
         if warm is not None:
             unknowns = warm.unknowns
         arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
@@ -253,7 +255,7 @@ class Optimizer:
 
         IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
         """
-        solver = self._solver(warm=False)
+        solver = self._solver("cold")
         parameters = self.parameters(Objective(self.study.minimize))
         rows, jacobian = solver.get_function("nlp_jac_g")(run.unknowns, parameters)
         hessian = solver.get_function("nlp_hess_l")(run.unknowns, parameters, 1.0, run.multipliers)

@@ -9,6 +9,8 @@ OPTIMAL = "optimal"
 its materials and bought parts are rated for, or beyond that as the study accepts."""
 ABOVE_RATING = "above_rating"
 """Status of such a design beyond a rating that the study does not accept."""
+NO_DESIGN = "Infeasible_Problem_Detected"
+"""IPOPT's word for a point from which no step brings the limits nearer."""
 
 
 class Meaning(NamedTuple):

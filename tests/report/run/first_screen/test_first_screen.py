@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from answers import shipped_answer
 from comparable import COMPRESSION, SHEAR
 from support import ROOT, Command
 
@@ -66,21 +67,25 @@ class Case(NamedTuple):
 
 
 @cache
-def case(name: str) -> Case:
-    """A shipped study as it is drawn or optimised, or one of the texts above."""
+def case(name: str, *, spread: bool = True) -> Case:
+    """A shipped study as it is drawn or optimised, or one of the texts above; with what it may be, or without."""
     texts = {"choices": CHOICES, "many": MANY, "aluminum": COOL}
     study = read_study_text(texts[name], name) if name in texts else read_study(ROOT / f"studies/{name}.yaml")
     study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
     table = study.table
     if name in ("wrist_joint", "paper_compression"):
         study = drawn(study)
-    found = answer(study)
-    data = Uncertainty(study).data(found.design, 256)
+    shipped = name in ("paper_shear", "paper_as_published")
+    found = shipped_answer(name) if shipped else answer(study)
+    data = Uncertainty(study).data(found.design, 256) if spread else {}
     return Case(study, table, found, Told(12.3, data, record_checks(study)))
 
 
 CASES = ["paper_shear", "paper_as_published", "paper_compression", "wrist_joint", "choices", "many"]
-each = pytest.mark.parametrize("name", CASES)
+QUICK = {"paper_shear", "choices", "many"}
+each = pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[] if name in QUICK else pytest.mark.slow) for name in CASES]
+)
 widths = pytest.mark.parametrize("width", [80, 100, 140])
 
 
@@ -129,7 +134,8 @@ def test_the_blocks_stand_in_their_order(name: str, width: int) -> None:
 
 def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
     accepted = "ACCEPTING: structure_temperature_margin, stiffening_structure_margin"
-    first, second = (" ".join(case(name).screen(140)[:2]) for name in ("paper_shear", "paper_as_published"))
+    published = case("paper_as_published", spread=False)
+    first, second = (" ".join(one.screen(140)[:2]) for one in (case("paper_shear"), published))
     solution = case("paper_shear").found.solution
     assert solution is not None
     ends = [start.objective for start in solution.starts if start.converged]
@@ -138,7 +144,7 @@ def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
     assert re.search(rf" · shear · OPTIMAL, {accepted}( ·)? {agree} · 12 s", first)
     # PETG and pads are hotter than they are rated for, as its study accepts.
     assert re.search(r" · shear( ·)? EVALUATED, ACCEPTING: [\w, ]+_margin( ·)? 12 s", second)
-    assert "EVALUATED, ALL LIMITS KEPT · 12 s" in " ".join(case("aluminum").screen(140)[:1])
+    assert "EVALUATED, ALL LIMITS KEPT · 12 s" in " ".join(case("aluminum", spread=False).screen(140)[:1])
     assert re.search(r"EVALUATED, \d+ OF \d+ LIMITS BROKEN", case("many").screen(140)[0])
 
 
@@ -212,25 +218,32 @@ def test_the_yield_and_what_is_not_known_are_two_lines() -> None:
 
 def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(tvimdesign: Command, tmp_path: Path) -> None:
     study = ROOT / "studies/paper_as_published.yaml"
-    short = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "short", spread="on")
+    short = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "short")
     full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "full", spread="on")
     assert len(short.stdout.splitlines()) <= LINES
     assert short.stdout.splitlines()[-1].lstrip().endswith("--full")
     for table in ("At the operating points", "What the module is", "What rests on what is assumed"):
         assert table not in short.stdout
         assert table in full.stdout
-        assert table in (tmp_path / "short/summary.txt").read_text()
-    # What a run took is in its manifest: the same study leaves the same file.
-    assert (tmp_path / "short/summary.txt").read_bytes() == (tmp_path / "full/summary.txt").read_bytes()
-    reported = json.loads((tmp_path / "short/results.json").read_text())
+        assert table in (tmp_path / "full/summary.txt").read_text()
+    reported = json.loads((tmp_path / "full/results.json").read_text())
     assert reported["format"] == 1
     soft = reported["uncertainty"]["intervals"]["softening_time"]
-    text = (tmp_path / "short/results.csv").read_text("utf-8-sig")
+    text = (tmp_path / "full/results.csv").read_text("utf-8-sig")
     rows = {row["name"]: row for row in csv.DictReader(text.splitlines())}
     may_be = [float(rows["softening_time"][f"may_be_{end}"]) for end in ("low", "high")]
     assert may_be == pytest.approx([soft["low"], soft["high"]])
     assert rows["softening_time"]["measure_first"] == next(iter(soft["shares"]))
     assert soft["si"]["low"] == soft["low"] < soft["one_at_a_time"]["low"]
+
+
+@pytest.mark.slow
+def test_the_same_study_leaves_the_same_tables_whatever_is_printed(tvimdesign: Command, tmp_path: Path) -> None:
+    """What a run took is in its manifest alone."""
+    study = ROOT / "studies/paper_as_published.yaml"
+    for name, more in (("short", []), ("full", ["--full"])):
+        tvimdesign("run", study, "--no-cad", "--no-plots", *more, "--out", tmp_path / name, spread="on")
+    assert (tmp_path / "short/summary.txt").read_bytes() == (tmp_path / "full/summary.txt").read_bytes()
 
 
 INFEASIBLE = (
@@ -242,11 +255,11 @@ INFEASIBLE = (
 
 
 def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_is_on_standard_error(
-    tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    process: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONWARNINGS", "always")
     (tmp_path / "study.yaml").write_text(INFEASIBLE)
-    done = tvimdesign("run", tmp_path / "study.yaml", "--no-cad", "--no-plots", "--out", tmp_path / "out", spread="on")
+    done = process("run", tmp_path / "study.yaml", "--no-cad", "--no-plots", "--out", tmp_path / "out", spread="on")
     assert done.returncode == 3
     lines = done.stdout.splitlines()
     assert lines[0].startswith("Too much asked · shear · NO DESIGN FOUND")
@@ -263,11 +276,11 @@ def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_i
     "text", [SHEAR, pytest.param(COMPRESSION, marks=pytest.mark.slow)], ids=["shear", "compression"]
 )
 def test_no_library_warns_on_standard_error(
-    tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
+    process: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
 ) -> None:
     monkeypatch.setenv("PYTHONWARNINGS", "always")
     (tmp_path / "study.yaml").write_text(text)
-    done = tvimdesign(
+    done = process(
         "run", tmp_path / "study.yaml", "--no-cad", "--sensitivities", "--out", tmp_path / "out", spread="on"
     )
     assert done.returncode == 0

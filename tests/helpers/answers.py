@@ -1,0 +1,16 @@
+"""Answers of the shipped studies, each found once in a process, for all tests that only look at them."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from support import ROOT
+
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import read_study
+
+
+@cache
+def shipped_answer(name: str) -> StudyResult:
+    """What a study in `studies/` comes to."""
+    return answer(read_study(ROOT / f"studies/{name}.yaml"))

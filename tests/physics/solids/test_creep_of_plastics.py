@@ -1,0 +1,69 @@
+"""Creep under preload: against a data sheet, Volterra's equation stepped in time, and elasticity by quadrature."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.physics.solids import creep
+
+HOURS = 3600.0
+
+
+def law(material: str) -> creep.Creep:
+    record = Catalog().record("structure_materials", material)
+    return creep.Creep(*(record.value(name) for name in ("creep_share", "creep_exponent", "creep_energy")))
+
+
+def test_polycarbonate_has_the_creep_moduli_of_its_sheet() -> None:
+    # Makrolon 2405, ISO 899-1: 2200 MPa after 1 h and 1900 MPa after 1000 h; tensile modulus 2400 MPa.
+    for hours, sheet in ((1.0, 2200.0), (1000.0, 1900.0)):
+        assert 2400.0 / (1.0 + creep.growth(hours * HOURS, law("polycarbonate"))) == pytest.approx(sheet, rel=2e-3)
+
+
+def test_an_hour_hot_ages_as_arrhenius_says() -> None:
+    # 150 kJ/mol from 23 to 60 degC: exp(150e3/8.314 (1/296.15 - 1/333.15)) = 868.
+    assert creep.aged(1.0, 333.15, law("petg")) == pytest.approx(868.0, rel=2e-3)
+    assert creep.aged(5.0, 296.15, law("petg")) == 5.0
+
+
+@pytest.mark.parametrize("give", [0.02, 0.1])
+def test_preload_that_is_left_is_that_of_volterras_equation(give: float) -> None:
+    # Winding a, spring k, support J(t) = c (1 + m t^n): M/k + J * dM = a, stepped over 4000 moments spaced as the log.
+    rate, found = 1.3, law("petg")
+    compliance = give / rate
+    times = np.concatenate([[0.0], np.geomspace(1e-3, 1000.0, 4000)]) * HOURS
+
+    def support(since: np.ndarray) -> np.ndarray:
+        return compliance * (1.0 + creep.growth(since, found))
+
+    steps = [1.0 / (1.0 / rate + compliance)]
+    for i in range(1, len(times)):
+        # Each change of the moment creeps on from the middle of its step.
+        middle = np.concatenate([[0.0], 0.5 * (times[: i - 1] + times[1:i])])[: len(steps)]
+        crept = float(np.sum(np.array(steps) * support(times[i] - middle))) + sum(steps) / rate
+        last = 0.5 * (times[i] - times[i - 1])
+        steps.append((1.0 - crept) / (1.0 / rate + float(support(np.array(last)))))
+    left = float(np.sum(steps)) / rate
+    at_once = creep.winding_left(rate, (compliance, 0.0))
+    quick = creep.winding_left(rate, (compliance, creep.growth(times[-1], found)))
+    # The loss, not what is left, within 2 %.
+    assert at_once - quick == pytest.approx(at_once - left, rel=0.02)
+
+
+def test_wire_twisted_in_a_wide_body_is_rings_in_series() -> None:
+    shear, radius, length = 0.76e9, 0.8e-3, 3.5e-3
+    # A ring of radius r turns against the next by M/(2 pi r^2 L G) dr/r.
+    angle, _ = quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * length * shear), radius, np.inf)
+    assert creep.twisted_hole_give(shear, 2.0 * radius, length) == pytest.approx(angle, rel=1e-9)
+
+
+def test_tall_peg_is_a_cantilever_and_a_short_one_gives_at_its_foot() -> None:
+    modulus, poisson, radius = 2.1e9, 0.38, 2e-3
+    tall = 0.5**3 / (3.0 * modulus * 0.25 * np.pi * radius**4)
+    assert creep.peg_give(modulus, poisson, 2.0 * radius, 0.5) == pytest.approx(tall, rel=0.01)
+    # A rigid disc tilts on a half-space by 3 (1 - nu) M/(8 G r^3).
+    shear = modulus / (2.0 * (1.0 + poisson))
+    foot = 3.0 * (1.0 - poisson) * 4e-3**2 / (8.0 * shear * radius**3)
+    whole = 4e-3**3 / (3.0 * modulus * 0.25 * np.pi * radius**4) + foot + 4e-3 / (0.9 * shear * np.pi * radius**2)
+    assert creep.peg_give(modulus, poisson, 2.0 * radius, 4e-3) == pytest.approx(whole, rel=1e-9)

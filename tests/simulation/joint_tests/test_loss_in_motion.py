@@ -1,0 +1,91 @@
+"""Printed structures lose energy in motions in time as their complex stiffness says; held against Radau."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from tvimdesign.simulation.joint_tests import joint_motion
+from tvimdesign.simulation.joint_tests import sine as sine_test
+from tvimdesign.simulation.joint_tests.case import cases
+from tvimdesign.simulation.link_motion.lossy_structure import spectrum
+from tvimdesign.simulation.trial import Trial
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.study import read_study
+
+STUDIES = Path(__file__).parents[3] / "studies"
+
+
+def module(name: str) -> ResolvedModule:
+    study = read_study(STUDIES / f"{name}.yaml")
+    return resolve_study(study.model_copy(update={"module": {**study.module, "pin_friction": 0.0}}))
+
+
+@pytest.fixture(scope="module")
+def shear() -> ResolvedModule:
+    return module("paper_as_published")
+
+
+def value(trial: Trial, name: str) -> float:
+    return next(finding.value for finding in trial.findings if finding.name == name)
+
+
+def hold_to_rows(resolved: ResolvedModule, points: tuple[str, ...]) -> None:
+    found = sine_test.sine(resolved)
+    for point in points:
+        for name in ("stiffness", "damping"):
+            row = resolved.quantity(f"joint_{name}@{point}")
+            assert value(found, f"{name}@{point}") == pytest.approx(row, rel=0.01), (name, point)
+        assert value(found, f"frequency_domain_difference@{point}") < 0.01
+
+
+def test_sine_gives_stiffness_and_damping_of_the_operating_points(shear: ResolvedModule) -> None:
+    # The frozen joint's damping is its structure's alone: without loss in time it came to a hundredth.
+    assert shear.quantity("joint_damping@cold") > 1.0
+    hold_to_rows(shear, ("cold", "hot"))
+
+
+@pytest.mark.slow
+def test_sine_of_frozen_blocks_gives_them_too() -> None:
+    hold_to_rows(module("paper_compression"), ("cold",))
+
+
+def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear: ResolvedModule) -> None:
+    case = next(one for one in cases(shear) if one.point == "cold")
+    support = shear.quantity("support@cold")
+    spring, elements = spectrum(float(support[0]), float(support[1]), float(shear.quantity("frequency@cold")))
+    layer = [(float(tau), float(k)) for tau, k in shear.quantity("pcl_modes@cold")]
+    springs, inertia = case.joint.spring_stiffness, case.joint.inertia
+    (slow, soft), (slower, softer) = (np.array(modes).T for modes in (elements, layer))
+
+    # Structure and layer each with their own dashpots: what the structure bears is what the layer bears.
+    def rates(_: float, state: np.ndarray, moving: bool = True) -> np.ndarray:
+        angle, speed = state[:2]
+        give, inner = state[2 : 2 + len(slow)], state[2 + len(slow) :]
+        across = (np.sum(softer * inner) + (spring + np.sum(soft)) * angle - np.sum(soft * give)) / (
+            spring + np.sum(soft) + np.sum(softer)
+        )
+        carried = np.sum(softer * (across - inner))
+        push = -(springs * angle + carried) / inertia
+        flows = [*((angle - across - give) / slow), *((across - inner) / slower)]
+        return np.array([speed, push, *flows] if moving else [0.0, 0.0, *flows])
+
+    start = np.array([0.01, *np.zeros(1 + len(slow) + len(slower))])
+    settings = {"method": "Radau", "rtol": 1e-8, "atol": 1e-12}
+    held = solve_ivp(lambda t, y: rates(t, y, moving=False), (0.0, 0.2), start, **settings).y[:, -1]
+    moved = joint_motion.released(case, 0.01, joint_motion.held(case, 0.01, 0.2)).motion
+    times = moved.times[moved.times < 0.02]
+    again = solve_ivp(rates, (0.0, times[-1]), held, t_eval=times, **settings)
+    assert moved.angle[: len(times)] == pytest.approx(again.y[0], abs=2e-6 * 0.01)
+
+
+def test_frozen_link_rings_down_by_half_its_loss_factor(shear: ResolvedModule) -> None:
+    case = next(one for one in cases(shear) if one.point == "cold")
+    moved = joint_motion.released(case, 0.01, joint_motion.held(case, 0.01, 1e-6)).motion
+    crests = np.flatnonzero((moved.angle[1:-1] > moved.angle[:-2]) & (moved.angle[1:-1] > moved.angle[2:]))[:5] + 1
+    decrement = np.log(moved.angle[crests[0]] / moved.angle[crests[3]]) / 3.0
+    loss, stiffness = (shear.quantity(f"joint_{name}@cold") for name in ("damping", "stiffness"))
+    factor = 2.0 * np.pi * shear.quantity("frequency@cold") * loss / stiffness
+    # 2 pi zeta with zeta = eta/2, at the link's own pace of some hundred hertz.
+    assert decrement == pytest.approx(np.pi * factor, rel=0.25)

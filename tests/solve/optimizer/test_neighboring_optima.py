@@ -1,0 +1,88 @@
+"""What the search tries beside the ends of its starts, held against searches that are kept within one turn each."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support import ROOT
+
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study import Range, Study, read_study
+
+WIDE_ARCS = {
+    "placement_radius": 33.2e-3, "core_radius": 9.25e-3, "link_thickness": 5.25e-3, "pcl_inner_radius": 13.65e-3,
+    "pcl_outer_radius": 24.8e-3, "arc_span": 1.35, "pcl_thickness": 0.6e-3, "current": 1.62,
+}  # fmt: skip
+NARROW_ARCS = {
+    "placement_radius": 37.3e-3, "core_radius": 11.9e-3, "link_thickness": 4.1e-3, "pcl_inner_radius": 18.4e-3,
+    "pcl_outer_radius": 28.3e-3, "arc_span": 0.476, "pcl_thickness": 0.6e-3, "current": 1.61,
+}  # fmt: skip
+SOFT_SPRINGS = {
+    "wire_diameter": 1.75e-3, "coil_diameter": 10.7e-3, "coil_count": 3.36, "preload_angle": 0.262,
+    "pin_radius_ratio": 0.69,
+}  # fmt: skip
+STIFF_SPRINGS = {
+    "wire_diameter": 2.16e-3, "coil_diameter": 8.65e-3, "coil_count": 3.0, "preload_angle": 0.12,
+    "pin_radius_ratio": 0.47,
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    return read_study(ROOT / "studies/paper_shear.yaml")
+
+
+@pytest.fixture(scope="module")
+def optimizer(study: Study) -> Optimizer:
+    return Optimizer(study)
+
+
+def _run_from(optimizer: Optimizer, **numbers: float) -> Run:
+    begin = optimizer.model.start.copy()
+    for name, value in numbers.items():
+        begin[optimizer.model.index[name]] = value
+    run = optimizer.solve(begin=begin)
+    assert run.start.converged
+    return run
+
+
+def _kept_within(study: Study, optimizer: Optimizer, lower: float, upper: float) -> float:
+    """The best objective with the coils kept within one turn, begun in its middle; infinite where there is none."""
+    vary = {**study.vary, "coil_count": Range(lower=lower, upper=upper)}
+    middle = {**study.module, "coil_count": 0.5 * (lower + upper)}
+    other = Optimizer(study.model_copy(update={"vary": vary, "module": middle}), optimizer.reference)
+    run = other.solve()
+    return run.start.objective if run.start.converged else np.inf
+
+
+@pytest.mark.slow
+def test_a_start_in_another_turn_ends_in_the_best_turn(study: Study, optimizer: Optimizer) -> None:
+    """Two turns away: each is an optimum of its own, which the solver does not leave."""
+    run = _run_from(optimizer, **WIDE_ARCS, **{**SOFT_SPRINGS, "coil_count": 4.36})
+    (improved,) = NeighboringOptima(optimizer).improve([run])
+    alone = [_kept_within(study, optimizer, turn, turn + 1.0) for turn in (3.0, 4.0, 5.0)]
+    assert run.start.objective == pytest.approx(alone[1], rel=1e-4)
+    assert improved.start.objective == pytest.approx(min(alone), rel=1e-4)
+    assert improved.start.objective < (1.0 - 1e-3) * run.start.objective
+    assert improved.start.by_neighbor
+    assert improved.start.begin == run.start.begin
+    assert improved.start.iterations > run.start.iterations
+
+
+def test_the_best_turn_is_not_left(optimizer: Optimizer) -> None:
+    run = _run_from(optimizer, **WIDE_ARCS, **SOFT_SPRINGS)
+    assert NeighboringOptima(optimizer).improve([run]) == [run]
+    assert not run.start.by_neighbor
+
+
+def test_two_starts_that_each_found_one_half_find_the_whole(optimizer: Optimizer) -> None:
+    """One start has the better arcs, the other the better springs; neither has a better turn beside it."""
+    whole = _run_from(optimizer, **WIDE_ARCS, **SOFT_SPRINGS)
+    halves = [_run_from(optimizer, **WIDE_ARCS, **STIFF_SPRINGS), _run_from(optimizer, **NARROW_ARCS, **SOFT_SPRINGS)]
+    assert min(half.start.objective for half in halves) > 1.01 * whole.start.objective
+    *kept, crossed = NeighboringOptima(optimizer).improve(halves)
+    assert [run.start.objective for run in kept] == [half.start.objective for half in halves]
+    assert crossed.start.crossed
+    assert crossed.start.objective == pytest.approx(whole.start.objective, rel=1e-4)

@@ -1,0 +1,112 @@
+"""Temperatures of the plate, and of what it is part of, while the polymer before it is kept at one temperature.
+
+The steady state of `heat` behind the polymer: a fin that gives heat off sideways to the lumps beside it, and from its
+outer face to the air (Incropera, Fundamentals of Heat and Mass Transfer, ch. 3, fins). Contact resistance between
+polymer and plate is left out.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tvimdesign.physics.heat_flow.heat import Lump, Surface, surface_coefficient
+
+SLICES = (0.125, 0.375, 0.625, 0.875)
+"""Where the plate's temperatures are taken, as shares of its depth: the middles of four slices."""
+PASSES = 3
+"""How often radiation is taken again at the temperatures that the last pass found."""
+
+
+class BehindPolymer(NamedTuple):
+    """What the polymer heats, as in `heat.Stack`."""
+
+    area: Any
+    """[m^2]"""
+    plate_thickness: Any
+    plate_conductivity: Any
+    plate_surface: Surface
+    """The plate's outer face; its area is that of the polymer."""
+    ambient: Any
+    """[K]"""
+    beside: tuple[Lump, ...]
+    """What the plate belongs to: the first takes heat from all of its depth, each next from the one before."""
+
+
+class HeldPlate(NamedTuple):
+    """Temperatures [K] of a plate behind a polymer that is kept warm."""
+
+    plate: tuple[Any, ...]
+    """In the middle of slices of equal depth, from the polymer on."""
+    beside: tuple[Any, ...]
+    """Of the lumps beside the plate, in their order."""
+
+
+def held_plate(behind: BehindPolymer, temperature: Any) -> HeldPlate:
+    """Steady temperatures behind a polymer that is everywhere at one temperature [K].
+
+    theta'' = m^2 theta/d^2 with theta = T - T_beside, m^2 = G_b d/(k A), between theta(0) of the polymer and
+    -k theta'(d) = h (T(d) - T_a) at the outer face.
+    """
+    outer, beside = temperature, tuple(temperature for _ in behind.beside)
+    plate: tuple[Any, ...] = ()
+    for _ in range(PASSES):
+        fin = _Fin(behind, surface_coefficient(behind.plate_surface, outer, behind.ambient))
+        beside = _beside(behind, fin, temperature, beside)
+        foot = beside[0] if beside else behind.ambient
+        plate = tuple(fin.at(depth, temperature, foot, behind.ambient) for depth in SLICES)
+        outer = fin.at(1.0, temperature, foot, behind.ambient)
+    return HeldPlate(plate, beside)
+
+
+class _Fin:
+    """The plate's steady profile, linear in the temperatures of polymer, lump beside and air."""
+
+    def __init__(self, behind: BehindPolymer, coefficient: Any) -> None:
+        across = behind.plate_conductivity * behind.area / behind.plate_thickness
+        sideways = behind.beside[0].conductance if behind.beside else 0.0 * across
+        # Without lumps the profile is straight, which a thousandth in m leaves as it is.
+        self.m = np.sqrt(sideways / across + 1e-6)
+        self.biot = coefficient * behind.area / across
+        self.sinh, self.cosh = np.sinh(self.m), np.cosh(self.m)
+        self.whole = self.m * self.cosh + self.biot * self.sinh
+
+    def at(self, depth: Any, polymer: Any, foot: Any, ambient: Any) -> Any:
+        """Temperature [K] at a share of the depth."""
+        slope = self.biot * (ambient - foot) - (self.m * self.sinh + self.biot * self.cosh) * (polymer - foot)
+        return foot + (polymer - foot) * np.cosh(self.m * depth) + slope / self.whole * np.sinh(self.m * depth)
+
+    @property
+    def mean_shares(self) -> tuple[Any, Any]:
+        """What the mean rises above the lump beside for each kelvin of polymer and of air above it [1]."""
+        bent = (self.cosh - 1.0) / (self.m * self.whole)
+        return self.sinh / self.m - (self.m * self.sinh + self.biot * self.cosh) * bent, self.biot * bent
+
+
+def _beside(behind: BehindPolymer, fin: _Fin, polymer: Any, last: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Temperatures of the chain of lumps, each losing heat as at the temperature `last` found for it."""
+    if not behind.beside:
+        return ()
+    losses = [_loss(lump, temperature, behind.ambient) for lump, temperature in zip(behind.beside, last, strict=True)]
+    onward = _onward(behind.beside, losses)
+    of_polymer, of_air = (behind.beside[0].conductance * share for share in fin.mean_shares)
+    lost = losses[0] + onward[0]
+    found = [behind.ambient + of_polymer * (polymer - behind.ambient) / (of_polymer + of_air + lost)]
+    for lump, loss, beyond in zip(behind.beside[1:], losses[1:], onward[1:], strict=True):
+        share = lump.conductance / (lump.conductance + loss + beyond)
+        found.append(behind.ambient + share * (found[-1] - behind.ambient))
+    return tuple(found)
+
+
+def _loss(lump: Lump, temperature: Any, ambient: Any) -> Any:
+    return lump.surface.area * surface_coefficient(lump.surface, temperature, ambient)
+
+
+def _onward(lumps: tuple[Lump, ...], losses: list[Any]) -> list[Any]:
+    """Conductance to the air through the lumps beyond each [W/K]."""
+    found: list[Any] = [0.0]
+    for lump, loss in zip(reversed(lumps[1:]), reversed(losses[1:]), strict=True):
+        beyond = loss + found[0]
+        found.insert(0, lump.conductance * beyond / (lump.conductance + beyond))
+    return found

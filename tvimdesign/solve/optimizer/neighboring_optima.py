@@ -1,0 +1,131 @@
+"""Optima beside those that starts came to: a period of a number away, and with a part of another one.
+
+Where a coil has a whole turn more or less, its legs point as before: each turn has an optimum of its own. Springs and
+layer share few limits, so one start may have found the best springs and another the best layer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from tvimdesign.device import Input
+from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, Start, same_optimum
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+
+_MOST_CROSSED = 3
+"""Optima whose parts are put together with the best one's."""
+_SMALLEST_STEP = 0.5
+"""Share of a period that must be left up to an end of the range for the end to be tried."""
+
+
+class NeighboringOptima:
+    """Tries what lies beside the ends of the starts, from the states that were found there."""
+
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Nothing is solved yet."""
+        self._optimizer = optimizer
+        self._periods: dict[int, float] = {}
+        """By place among the free numbers."""
+        self._parts: dict[str, list[int]] = {}
+        """Places of the free numbers that shape a part alone."""
+        for place, free in enumerate(optimizer.free):
+            row = optimizer.table.quantity(free.name)
+            if isinstance(row, Input) and row.period is not None:
+                self._periods[place] = row.period
+            if isinstance(row, Input) and row.part:
+                self._parts.setdefault(row.part, []).append(place)
+        self._improved: list[tuple[Run, Run]] = []
+        """Optima that starts came to, each with the best one that neighbors led to from there."""
+
+    def improve(self, runs: list[Run]) -> list[Run]:
+        """The runs, each where its neighbors lead to; and where two of them together lead further, that one beside."""
+        if all(run.start.status == NO_DESIGN for run in runs):
+            return runs
+        improved = [self._beside(run) for run in runs]
+        crossed = self._crossed([run for run in improved if run.start.converged])
+        return [*improved, crossed] if crossed else improved
+
+    def _beside(self, run: Run) -> Run:
+        """The best run that steps of a period lead to; the run itself where none is better."""
+        for known, end in self._improved:
+            if run.start.converged and same_optimum(run.start, known.start):
+                return run if same_optimum(end.start, known.start) else _told(end, run, run.start)
+        best, left = run, set[tuple[int, int]]()
+        while better := self._step(best, left):
+            best = better
+        self._improved += [(one, best) for one in (run, best) if one.start.converged]
+        return best
+
+    def _step(self, run: Run, left: set[tuple[int, int]]) -> Run | None:
+        """The first run beside one that is better, None where none is; no period that was `left` is gone back to."""
+        left |= {(place, self._periods_in(place, self._value(place, run))) for place in self._periods}
+        for place, value in self._values_beside(run):
+            if (place, self._periods_in(place, value)) in left:
+                continue
+            unknowns = run.unknowns.copy()
+            unknowns[place] = self._optimizer.free[place].to_unknown(value)
+            tried = self._optimizer.solve(begin=run.inputs, unknowns=unknowns, near=True)
+            if _better(tried, run):
+                return _told(tried, run, run.start, tried.start)
+        return None
+
+    def _values_beside(self, run: Run) -> Iterator[tuple[int, float]]:
+        """Each periodic number a period below and above, or at the end of its range where half a period is left."""
+        for place, period in self._periods.items():
+            free, value = self._optimizer.free[place], self._value(place, run)
+            for end, step in ((free.lower, -period), (free.upper, period)):
+                room = abs(end - value)
+                if room >= _SMALLEST_STEP * period:
+                    yield place, value + step if room >= period else end
+
+    def _value(self, place: int, run: Run) -> float:
+        """Where a run ended in the free number at a place."""
+        return float(run.inputs[self._optimizer.model.index[self._optimizer.free[place].name]])
+
+    def _periods_in(self, place: int, value: float) -> int:
+        """The whole periods in a value."""
+        return math.floor(value / self._periods[place])
+
+    def _crossed(self, runs: list[Run]) -> Run | None:
+        """The best design found from parts of the best run and of another; None where none is better."""
+        optima: list[Run] = []
+        for run in sorted(runs, key=lambda run: run.start.objective):
+            if not any(same_optimum(run.start, other.start) for other in optima):
+                optima.append(run)
+        found: Run | None = None
+        for other in optima[1 : 1 + _MOST_CROSSED]:
+            for whole, lender in ((optima[0], other), (other, optima[0])):
+                for places in self._parts.values():
+                    run = self._with_part(whole, lender, places)
+                    if run.start.converged and _better(run := self._beside(run), found or optima[0]):
+                        found = run
+        return found
+
+    def _with_part(self, whole: Run, lender: Run, places: list[int]) -> Run:
+        """A run that begins at the end of another, with one part as a third has it."""
+        unknowns = whole.unknowns.copy()
+        unknowns[places] = lender.unknowns[places]
+        begin = self._optimizer.vector.inputs(unknowns)
+        run = self._optimizer.solve(begin=begin, unknowns=unknowns, near=True)
+        run.start = replace(run.start, crossed=True)
+        return run
+
+
+def _better(run: Run, other: Run) -> bool:
+    """Whether a run is an optimum, and another one than the other and better."""
+    if not (run.start.converged and other.start.converged):
+        return run.start.converged
+    return run.start.objective < other.start.objective - SAME_OPTIMUM * abs(other.start.objective)
+
+
+def _told(run: Run, before: Run, *parts: Start) -> Run:
+    """A run as one that began where another did, with the work of the parts that led there."""
+    start = replace(
+        run.start, begin=before.start.begin, by_neighbor=True, crossed=before.start.crossed,
+        iterations=sum(part.iterations for part in parts), seconds=sum(part.seconds for part in parts),
+    )  # fmt: skip
+    return replace(run, start=start)
