@@ -135,6 +135,15 @@ def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
     assert joint["holding_torque"] == min(parts)
 
 
+def test_the_edges_of_the_arcs_bear_more_than_a_layer_between_rigid_faces(inputs: dict[str, Any]) -> None:
+    # FE of printed modules: 2.2 to 3.3 times T r/J, a mean over one thickness in from the edge; 2 MPa of bond.
+    names = ["layer_edge_traction", "layer_edge_safety", "holding_torque", "layer_holding_torque"]
+    found = TABLE.evaluate(inputs, names)
+    even = 2e6 * found["holding_torque"] / found["layer_holding_torque"]
+    assert 2.2 * even < found["layer_edge_traction"] < 3.3 * even
+    assert found["layer_edge_safety"] == pytest.approx(2e6 / found["layer_edge_traction"], rel=1e-9)
+
+
 def test_strain_of_the_layer_is_its_rims_way_over_its_thickness(joint: dict[str, Any]) -> None:
     assert joint["layer_strain"] == pytest.approx(40.0 * 0.104 / 1.0, rel=1e-9)
     assert joint["layer_strain_safety"] == pytest.approx(6.0 / 4.16, rel=1e-9)
