@@ -1,12 +1,14 @@
-"""The stack of the module written once more: sharp corners, temperatures in degC, ten times the cells.
+"""The stack of the shear module written once more: sharp corners, temperatures in degC, ten times the cells.
 
-Heat, melting, freezing with kinetics, convection and radiation, from the numbers of a design alone.
+Heat, plate and floor beside the arcs with the gap between them, melting, freezing with kinetics, convection and
+radiation, from the numbers of a design alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +20,10 @@ CELLS, PLATE_CELLS = 120, 40
 STEFAN_BOLTZMANN = 5.670374419e-8
 GAS = 8.314462618
 LAYER, PLATE = slice(2, 2 + CELLS), slice(2 + CELLS, 2 + CELLS + PLATE_CELLS)
+BESIDE, FLOOR = slice(PLATE.stop, PLATE.stop + 4), slice(PLATE.stop + 4, PLATE.stop + 8)
+SINK = FLOOR.stop
+STRIPS = np.array([0.15, 0.3, 0.55])
+"""Widths of the three bodies a strip is divided into, as shares; core and housing come after them."""
 
 
 def value_of(model: DeviceFunctions) -> Callable[[str], float]:
@@ -28,7 +34,7 @@ def value_of(model: DeviceFunctions) -> Callable[[str], float]:
 
 @dataclass
 class AnotherStack:
-    """State: cold and hot side, enthalpies of the layer, plate, strip and core beside it, sink, psi of the layer.
+    """State: cold and hot side, layer's enthalpies, plate, strip and core, floor and housing, sink, psi of the layer.
 
     The sink is there where the module has one, psi where the layer freezes with kinetics.
     """
@@ -48,14 +54,15 @@ class AnotherStack:
             share * v(f"peltier_{name}") for name in ("seebeck", "resistance", "conductance")
         )
         self.side = 0.5 * share * v("peltier_unit_mass") * v("peltier_specific_heat")
-        self._lumps(opening=v("pcl_outer_radius") - inner)
+        self.edge = v("arc_count") * (2.0 * (v("pcl_outer_radius") - inner) + v("arc_span") * self._radii())
+        self._lumps()
         self.cell = v("pcl_thickness") / CELLS
         self.plate_cell = v("rotor_thickness") / PLATE_CELLS
         plate_heat = v("structure_density") * v("structure_specific_heat") * self.plate_cell * self.area
         self.mass = v("pcl_density") * self.area * self.cell
         sinks = [v("sink_capacity")] if self.sink else []
         self.capacities = np.concatenate(
-            [[self.side] * 2, np.full(CELLS, self.mass), np.full(PLATE_CELLS, plate_heat), self.lumps, sinks]
+            [[self.side] * 2, np.full(CELLS, self.mass), np.full(PLATE_CELLS, plate_heat), *self.lumps, sinks]
         )
         self.start, self.end = v("pcl_melting_start") - 273.15, v("pcl_melting_end") - 273.15
         solid, melt = v("pcl_specific_heat_solid"), v("pcl_specific_heat_melt")
@@ -65,29 +72,41 @@ class AnotherStack:
         self.celsius = np.array([self.start - 400.0, self.start, self.end, self.end + 400.0])
         self.ambient = v("ambient_temperature") - 273.15
 
-    def _lumps(self, opening: float) -> None:
-        """The plate between the arcs, a strip heated along its edge, and the core with what is fixed to it."""
+    def _radii(self) -> float:
+        return self.value("pcl_inner_radius") + self.value("pcl_outer_radius")
+
+    def _lumps(self) -> None:
+        """Plate and floor beside the arcs, strips heated at their edge, with the core and the housing at their ends."""
         v = self.value
-        k, rho_c, height = (
-            v("structure_conductivity"),
-            v("structure_density") * v("structure_specific_heat"),
-            v("rotor_thickness"),
-        )
-        disc = np.pi * (v("pcl_outer_radius") + v("rotor_rim")) ** 2
+        k, rho_c = v("structure_conductivity"), v("structure_density") * v("structure_specific_heat")
+        height, depth, pad = v("rotor_thickness"), v("floor_thickness"), 0.5 * v("peltier_thickness")
+        rotor = v("pcl_outer_radius") + v("rotor_rim")
+        disc = np.pi * rotor**2
         self.rest = disc - self.area
-        arcs = v("pcl_outer_radius") + v("pcl_inner_radius")
-        edge = v("arc_count") * (2.0 * opening + v("arc_span") * arcs)
-        strip = self.rest / edge
-        ring = np.log(v("pcl_inner_radius") / v("core_radius")) / (2.0 * np.pi * k * height)
+        widths, third = STRIPS * self.rest / self.edge, self.area / self.edge / 3.0
         far = (v("rotor_mass") + v("link_mass") + v("retainer_mass")) / v("structure_density") - disc * height
-        self.to_lumps = k * height * edge / (strip / 3.0), 1.0 / ring
-        self.lumps = [self.rest * height * rho_c, far * rho_c]
+        near = STRIPS * self.rest
+        under = np.append(near * depth, v("housing_mass") / v("structure_density") - self.rest * depth)
+        self.lumps = np.append(near * height, far) * rho_c, under * rho_c
+        apart = 0.5 * (np.append(0.0, widths[:-1]) + widths) / self.edge
+        inner, wall = v("pcl_inner_radius") / v("core_radius"), v("housing_inner_radius") / rotor
+        along = third / self.edge
+        pads = along / (v("pad_conductivity") * pad) + 1.0 / (v("pad_edge_contact") * pad * self.edge)
+        ways = np.append(apart / (k * height), np.log(inner) / (2.0 * np.pi * k * height))
+        self.to_beside = 1.0 / (ways + np.array([along / (k * height), 0.0, 0.0, 0.0]))
+        ways = np.append(apart / (k * depth), np.log(wall) / (2.0 * np.pi * k * depth))
+        self.to_floor = 1.0 / (ways + np.array([pads, 0.0, 0.0, 0.0]))
+        air = v("window_ledge") / v("air_conductivity") / self.edge
+        self.to_side = v("pcl_thickness") / CELLS / (along / v("pcl_conductivity_melt") + air)
+        self.strips = np.append(near, 0.0)
+        outer, tall = v("housing_outer_radius"), v("rim_level") + depth + v("foot_height")
+        self.below = np.append(near, 2.0 * np.pi * outer * tall + np.pi * (outer**2 - rotor**2))
 
     # --- states ---
 
     def everywhere(self, celsius: float) -> Array:
         """State with all at one temperature below the melting window, without psi."""
-        state = np.full(2 + CELLS + PLATE_CELLS + 2 + int(self.sink), celsius)
+        state = np.full(SINK + int(self.sink), celsius)
         state[LAYER] *= self.value("pcl_specific_heat_solid")
         return state
 
@@ -133,19 +152,39 @@ class AnotherStack:
         _, flows = self._flows(y)
         watts = -np.diff(np.append(flows, self._outflow(y)))  # hot side, layer, plate
         watts[0] += self.seebeck * amps * (y[1] + 273.15) + 0.5 * amps**2 * self.ohms - self.leak * (y[1] - y[0])
-        strip, core = y[PLATE.stop], y[PLATE.stop + 1]
-        beside = self.to_lumps[0] / PLATE_CELLS * (y[PLATE] - strip)
-        onward = self.to_lumps[1] * (strip - core)
-        watts[1 + CELLS :] -= beside
-        lost = self.rest * self._flux(strip, self.value("rotor_coefficient"))
-        everything = np.concatenate([[self._cold(y, amps)], watts, [np.sum(beside) - onward - lost, onward]])
+        aside = self.to_beside[0] / PLATE_CELLS * (y[PLATE] - y[BESIDE.start])
+        edges = self.to_floor[0] * (y[:2] - y[FLOOR.start])
+        sides = self.to_side * (self.layer(y)[0] - y[FLOOR.start])
+        watts[1 + CELLS :] -= aside
+        watts[0] -= edges[1]
+        watts[1 : 1 + CELLS] -= sides
+        beside = self._chain(y[BESIDE], self.to_beside, np.sum(aside)) - self.strips * self._flux(
+            y[BESIDE], self.value("rotor_coefficient")
+        )
+        floor = self._chain(y[FLOOR], self.to_floor, np.sum(edges) + np.sum(sides)) - self.below * self._flux(
+            y[FLOOR], self.value("housing_coefficient")
+        )
+        gap = self._gap(y)
+        everything = np.concatenate([[self._cold(y, amps) - edges[0]], watts, beside - gap, floor + gap])
         if self.sink:
-            temperature = y[PLATE.stop + 2]
-            given = self.window * self.value("sink_contact") * (y[0] - temperature)
-            lost = self.value("sink_area") * self._flux(temperature, self.value("sink_coefficient"))
+            given = self.window * self.value("sink_contact") * (y[0] - y[SINK])
+            lost = self.value("sink_area") * self._flux(y[SINK], self.value("sink_coefficient"))
             everything = np.append(everything, given - lost)
         rates = everything / self.capacities
         return np.append(rates, self._freezing(y)) if self.kinetic else rates
+
+    @staticmethod
+    def _chain(temperatures: Array, conductances: Array, inflow: float) -> Array:
+        onward = conductances[1:] * -np.diff(temperatures)
+        return np.append(inflow, onward) - np.append(onward, 0.0)
+
+    def _gap(self, y: Array) -> Array:
+        """Heat through the air between plate and floor, and radiated between two grey plates [W]."""
+        shine = self.value("surface_emissivity")
+        warm, cool = y[BESIDE] + 273.15, y[FLOOR] + 273.15
+        radiated = STEFAN_BOLTZMANN * (warm**4 - cool**4) / (2.0 / shine - 1.0) if shine else 0.0
+        conducted = self.value("air_conductivity") / self.value("pcl_thickness") * (warm - cool)
+        return self.strips * (conducted + radiated)
 
     def _freezing(self, y: Array) -> Array:
         """Nakamura's rate with Hoffman and Lauritzen's growth below T_m0; melting of what is above equilibrium."""
@@ -185,15 +224,15 @@ class AnotherStack:
         flows = -np.diff(t)[1:] / resistance[1:] * self.area
         return t, np.concatenate([[0.0], flows])
 
-    def _flux(self, celsius: float, coefficient: float) -> float:
+    def _flux(self, celsius: Array | float, coefficient: float) -> Any:
         """Convection and the Stefan-Boltzmann law [W/m^2]."""
-        radiated = STEFAN_BOLTZMANN * ((celsius + 273.15) ** 4 - (self.ambient + 273.15) ** 4)
+        radiated = STEFAN_BOLTZMANN * ((np.asarray(celsius) + 273.15) ** 4 - (self.ambient + 273.15) ** 4)
         return coefficient * (celsius - self.ambient) + self.value("surface_emissivity") * radiated
 
     def _cold(self, y: Array, amps: float) -> float:
         drawn = self.seebeck * amps * (y[0] + 273.15) - 0.5 * amps**2 * self.ohms - self.leak * (y[1] - y[0])
         if self.sink:
-            return -self.window * self.value("sink_contact") * (y[0] - y[PLATE.stop + 2]) - drawn
+            return -self.window * self.value("sink_contact") * (y[0] - y[SINK]) - drawn
         return -self.window * self._flux(y[0], self.value("cold_side_coefficient")) - drawn
 
     def _outflow(self, y: Array) -> float:
@@ -208,8 +247,9 @@ class AnotherStack:
         """Which states a rate depends on, for the Jacobian."""
         size = self.capacities.size
         near = np.eye(size) + np.eye(size, k=1) + np.eye(size, k=-1)
-        lumps = slice(PLATE.stop, PLATE.stop + 2)
-        near[lumps, PLATE.start :] = near[PLATE.start :, lumps] = 1.0
+        near[BESIDE.start, PLATE] = near[PLATE, BESIDE.start] = 1.0
+        near[FLOOR.start, : LAYER.stop] = near[: LAYER.stop, FLOOR.start] = 1.0
+        near[BESIDE, FLOOR] = near[FLOOR, BESIDE] = 1.0
         if self.sink:
             near[0, -1] = near[-1, 0] = 1.0
         if not self.kinetic:

@@ -10,7 +10,7 @@ from hypothesis import settings
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import polymer
 
 # A slow machine is no mistake in the equations.
@@ -43,8 +43,8 @@ def bare_stack() -> Callable[..., heat.Stack]:
         stack = heat.Stack(
             area=1e-3, thickness=1e-3, density=1145.0, conductivity_solid=0.2, conductivity_melt=0.2,
             melting=NO_MELTING, peltier=peltier.PeltierModule(0.0, 1.0, 0.0), cold_capacity=1e9, hot_capacity=1e-7,
-            cold_surface=heat.NOWHERE, hot_contact=1e12, plate_contact=1e-12, plate_thickness=1e-3,
-            plate_conductivity=0.2, plate_heat_capacity=1e6, plate_surface=heat.Surface(1e-3, 1e-12), ambient=COLD,
+            cold_surface=lumps.NOWHERE, hot_contact=1e12, plate_contact=1e-12, plate_thickness=1e-3,
+            plate_conductivity=0.2, plate_heat_capacity=1e6, plate_surface=lumps.Surface(1e-3, 1e-12), ambient=COLD,
             plate_cells=1,
         )  # fmt: skip
         return stack._replace(**changes)

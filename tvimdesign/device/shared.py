@@ -11,6 +11,7 @@ from tvimdesign.device.core import (
     lost_motion,
     mass_properties,
     materials,
+    molten,
     motor_choice,
     preload_creep,
     shrinkage,
@@ -21,6 +22,7 @@ from tvimdesign.device.core import (
     structure_stiffness,
     thermal_stack,
     torsion_springs,
+    viscous_heating,
     warm_structure,
 )
 from tvimdesign.device.fixtures import (
@@ -50,6 +52,7 @@ ROOMS = (
     large_motion,
     creep_under_hold,
     thermal_stack,
+    viscous_heating,
     softening,
     stiffening,
     mass_properties,
@@ -61,6 +64,7 @@ BOOKS = (
     materials.quantities,
     process.limits,
     *(room.quantities for room in ROOMS[1:]),
+    *molten.groups,
     *screws.groups,
     *tang.groups,
     *dowels.groups,

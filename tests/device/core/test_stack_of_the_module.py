@@ -9,7 +9,7 @@ from stiff_when_warm import STIFF_WHEN_WARM
 from tvimdesign.device import table_for
 from tvimdesign.device.core import softening
 from tvimdesign.device.table.phases import EQUILIBRIUM_STIFFENING, SOFTENING, STIFFENING
-from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.heat_flow import heat, lumps
 
 TABLE = table_for("shear")
 SPAN, INNER, OUTER = 0.85, 26e-3, 40e-3
@@ -47,24 +47,50 @@ def test_windows_lose_heat_below_and_the_plate_s_face_above(stack: heat.Stack) -
     assert stack.sink is None
 
 
-def test_the_plate_beside_the_arcs_is_a_strip_heated_along_their_edges(stack: heat.Stack) -> None:
-    beside = stack.beside[0]
-    edge = 4 * (2 * (OUTER - INNER) + SPAN * (INNER + OUTER))
+EDGE = 4 * (2 * (OUTER - INNER) + SPAN * (INNER + OUTER))
+FIRST, LAST = 0.05, 0.73
+"""Shares of a strip's width that the first and the last of its three bodies have, as calibrated."""
+TO_EDGE = 0.22 * AREA / EDGE
+
+
+def test_plate_and_floor_beside_the_arcs_are_strips_heated_at_their_edges(stack: heat.Stack) -> None:
     rest = PLATE - AREA
-    # Its mean is a third of its width away, and its width is what its area has to the edge.
-    assert beside.conductance == pytest.approx(0.24 * 4e-3 * edge / (rest / edge / 3.0), rel=1e-9)
-    assert beside.surface == pytest.approx((rest, 5.0, 0.9), rel=1e-9)
-    assert beside.capacity == pytest.approx(1270.0 * 1200.0 * 4e-3 * rest, rel=1e-9)
+    for bodies, thickness in ((stack.beside[:-1], 4e-3), (stack.around[:-1], 4e-3)):
+        assert sum(lump.capacity for lump in bodies) == pytest.approx(1270.0 * 1200.0 * thickness * rest, rel=1e-9)
+        assert sum(lump.surface.area for lump in bodies) == pytest.approx(rest, rel=1e-9)
+        # From the middle of the first to that of the last are all but half of the first and of the last.
+        middles = rest / EDGE * (1.0 - 0.5 * FIRST - 0.5 * LAST)
+        between = sum(1.0 / lump.conductance for lump in bodies[1:])
+        assert 1.0 / between == pytest.approx(0.24 * thickness * EDGE / middles, rel=1e-9)
+    half_of_first = 0.5 * FIRST * rest / EDGE
+    assert stack.beside[0].conductance == pytest.approx(0.24 * 4e-3 * EDGE / (TO_EDGE + half_of_first), rel=1e-9)
+    # A side of the pads conducts with 6 W/m K in its plane; its edge of 0.75 mm touches the wall with 150 W/m2 K, and
+    # behind that is half of the first body of the floor.
+    edge = TO_EDGE / (6.0 * 0.75e-3) + 1.0 / (150.0 * 0.75e-3) + half_of_first / (0.24 * 4e-3)
+    assert stack.around[0].conductance == pytest.approx(EDGE / edge, rel=1e-9)
+
+
+def test_air_in_the_gap_conducts_and_its_walls_radiate(stack: heat.Stack) -> None:
+    # 0.028 W/m K over 1 mm and, from 80 to 40 degC, parallel grey plates of 0.9 each (Incropera, ch. 13).
+    rest = PLATE - AREA
+    warm, cool = 353.15, 313.15
+    through = rest * (0.028 / 1e-3 * 40.0 + 5.670374419e-8 * (warm**4 - cool**4) / (1.0 / 0.9 + 1.0 / 0.9 - 1.0))
+    assert sum(lumps.gap_heat(gap, warm, cool) for gap in stack.gaps) == pytest.approx(through, rel=1e-9)
+
+
+def test_all_of_the_housing_warms_up(known: dict[str, Any], stack: heat.Stack) -> None:
+    mass = TABLE.evaluate(known, ["housing_mass"])["housing_mass"]
+    assert sum(lump.capacity for lump in stack.around) == pytest.approx(1200.0 * mass, rel=1e-9)
 
 
 def test_core_and_link_hang_on_a_ring_and_hold_the_rest_of_what_turns(known: dict[str, Any], stack: heat.Stack) -> None:
-    core = stack.beside[1]
+    core = stack.beside[-1]
     radii = np.linspace(10e-3, INNER, 20001)
     assert core.conductance == pytest.approx(1.0 / np.trapezoid(1.0 / (2.0 * np.pi * radii * 4e-3 * 0.24), radii))
     masses = TABLE.evaluate(known, ["rotor_mass", "link_mass", "retainer_mass"]).values()
     plate = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     assert plate + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * sum(masses), rel=1e-9)
-    assert core.surface == heat.NOWHERE
+    assert core.surface == lumps.NOWHERE
 
 
 def test_a_sink_stands_on_the_open_cold_sides(known: dict[str, Any], stack: heat.Stack) -> None:

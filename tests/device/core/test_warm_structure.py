@@ -59,7 +59,7 @@ def test_cold_structure_has_its_own_temperature_and_the_hot_one_is_softer_and_lo
     found = table_for(mode).evaluate(inputs_of(mode), names)
     # PCL at 30 degC for good, air at 22: the parts are within seven kelvin of 23 degC, 0.3 % a kelvin.
     assert found["warm_structure_stiffness@cold"] == pytest.approx(found["structure_stiffness"], rel=0.01)
-    assert found["warm_structure_stiffness@hot"] < 0.8 * found["warm_structure_stiffness@cold"]
+    assert found["warm_structure_stiffness@hot"] < 0.9 * found["warm_structure_stiffness@cold"]
     cold, hot = (found[f"warm_structure_loss@{p}"] / found[f"warm_structure_stiffness@{p}"] for p in ("cold", "hot"))
     assert cold == pytest.approx(0.04, rel=0.01)
     assert hot > 2.0 * cold
@@ -89,7 +89,7 @@ def test_structure_in_a_phase_is_as_warm_as_the_stack_is(inputs: dict[str, Any])
 
 def test_cold_point_that_is_warmer_weakens_what_yields() -> None:
     table = table_for("shear")
-    names = ["core_holding_torque", "link_holding_torque"]
+    names = ["core_holding_torque", "link_screw_bearing_torque"]
     cold, warmer = (table.evaluate({**inputs_of("shear"), "temperature@cold": t + 273.15}, names) for t in (23.0, 45.0))
     for name in names:
         assert warmer[name] / cold[name] == pytest.approx(np.exp(-0.003 * 22.0), rel=2e-3), name

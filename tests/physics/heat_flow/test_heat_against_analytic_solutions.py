@@ -11,7 +11,7 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import erf
 
-from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.physics.polymers import polymer
 
 HALF_PERCENT = 5e-3
@@ -111,7 +111,7 @@ def test_two_bodies_that_touch_meet_at_the_temperature_of_their_effusivities(bar
 def test_steady_heat_passes_all_resistances_in_series(bare_stack: Make, integrate: Run) -> None:
     stack = bare_stack(
         hot_capacity=1e12, hot_contact=2e3, plate_contact=5e2, plate_thickness=4e-3, plate_conductivity=0.24,
-        plate_surface=heat.Surface(1e-3, 10.0), plate_cells=5,
+        plate_surface=lumps.Surface(1e-3, 10.0), plate_cells=5,
     )  # fmt: skip
     begin = heat.initial_state(stack, 7, COLD)
     begin[1] = 1.0
@@ -135,7 +135,7 @@ def test_part_molten_layer_conducts_between_solid_and_melt(bare_stack: Make) -> 
 
 
 def test_a_switched_off_stack_at_ambient_temperature_stays_as_it_is(bare_stack: Make) -> None:
-    warm = heat.Surface(1e-3, 10.0, 0.9)
+    warm = lumps.Surface(1e-3, 10.0, 0.9)
     stack = bare_stack(hot_contact=1e4, plate_contact=1e4, plate_surface=warm, cold_surface=warm)
     state = heat.initial_state(stack, 10, COLD)
     assert np.max(np.abs(heat.rates(state, stack, 0.0))) < 1e-12
@@ -147,7 +147,7 @@ def test_a_wall_of_layer_joint_and_plate_at_rest_has_the_drops_of_its_resistance
     # 2 W (half of I^2 R) through 1000 mm^2: a drop is the flux over k/L, or over the coefficient of a joint or surface.
     stack = bare_stack(
         hot_contact=4000.0, plate_contact=500.0, plate_conductivity=0.8, plate_thickness=3e-3, plate_cells=3,
-        plate_surface=heat.Surface(1e-3, 40.0),
+        plate_surface=lumps.Surface(1e-3, 40.0),
     )  # fmt: skip
     profile = integrate(stack, heat.initial_state(stack, 5, COLD), [6000.0], current=2.0).profiles()[-1]
     flux = 2000.0

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
@@ -18,8 +18,8 @@ FLEXIBLE = peltier.PeltierModule(0.025, 3.0, 0.12)
 PETG = {"plate_conductivity": 0.24, "plate_heat_capacity": 1270.0 * 1200.0, "plate_thickness": 4e-3}
 ALUMINIUM = {"plate_conductivity": 167.0, "plate_heat_capacity": 2700.0 * 896.0, "plate_thickness": 2e-3}
 # A plate that takes 3 W/m^2 K from the layer and stores next to nothing.
-LOSS_ONLY = {"plate_conductivity": 1e3, "plate_heat_capacity": 1e3, "plate_surface": heat.Surface(AREA, 3.0)}
-INSULATED = {"plate_surface": heat.Surface(AREA, 1e-9)}
+LOSS_ONLY = {"plate_conductivity": 1e3, "plate_heat_capacity": 1e3, "plate_surface": lumps.Surface(AREA, 3.0)}
+INSULATED = {"plate_surface": lumps.Surface(AREA, 1e-9)}
 
 
 def stack_of(module: peltier.PeltierModule, side_capacity: float, **changes: Any) -> heat.Stack:
@@ -27,8 +27,8 @@ def stack_of(module: peltier.PeltierModule, side_capacity: float, **changes: Any
     stack = heat.Stack(
         area=AREA, thickness=1e-3, density=1145.0, conductivity_solid=0.225, conductivity_melt=0.18, melting=PCL,
         peltier=module, cold_capacity=side_capacity, hot_capacity=side_capacity,
-        cold_surface=heat.Surface(AREA, 15.0), hot_contact=1e4, plate_contact=1e4, plate_thickness=4e-3,
-        plate_conductivity=0.24, plate_heat_capacity=1270.0 * 1200.0, plate_surface=heat.Surface(AREA, 10.0),
+        cold_surface=lumps.Surface(AREA, 15.0), hot_contact=1e4, plate_contact=1e4, plate_thickness=4e-3,
+        plate_conductivity=0.24, plate_heat_capacity=1270.0 * 1200.0, plate_surface=lumps.Surface(AREA, 10.0),
         ambient=AMBIENT, plate_cells=3,
     )  # fmt: skip
     return stack._replace(**changes)

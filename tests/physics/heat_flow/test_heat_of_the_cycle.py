@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import crystallization, polymer
 
 Array = NDArray[np.float64]
@@ -21,18 +21,22 @@ AREA = 1579.2e-6
 PCL = polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
 FREEZING = crystallization.Kinetics(3.0, 170.0, 313.15, 6.08e4, 347.15, 213.15, 6270.0, 0.5)
 PADS = peltier.PeltierModule(0.025, 3.0, 0.12)
-SINK = heat.Lump(5.0, 30.0, heat.Surface(15e-3, 10.0, 0.85))
-STRIP = heat.Lump(0.4, 12.0, heat.Surface(4e-3, 6.0, 0.9))
-CORE = heat.Lump(0.05, 40.0, heat.NOWHERE)
+SINK = lumps.Lump(5.0, 30.0, lumps.Surface(15e-3, 10.0, 0.85))
+STRIP = lumps.Lump(0.4, 12.0, lumps.Surface(4e-3, 6.0, 0.9))
+CORE = lumps.Lump(0.05, 40.0, lumps.NOWHERE)
+FLOOR = lumps.Lump(0.03, 15.0, lumps.Surface(4e-3, 6.0, 0.9))
+HOUSING = lumps.Lump(0.2, 60.0, lumps.Surface(20e-3, 5.0, 0.9))
+GAP = lumps.air_gap(4e-3, 1e-3, 0.028, 0.9, (0, 0))
 
 
 def cycle_stack(**changes: Any) -> heat.Stack:
-    """A stack with everything: a sink, a strip and a core beside the plate, radiation from all that meets the air."""
+    """A stack with everything: a sink, a strip and a core beside the plate, floor and housing around the pads."""
     stack = heat.Stack(
         area=AREA, thickness=1e-3, density=1145.0, conductivity_solid=0.225, conductivity_melt=0.18, melting=PCL,
-        peltier=PADS, cold_capacity=4.0, hot_capacity=2.5, cold_surface=heat.NOWHERE, hot_contact=1e4,
+        peltier=PADS, cold_capacity=4.0, hot_capacity=2.5, cold_surface=lumps.NOWHERE, hot_contact=1e4,
         plate_contact=1e4, plate_thickness=4e-3, plate_conductivity=0.24, plate_heat_capacity=1270.0 * 1200.0,
-        plate_surface=heat.Surface(AREA, 5.0, 0.9), ambient=AMBIENT, plate_cells=3, beside=(STRIP, CORE), sink=SINK,
+        plate_surface=lumps.Surface(AREA, 5.0, 0.9), ambient=AMBIENT, plate_cells=3, beside=(STRIP, CORE), sink=SINK,
+        around=(FLOOR, HOUSING), free_sides=0.01, gaps=(GAP,),
     )  # fmt: skip
     return stack._replace(**changes)
 
@@ -43,10 +47,11 @@ def flux(coefficient: float, emissivity: float, kelvin: float) -> float:
 
 
 def lost_from(now: heat.Profile) -> float:
-    """Heat the air takes from sink, strip and plate [W], from temperatures alone."""
+    """Heat the air takes from sink, strip, floor, housing and plate [W], from temperatures alone."""
     face = flux(5.0, 0.9, now.plate[-1]) / (now.plate[-1] - AMBIENT) if now.plate[-1] != AMBIENT else 10.0
     plate = AREA * (now.plate[-1] - AMBIENT) / (0.5 * 4e-3 / 3 / 0.24 + 1.0 / face)
-    return plate + 15e-3 * flux(10.0, 0.85, now.sink[0]) + 4e-3 * flux(6.0, 0.9, now.beside[0])
+    bodies = 15e-3 * flux(10.0, 0.85, now.sink[0]) + 4e-3 * flux(6.0, 0.9, now.beside[0])
+    return plate + bodies + 4e-3 * flux(6.0, 0.9, now.around[0]) + 20e-3 * flux(5.0, 0.9, now.around[1])
 
 
 def run(stack: heat.Stack, begin: Array, current: float, seconds: float) -> tuple[Array, float, float]:
@@ -108,9 +113,27 @@ def test_a_layer_that_is_taken_over_anywhere_keeps_its_fraction_and_nearly_its_t
 
 def test_a_surface_radiates_as_stefan_and_boltzmann_say() -> None:
     # 0.01 m^2 of emissivity 0.9 at 80 degC: 5.670374e-8 * 0.009 * (353.15^4 - 295.15^4) = 4.0648 W, by hand.
-    assert heat.surface_heat(heat.Surface(0.01, 0.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648, rel=2e-5)
-    assert heat.surface_heat(heat.Surface(0.01, 10.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648 + 5.8, rel=2e-5)
-    assert heat.surface_heat(heat.Surface(0.01, 10.0, 0.9), AMBIENT, AMBIENT) == 0.0
+    assert lumps.surface_heat(lumps.Surface(0.01, 0.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648, rel=2e-5)
+    assert lumps.surface_heat(lumps.Surface(0.01, 10.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648 + 5.8, rel=2e-5)
+    assert lumps.surface_heat(lumps.Surface(0.01, 10.0, 0.9), AMBIENT, AMBIENT) == 0.0
+
+
+def test_a_gap_conducts_through_its_air_and_its_grey_walls_radiate() -> None:
+    # 0.01 m^2, 1 mm of air of 0.028 W/m K, 80 to 22 degC: 0.28 W/K * 58 K; between plates of 0.9 radiate, by hand,
+    # 5.670374e-8 * 0.01 * (353.15^4 - 295.15^4)/(1/0.9 + 1/0.9 - 1) = 3.6953 W (Incropera, ch. 13).
+    gap = lumps.air_gap(0.01, 1e-3, 0.028, 0.9, (0, 0))
+    assert lumps.gap_heat(gap, 353.15, AMBIENT) == pytest.approx(0.28 * 58.0 + 3.6953, rel=2e-5)
+    assert lumps.gap_heat(gap, AMBIENT, 353.15) == -lumps.gap_heat(gap, 353.15, AMBIENT)
+
+
+def test_edges_and_gap_heat_what_they_touch(bare_stack: Callable[..., heat.Stack]) -> None:
+    # All at ambient but pads at 60, layer at 40 and strip at 80 degC: what the floor gets, by hand.
+    floor = lumps.Lump(0.03, 15.0, lumps.NOWHERE)
+    stack = bare_stack(beside=(STRIP,), around=(floor,), free_sides=0.01, gaps=(GAP,))
+    state = heat.initial_state(stack, 4, 273.15 + 40.0)
+    state[:2], state[-2], state[-1] = 0.6, 0.8, 0.2
+    gained = 2 * 0.03 * 40.0 + 0.01 * 20.0 + lumps.gap_heat(GAP, 353.15, 293.15)
+    assert heat.rates(state, stack, 0.0)[-1] == pytest.approx(gained / 15.0 / 100.0, rel=1e-6)
 
 
 def test_a_radiating_plate_cools_as_its_face_at_the_surface_does() -> None:
@@ -125,7 +148,7 @@ def test_a_radiating_plate_cools_as_its_face_at_the_surface_does() -> None:
 
 
 def test_a_cold_side_in_the_air_is_cooled_by_its_own_surface(bare_stack: Callable[..., heat.Stack]) -> None:
-    stack = bare_stack(cold_capacity=4.0, cold_surface=heat.Surface(2e-3, 12.0, 0.8))
+    stack = bare_stack(cold_capacity=4.0, cold_surface=lumps.Surface(2e-3, 12.0, 0.8))
     state = heat.initial_state(stack, 3, AMBIENT)
     state[0] = 0.6  # 60 degC
     expected = -2e-3 * flux(12.0, 0.8, 333.15) / 4.0 / 100.0
@@ -136,8 +159,8 @@ def test_cold_side_and_sink_warm_as_two_lumps_do(
     bare_stack: Callable[..., heat.Stack], integrate: Callable[..., Any]
 ) -> None:
     # At 2 A half of I^2 R = 4 W warms the cold side: C1 T1' = 2 - G (T1 - T2), C2 T2' = G (T1 - T2) - h A (T2 - Ta).
-    sink = heat.Lump(0.5, 30.0, heat.Surface(15e-3, 10.0))
-    stack = bare_stack(cold_capacity=4.0, cold_surface=heat.Surface(1.0, 1e3), hot_capacity=1e9, sink=sink)
+    sink = lumps.Lump(0.5, 30.0, lumps.Surface(15e-3, 10.0))
+    stack = bare_stack(cold_capacity=4.0, cold_surface=lumps.Surface(1.0, 1e3), hot_capacity=1e9, sink=sink)
     times = [5.0, 60.0, 300.0, 3000.0]
     history = integrate(stack, heat.initial_state(stack, 3, AMBIENT), times, current=2.0)
     matrix = np.array([[-0.5 / 4.0, 0.5 / 4.0], [0.5 / 30.0, -(0.5 + 0.15) / 30.0]])
@@ -155,7 +178,7 @@ def test_reversed_current_cools_to_the_balance_of_the_peltier_equations(
     seebeck, ohms, leak, loss = 0.025, 3.0, 0.12, 0.3
     stack = bare_stack(
         peltier=peltier.PeltierModule(seebeck, ohms, leak), cold_capacity=4.0, hot_capacity=2.5, hot_contact=1e4,
-        cold_surface=heat.Surface(0.03, 10.0),
+        cold_surface=lumps.Surface(0.03, 10.0),
     )  # fmt: skip
     joule = 0.5 * current**2 * ohms
     matrix = np.array([[-seebeck * current - leak, leak], [leak, seebeck * current - leak - loss]])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from tvimdesign.physics.heat_flow.heat import Lump, Surface
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
+from tvimdesign.physics.heat_flow.lumps import Lump, Surface
 
 AIR, POLYMER = 295.15, 373.15
 CELLS = 60

@@ -54,10 +54,12 @@ def test_what_holds_the_layer_is_what_the_air_takes(
     another = AnotherStack(value, sink=sink)
     seen = np.asarray(phase.temperatures(balance[:-1], balance[-1], model.start)).ravel() - 273.15
     cold, outer = seen[0], seen[4 + model.cells + int(value("rotor_cells")) - 1]
-    lost = another.rest * another._flux(seen[-3 if sink else -2], value("rotor_coefficient"))
+    beside = seen[4 + model.cells + int(value("rotor_cells")) :]
+    lost = np.sum(another.strips * another._flux(beside[:4], value("rotor_coefficient")))
+    lost += np.sum(another.below * another._flux(beside[-4:], value("housing_coefficient")))
     lost += _plate_loss(another, outer, 0.5 * value("rotor_thickness") / value("rotor_cells"))
     if sink:
-        lost += value("sink_area") * another._flux(seen[-1], value("sink_coefficient"))
+        lost += value("sink_area") * another._flux(beside[4], value("sink_coefficient"))
     else:
         lost += another.window * another._flux(cold, value("cold_side_coefficient"))
     # The pads' power with the rounding of its corner at zero left out; the plate's face radiates at its cell's heat.

@@ -171,7 +171,7 @@ def branch_stiffness(
     pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, warm_structure: tuple[Scalar, Scalar]
 ) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
-    loss = 2.0 * np.pi * frequency * pcl_damping
+    loss = layer.loss_stiffness(pcl_damping, frequency)
     return layer.series_stiffness(pcl_stiffness, loss, *warm_structure)
 
 

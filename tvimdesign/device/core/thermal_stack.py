@@ -1,8 +1,9 @@
 """The thermal stack of the module, and what it is like at each instant of a phase.
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
-`plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`; and by
-`moment_now` what a partly molten layer is to the joint.
+`plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`; what takes heat
+from the edges of pads and layer (`around_pads`, `free_sides`, `upper_sides`), and where that faces the rotor
+(`air_gaps`); and by `moment_now` what a partly molten layer is to the joint.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import numpy as np
 from tvimdesign.device.core.joint_impedance import joint_damping, joint_impedance, joint_stiffness
 from tvimdesign.device.table.quantity import Phase, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import crystallization, polymer
 
@@ -60,12 +61,12 @@ def core_and_link(
     retainer_mass: Scalar,
     structure_specific_heat: Scalar,
     structure_conductivity: Scalar,
-) -> heat.Lump:
+) -> lumps.Lump:
     """Core, link and retainer, which the plate heats through its inner ring: 2 pi k h/ln(r_i/r_c)."""
-    return heat.Lump(
+    return lumps.Lump(
         conductance=2.0 * np.pi * structure_conductivity * rotor_thickness / np.log(pcl_inner_radius / core_radius),
         capacity=(rotor_mass - plate_mass + link_mass + retainer_mass) * structure_specific_heat,
-        surface=heat.NOWHERE,
+        surface=lumps.NOWHERE,
     )
 
 
@@ -78,12 +79,12 @@ def sink(
     sink_coefficient: Scalar,
     surface_emissivity: Scalar,
     cold_area: Scalar,
-) -> heat.Lump | None:
+) -> lumps.Lump | None:
     """Sink at the pads' cold sides, where those are open."""
     if cold_side == "open":
         return None
-    surface = heat.Surface(sink_area, sink_coefficient, surface_emissivity)
-    return heat.Lump(conductance=sink_contact * cold_area, capacity=sink_capacity, surface=surface)
+    surface = lumps.Surface(sink_area, sink_coefficient, surface_emissivity)
+    return lumps.Lump(conductance=sink_contact * cold_area, capacity=sink_capacity, surface=surface)
 
 
 @quantities.helper()
@@ -103,15 +104,19 @@ def stack(
     hot_contact: Scalar,
     rotor_contact: Scalar,
     plate_depth: Scalar,
-    plate_outside: heat.Surface,
+    plate_outside: lumps.Surface,
     structure_conductivity: Scalar,
     structure_density: Scalar,
     structure_specific_heat: Scalar,
     ambient_temperature: Scalar,
     rotor_cells: float,
-    rotor_beside: heat.Lump,
-    core_and_link: heat.Lump,
-    sink: heat.Lump | None,
+    rotor_beside: tuple[lumps.Lump, ...],
+    core_and_link: lumps.Lump,
+    sink: lumps.Lump | None,
+    around_pads: tuple[lumps.Lump, ...],
+    free_sides: Scalar,
+    upper_sides: Scalar | None,
+    air_gaps: tuple[lumps.Gap, ...],
 ) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
     half = 0.5 * peltier_mass * peltier_specific_heat
@@ -126,7 +131,7 @@ def stack(
         cold_capacity=half,
         hot_capacity=half,
         # The pads' cold sides meet the air in the windows; the ledges are plastic.
-        cold_surface=heat.Surface(cold_area, cold_side_coefficient, surface_emissivity),
+        cold_surface=lumps.Surface(cold_area, cold_side_coefficient, surface_emissivity),
         hot_contact=hot_contact,
         plate_contact=rotor_contact,
         plate_thickness=plate_depth,
@@ -135,8 +140,12 @@ def stack(
         plate_surface=plate_outside,
         ambient=ambient_temperature,
         plate_cells=int(rotor_cells),
-        beside=(rotor_beside, core_and_link),
+        beside=(*rotor_beside, core_and_link),
         sink=sink,
+        around=around_pads,
+        free_sides=free_sides,
+        upper_sides=upper_sides,
+        gaps=air_gaps,
     )
 
 
@@ -156,9 +165,9 @@ def stack_profile(state: Scalar, stack_now: heat.Stack) -> heat.Profile:
 
 
 @quantities.helper(instant=True)
-def state_rates(state: Scalar, stack_now: heat.Stack, drive_current: Scalar) -> Scalar:
+def state_rates(state: Scalar, stack_now: heat.Stack, drive_current: Scalar, motion_heat: Scalar) -> Scalar:
     """Time derivative of the thermal state."""
-    return heat.rates(state, stack_now, drive_current)
+    return heat.rates(state, stack_now._replace(motion_heat=motion_heat), drive_current)
 
 
 @quantities.output("W", instant=True)
@@ -206,15 +215,18 @@ def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
 
 
 @quantities.helper(instant=True)
-def branch_now(
-    layer_moduli: tuple[Scalar, Scalar],
-    moment_now: Scalar,
-    pcl_depth: Scalar,
-    support_now: tuple[Scalar, Scalar],
+def layer_stiffness_now(
+    layer_moduli: tuple[Scalar, Scalar], moment_now: Scalar, pcl_depth: Scalar
 ) -> tuple[Scalar, Scalar]:
+    """Real and imaginary stiffness of the layer [N*m/rad]."""
+    storage, loss = layer_moduli
+    return storage * moment_now / pcl_depth, loss * moment_now / pcl_depth
+
+
+@quantities.helper(instant=True)
+def branch_now(layer_stiffness_now: tuple[Scalar, Scalar], support_now: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
-    storage, loss = (modulus * moment_now / pcl_depth for modulus in layer_moduli)
-    return layer.series_stiffness(storage, loss, *support_now)
+    return layer.series_stiffness(*layer_stiffness_now, *support_now)
 
 
 @quantities.output("N*m/rad", instant=True)

@@ -17,7 +17,7 @@ from typing import NamedTuple
 from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
 from tvimdesign.physics.solids import warm
 from tvimdesign.physics.solids.warm import Softening
@@ -91,20 +91,29 @@ def in_series(
 def behind_pcl(
     pcl_area: Scalar,
     plate_depth: Scalar,
-    plate_outside: heat.Surface,
+    plate_outside: lumps.Surface,
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
-    rotor_beside: heat.Lump,
-    core_and_link: heat.Lump,
+    rotor_beside: tuple[lumps.Lump, ...],
+    core_and_link: lumps.Lump,
+    around_pads: tuple[lumps.Lump, ...],
+    air_gaps: tuple[lumps.Gap, ...],
     link_length: Scalar,
     link_half_width: Scalar,
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> BehindPolymer:
-    """What the PCL heats, as in the stack; and both faces of the link lose heat, which a phase is too short to tell."""
-    faces = heat.Surface(4.0 * link_length * link_half_width, rotor_coefficient, surface_emissivity)
+    """What the PCL heats, as in the stack; and both faces of the link lose heat, which a phase is too short to tell.
+
+    What is beside the plate loses heat through the gap as well, to the floor and from there to the air.
+    """
+    faces = lumps.Surface(4.0 * link_length * link_half_width, rotor_coefficient, surface_emissivity)
+    cooled = list(rotor_beside)
+    for gap in air_gaps:
+        below = around_pads[gap.below].surface
+        cooled[gap.above] = lumps.cooled_through(gap, cooled[gap.above], below, ambient_temperature)
     return BehindPolymer(pcl_area, plate_depth, structure_conductivity, plate_outside, ambient_temperature,
-                         (rotor_beside, core_and_link._replace(surface=faces)))  # fmt: skip
+                         (*cooled, core_and_link._replace(surface=faces)))  # fmt: skip
 
 
 @quantities.helper(per_point=True)

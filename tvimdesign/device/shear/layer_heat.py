@@ -1,4 +1,8 @@
-"""What the heat passes in the shear module: arcs of the rotor plate behind the layer, and the plate beside them."""
+"""What the heat passes in the shear module: arcs of the rotor plate behind the layer; plate and floor beside them.
+
+Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area;
+floor and plate beside it are strips that this heats. Two figures of these strips are calibrated (`lumps`).
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,7 @@ from tvimdesign.device.core.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.heat_flow import lumps
 
 quantities = QuantityGroup(shared.group)
 
@@ -32,9 +36,9 @@ def plate_depth(rotor_thickness: Scalar) -> Scalar:
 
 
 @quantities.helper()
-def plate_outside(pcl_area: Scalar, rotor_coefficient: Scalar, surface_emissivity: Scalar) -> heat.Surface:
+def plate_outside(pcl_area: Scalar, rotor_coefficient: Scalar, surface_emissivity: Scalar) -> lumps.Surface:
     """The rotor plate's upper face above the arcs."""
-    return heat.Surface(pcl_area, rotor_coefficient, surface_emissivity)
+    return lumps.Surface(pcl_area, rotor_coefficient, surface_emissivity)
 
 
 @quantities.helper()
@@ -43,30 +47,131 @@ def plate_mass(rotor_radius: Scalar, rotor_thickness: Scalar, structure_density:
     return np.pi * rotor_radius**2 * rotor_thickness * structure_density
 
 
+@quantities.output("mm")
+def edge_length(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Length of the edges of all arcs together: inner and outer arcs, and their ends."""
+    return arc_count * (2.0 * (pcl_outer_radius - pcl_inner_radius) + arc_span * (pcl_inner_radius + pcl_outer_radius))
+
+
+@quantities.helper()
+def to_edge(pcl_area: Scalar, edge_length: Scalar) -> Scalar:
+    """Length of the edges over the way there from where an arc has its mean temperature [1]."""
+    return edge_length / (pcl_area / edge_length * lumps.TO_EDGE)
+
+
+@quantities.helper()
+def beside_area(rotor_radius: Scalar, pcl_area: Scalar) -> Scalar:
+    """Area of the rotor plate beside the arcs [m^2]; the floor below it is taken to be as large."""
+    return np.pi * rotor_radius**2 - pcl_area
+
+
 @quantities.helper()
 def rotor_beside(
-    rotor_radius: Scalar,
-    pcl_area: Scalar,
-    arc_count: Scalar,
-    arc_span: Scalar,
-    pcl_inner_radius: Scalar,
-    pcl_outer_radius: Scalar,
+    beside_area: Scalar,
+    edge_length: Scalar,
+    to_edge: Scalar,
     rotor_thickness: Scalar,
     structure_conductivity: Scalar,
     structure_density: Scalar,
     structure_specific_heat: Scalar,
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
-) -> heat.Lump:
-    """Rotor plate beside the arcs.
+) -> tuple[lumps.Lump, ...]:
+    """Rotor plate beside the arcs: a strip along their edges."""
+    sheet = structure_conductivity * rotor_thickness
+    first, *others = lumps.strip(
+        beside_area,
+        rotor_thickness * structure_density * structure_specific_heat,
+        sheet * edge_length**2 / beside_area,
+        lumps.Surface(1.0, rotor_coefficient, surface_emissivity),
+    )
+    return (first._replace(conductance=lumps.in_series(sheet * to_edge, first.conductance)), *others)
 
-    A strip heated at its edge: its mean temperature is a third of its width away (Incropera, Fundamentals of Heat and
-    Mass Transfer, ch. 5, quasi-steady).
-    """
-    area = np.pi * rotor_radius**2 - pcl_area
-    edge = arc_count * (2.0 * (pcl_outer_radius - pcl_inner_radius) + arc_span * (pcl_inner_radius + pcl_outer_radius))
-    return heat.Lump(
-        conductance=3.0 * structure_conductivity * rotor_thickness * edge**2 / area,
-        capacity=area * rotor_thickness * structure_density * structure_specific_heat,
-        surface=heat.Surface(area, rotor_coefficient, surface_emissivity),
+
+@quantities.helper()
+def floor_beside(
+    beside_area: Scalar,
+    edge_length: Scalar,
+    floor_thickness: Scalar,
+    structure_conductivity: Scalar,
+    structure_density: Scalar,
+    structure_specific_heat: Scalar,
+    housing_coefficient: Scalar,
+    surface_emissivity: Scalar,
+) -> tuple[lumps.Lump, ...]:
+    """Floor beside the pads: a strip along the walls of their pockets, open to the air below."""
+    return lumps.strip(
+        beside_area,
+        floor_thickness * structure_density * structure_specific_heat,
+        structure_conductivity * floor_thickness * edge_length**2 / beside_area,
+        lumps.Surface(1.0, housing_coefficient, surface_emissivity),
+    )
+
+
+@quantities.helper()
+def pad_edge(
+    pad_edge_contact: Scalar, pad_conductivity: Scalar, peltier_thickness: Scalar, edge_length: Scalar, to_edge: Scalar
+) -> Scalar:
+    """Conductance from one side of the pads to the walls of their pockets [W/K]: along the pads, and into the wall."""
+    half = 0.5 * peltier_thickness
+    return lumps.in_series(pad_conductivity * half * to_edge, pad_edge_contact * half * edge_length)
+
+
+@quantities.helper()
+def around_pads(
+    floor_beside: tuple[lumps.Lump, ...],
+    pad_edge: Scalar,
+    housing_inner_radius: Scalar,
+    housing_outer_radius: Scalar,
+    rotor_radius: Scalar,
+    rim_level: Scalar,
+    foot_height: Scalar,
+    floor_thickness: Scalar,
+    housing_mass: Scalar,
+    structure_conductivity: Scalar,
+    structure_specific_heat: Scalar,
+    housing_coefficient: Scalar,
+    surface_emissivity: Scalar,
+) -> tuple[lumps.Lump, ...]:
+    """What the pads are set in: the floor beside them, from the walls of their pockets on; the rest of the housing."""
+    first, *others = floor_beside
+    ring = np.log(housing_inner_radius / rotor_radius) / (2.0 * np.pi * structure_conductivity * floor_thickness)
+    outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
+    outside = outside + np.pi * (housing_outer_radius**2 - rotor_radius**2)
+    rest = lumps.Lump(
+        conductance=1.0 / ring,
+        capacity=housing_mass * structure_specific_heat - sum(lump.capacity for lump in floor_beside),
+        surface=lumps.Surface(outside, housing_coefficient, surface_emissivity),
+    )
+    return (first._replace(conductance=lumps.in_series(pad_edge, first.conductance)), *others, rest)
+
+
+@quantities.helper()
+def free_sides(
+    air_conductivity: Scalar,
+    window_ledge: Scalar,
+    edge_length: Scalar,
+    to_edge: Scalar,
+    pcl_conductivity_melt: Scalar,
+    pcl_thickness: Scalar,
+) -> Scalar:
+    """Conductance from the layer through its rim to the floor beside it [W/K], through air of a ledge's width."""
+    return lumps.in_series(
+        pcl_conductivity_melt * pcl_thickness * to_edge, air_conductivity * pcl_thickness * edge_length / window_ledge
+    )
+
+
+@quantities.helper()
+def upper_sides() -> None:
+    """Sides of the layer that face the rotor beside the plate: none, the layer's free sides face the floor's ledge."""
+
+
+@quantities.helper()
+def air_gaps(
+    beside_area: Scalar, pcl_thickness: Scalar, air_conductivity: Scalar, surface_emissivity: Scalar
+) -> tuple[lumps.Gap, ...]:
+    """Air between floor and plate beside the arcs, as thick as the layer."""
+    return tuple(
+        lumps.air_gap(share * beside_area, pcl_thickness, air_conductivity, surface_emissivity, (place, place))
+        for place, share in enumerate(lumps.STRIP)
     )

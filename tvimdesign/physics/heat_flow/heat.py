@@ -1,18 +1,19 @@
 """Transient heat through the stack: air or sink | Peltier cold side | hot side | polymer | plate | air.
 
-One dimension through the stack, finite volumes; what the plate is part of takes up heat sideways, as a chain of lumps.
+One dimension through the stack, finite volumes. What the plate is part of takes up heat sideways, as a chain of lumps;
+so does what the pads are set in, from the edges of pads and layer. Gaps of air join the two chains (`lumps`).
 The polymer's states are enthalpies, not temperatures with an apparent heat capacity, so the latent heat is never
 stepped over (Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709). Between polymer cells flows the difference
 of their conduction potentials (`conduction`); other faces carry the two half-cell resistances in series (Patankar,
-Numerical Heat Transfer and Fluid Flow, 1980, sec. 4.2). Surfaces lose heat
-by convection and grey radiation to surroundings at ambient temperature (Incropera, ch. 1).
+Numerical Heat Transfer and Fluid Flow, 1980, sec. 4.2).
 
 What is frozen follows the equilibrium melting curve, which is right for melting; with `Stack.freezing` each cell
 carries its own history instead, and freezes late and supercooled.
 
 A state is a one-dimensional array: cold side, hot side, polymer cells from the hot side on, plate cells, the lumps
-beside the plate, the sink if there is one, and with kinetics one extended fraction for each polymer cell. Temperatures
-stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the order of one.
+beside the plate, the sink if there is one, the lumps around the pads, and with kinetics one extended fraction for each
+polymer cell. Temperatures stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the
+order of one.
 """
 
 from __future__ import annotations
@@ -22,47 +23,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow import conduction, peltier
+from tvimdesign.physics.heat_flow import conduction, lumps, peltier
+from tvimdesign.physics.heat_flow.lumps import Gap, Lump, Surface
 from tvimdesign.physics.polymers import crystallization, polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 
 TEMPERATURE_SCALE = 100.0  # K
 ENTHALPY_SCALE = 1e5  # J/kg
-STEFAN_BOLTZMANN = 5.670374419e-8  # W/(m^2 K^4), CODATA
-
-
-class Surface(NamedTuple):
-    """A surface that loses heat to ambient."""
-
-    area: Any
-    """[m^2]"""
-    coefficient: Any
-    """Convection [W/m^2 K]."""
-    emissivity: Any = 0.0
-
-
-NOWHERE = Surface(0.0, 0.0)
-
-
-def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
-    """Convection and radiation together [W/m^2 K]: h + e s (T^2 + T_a^2)(T + T_a)."""
-    radiation = surface.emissivity * STEFAN_BOLTZMANN * (temperature**2 + ambient**2) * (temperature + ambient)
-    return surface.coefficient + radiation
-
-
-def surface_heat(surface: Surface, temperature: Any, ambient: Any) -> Any:
-    """Heat lost by a surface [W]."""
-    return surface.area * surface_coefficient(surface, temperature, ambient) * (temperature - ambient)
-
-
-class Lump(NamedTuple):
-    """A body at one temperature."""
-
-    conductance: Any
-    """To the plate, to the lump before it in the chain, or of a sink to the cold side [W/K]."""
-    capacity: Any
-    """[J/K]"""
-    surface: Surface
 
 
 class Stack(NamedTuple):
@@ -98,6 +65,16 @@ class Stack(NamedTuple):
     """What the plate belongs to: the first takes heat from all the plate's cells, each next from the one before."""
     sink: Lump | None = None
     """A body between the cold side and the air."""
+    around: tuple[Lump, ...] = ()
+    """What the pads are set in: the first takes heat from the edges of both their sides, each by its conductance."""
+    free_sides: Any = 0.0
+    """Conductance of the polymer's free sides to the first lump around the pads [W/K]."""
+    upper_sides: Any = None
+    """Conductance of the polymer's free sides to the first lump beside the plate [W/K], where some face it."""
+    gaps: tuple[Gap, ...] = ()
+    """Air between lumps beside the plate and lumps around the pads."""
+    motion_heat: Any = 0.0
+    """Heat that the joint's motion makes in each polymer cell [W]."""
     freezing: crystallization.Kinetics | None = None
     """Kinetics of freezing; without them the equilibrium melting curve holds."""
 
@@ -119,6 +96,8 @@ class Profile(NamedTuple):
     """Lumps beside the plate."""
     sink: Any
     """The sink, if there is one."""
+    around: Any
+    """Lumps around the pads."""
     fractions: Any
     through_layer: Any
     """Heat [W] into the first polymer cell, between the cells, and out of the last."""
@@ -135,21 +114,21 @@ class _Parts(NamedTuple):
     plate: Any
     beside: Any
     sink: Any
+    around: Any
     extended: Any
 
 
-def _others(stack: Stack) -> int:
-    """Count of entries after the polymer's."""
-    return stack.plate_cells + len(stack.beside) + int(stack.sink is not None)
+def _lengths(stack: Stack) -> tuple[int, ...]:
+    """Counts of entries after the polymer's: plate, beside it, sink, around the pads."""
+    return stack.plate_cells, len(stack.beside), int(stack.sink is not None), len(stack.around)
 
 
 def _parts(state: Any, stack: Stack) -> _Parts:
-    cells = len(state) - 2 - _others(stack)
+    cells = len(state) - 2 - sum(_lengths(stack))
     cells = cells // 2 if stack.freezing else cells
-    lengths = (2, cells, stack.plate_cells, len(stack.beside), int(stack.sink is not None))
-    ends = list(itertools.accumulate(lengths))
-    layer, plate, beside, sink = (state[a:b] for a, b in itertools.pairwise(ends))
-    return _Parts(state[0], state[1], layer, plate, beside, sink, state[ends[-1] :])
+    ends = list(itertools.accumulate((2, cells, *_lengths(stack))))
+    layer, plate, beside, sink, around = (state[a:b] for a, b in itertools.pairwise(ends))
+    return _Parts(state[0], state[1], layer, plate, beside, sink, around, state[ends[-1] :])
 
 
 def initial_state(stack: Stack, cells: int, temperature: Any) -> Any:
@@ -157,7 +136,7 @@ def initial_state(stack: Stack, cells: int, temperature: Any) -> Any:
     scaled = (temperature - ZERO_CELSIUS) / TEMPERATURE_SCALE
     enthalpy = polymer.enthalpy(temperature, stack.melting) / ENTHALPY_SCALE
     layer = np.append(scaled * np.ones(2), enthalpy * np.ones(cells))
-    state = np.append(layer, scaled * np.ones(_others(stack)))
+    state = np.append(layer, scaled * np.ones(sum(_lengths(stack))))
     return with_history(state, stack) if stack.freezing else state
 
 
@@ -196,7 +175,7 @@ def profile(state: Any, stack: Stack) -> Profile:
     across = (cells[-1] - plate[0]) / (far_half + 1.0 / (stack.plate_contact * stack.area) + plate_half)
     within = -np.diff(plate) / (2.0 * plate_half)
     # Radiation at the temperature of the outermost cell: in a thin plate that is nearly the surface's.
-    outside = surface_coefficient(stack.plate_surface, plate[-1], stack.ambient) * stack.area
+    outside = lumps.surface_coefficient(stack.plate_surface, plate[-1], stack.ambient) * stack.area
     outflow = (plate[-1] - stack.ambient) / (plate_half + 1.0 / outside)
     return Profile(
         cold=_kelvin(parts.cold),
@@ -208,6 +187,7 @@ def profile(state: Any, stack: Stack) -> Profile:
         plate=plate,
         beside=_kelvin(parts.beside),
         sink=_kelvin(parts.sink),
+        around=_kelvin(parts.around),
         fractions=fractions,
         through_layer=np.append(np.append(inflow, inside), across),
         through_plate=np.append(np.append(across, within), outflow),
@@ -248,13 +228,20 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
     hot_heat = peltier.hot_side_heat(stack.peltier, current, now.hot, now.cold)
     cold_heat = peltier.cold_side_heat(stack.peltier, current, now.hot, now.cold)
     from_cold, sink = _cold_end(now, stack)
+    edges, free_sides = _edges(now, stack)
+    upper_sides = _upper_sides(now, stack)
     sides = np.append(
-        -(cold_heat + from_cold) / stack.cold_capacity, (hot_heat - now.through_layer[0]) / stack.hot_capacity
+        -(cold_heat + from_cold + edges[0]) / stack.cold_capacity,
+        (hot_heat - now.through_layer[0] - edges[1]) / stack.hot_capacity,
     )
-    layer = -np.diff(now.through_layer) / _cell_mass(stack, len(now.cells))
-    sideways, beside = _beside(now, stack)
+    layer = (stack.motion_heat - np.diff(now.through_layer) - free_sides - upper_sides) / _cell_mass(
+        stack, len(now.cells)
+    )
+    sideways = _sideways(now, stack)
     plate = (-np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
-    bodies = np.append(np.append(plate, beside), sink) / TEMPERATURE_SCALE
+    to_around = edges[0] + edges[1] + np.sum(free_sides)
+    beside, around = _chains(now, stack, np.sum(sideways) + np.sum(upper_sides), to_around)
+    bodies = np.append(np.append(np.append(plate, beside), sink), around) / TEMPERATURE_SCALE
     heated = np.append(np.append(sides / TEMPERATURE_SCALE, layer / ENTHALPY_SCALE), bodies)
     if stack.freezing is None:
         return heated
@@ -275,26 +262,45 @@ def _plate_cell_capacity(stack: Stack) -> Any:
 def _cold_end(now: Profile, stack: Stack) -> tuple[Any, Any]:
     """Heat [W] that leaves the cold side, and the heating [K/s] of the sink it goes to, if there is one."""
     if stack.sink is None:
-        return surface_heat(stack.cold_surface, now.cold, stack.ambient), now.sink
+        return lumps.surface_heat(stack.cold_surface, now.cold, stack.ambient), now.sink
     flow = stack.sink.conductance * (now.cold - now.sink[0])
-    rest = flow - surface_heat(stack.sink.surface, now.sink[0], stack.ambient)
+    rest = flow - lumps.surface_heat(stack.sink.surface, now.sink[0], stack.ambient)
     return flow, rest / stack.sink.capacity
 
 
-def _beside(now: Profile, stack: Stack) -> tuple[Any, Any]:
-    """Heat [W] each plate cell gives sideways, and the heating [K/s] of the lumps beside the plate."""
+def _edges(now: Profile, stack: Stack) -> tuple[tuple[Any, Any], Any]:
+    """Heat [W] at the edges of the cold and the hot side, and at the free side of each polymer cell."""
+    if not stack.around:
+        return (0.0, 0.0), 0.0
+    place, conductance = now.around[0], stack.around[0].conductance
+    each = stack.free_sides / len(now.cells)
+    return (conductance * (now.cold - place), conductance * (now.hot - place)), each * (now.cells - place)
+
+
+def _upper_sides(now: Profile, stack: Stack) -> Any:
+    """Heat [W] each polymer cell gives to the first lump beside the plate through its free side."""
+    if stack.upper_sides is None:
+        return 0.0
+    return stack.upper_sides / len(now.cells) * (now.cells - now.beside[0])
+
+
+def _sideways(now: Profile, stack: Stack) -> Any:
+    """Heat [W] each plate cell gives to the first lump beside the plate."""
     if not stack.beside:
-        return 0.0, now.beside
-    sideways = stack.beside[0].conductance / stack.plate_cells * (now.plate - now.beside[0])
-    inflow, heating = np.sum(sideways), now.beside[:0]
-    for i, lump in enumerate(stack.beside):
-        onward = 0.0
-        if i + 1 < len(stack.beside):
-            onward = stack.beside[i + 1].conductance * (now.beside[i] - now.beside[i + 1])
-        lost = surface_heat(lump.surface, now.beside[i], stack.ambient)
-        heating = np.append(heating, (inflow - onward - lost) / lump.capacity)
-        inflow = onward
-    return sideways, heating
+        return 0.0
+    return stack.beside[0].conductance / stack.plate_cells * (now.plate - now.beside[0])
+
+
+def _chains(now: Profile, stack: Stack, to_beside: Any, to_around: Any) -> tuple[Any, Any]:
+    """Heating [K/s] of the lumps beside the plate and around the pads, from the heat that comes into each chain [W]."""
+    upper = lumps.kept(stack.beside, now.beside, to_beside, stack.ambient)
+    lower = lumps.kept(stack.around, now.around, to_around, stack.ambient)
+    for gap in stack.gaps:
+        heat = lumps.gap_heat(gap, now.beside[gap.above], now.around[gap.below])
+        upper[gap.above] = upper[gap.above] - heat
+        lower[gap.below] = lower[gap.below] + heat
+    beside = lumps.heating(stack.beside, upper, now.beside[:0])
+    return beside, lumps.heating(stack.around, lower, now.around[:0])
 
 
 def electrical_power(now: Profile, stack: Stack, current: Any) -> Any:
@@ -305,9 +311,9 @@ def electrical_power(now: Profile, stack: Stack, current: Any) -> Any:
 def stored_energy(state: Any, stack: Stack) -> Any:
     """Heat stored in the stack [J], zero with everything at 0 degC and the polymer frozen."""
     parts = _parts(state, stack)
-    bodies = (*stack.beside, stack.sink) if stack.sink else stack.beside
-    lumps = zip(bodies, [*parts.beside, *parts.sink], strict=True)
-    heated = sum(lump.capacity * scaled for lump, scaled in lumps)
+    bodies = (*stack.beside, *((stack.sink,) if stack.sink else ()), *stack.around)
+    temperatures = [*parts.beside, *parts.sink, *parts.around]
+    heated = sum(lump.capacity * scaled for lump, scaled in zip(bodies, temperatures, strict=True))
     heated += stack.cold_capacity * parts.cold + stack.hot_capacity * parts.hot
     heated += _plate_cell_capacity(stack) * np.sum(parts.plate)
     layer = _cell_mass(stack, len(parts.layer)) * np.sum(parts.layer)

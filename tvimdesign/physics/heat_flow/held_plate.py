@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow.heat import Lump, Surface, surface_coefficient
+from tvimdesign.physics.heat_flow.lumps import Lump, Surface, surface_coefficient
 
 SLICES = (0.125, 0.375, 0.625, 0.875)
 """Where the plate's temperatures are taken, as shares of its depth: the middles of four slices."""

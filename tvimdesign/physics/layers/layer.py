@@ -37,6 +37,28 @@ def series_stiffness(stiffness: Any, loss_stiffness: Any, support: Any, support_
     )
 
 
+def loss_stiffness(damping: Any, frequency: Any) -> Any:
+    """Loss stiffness [N*m/rad] of a damping [N*m*s/rad] at a frequency [Hz], K'' = 2 pi f b."""
+    return 2.0 * np.pi * frequency * damping
+
+
+def dissipation(layer: tuple[Any, Any], branch: tuple[Any, Any], amplitude: Any, frequency: Any) -> Any:
+    """Mean heat [W] in a layer behind a support, turned as a sine by an amplitude [rad] at a frequency [Hz].
+
+    pi f phi^2 |K|^2 K_l''/|K_l|^2 with K_l of the layer and K of layer and support in series, real and imaginary parts
+    [N*m/rad]: the work of a period, pi M^2 J'' of the torque M and the layer's compliance J'' (Ferry, ch. 1).
+    """
+    square = layer[0] ** 2 + layer[1] ** 2
+    torque_square = (branch[0] ** 2 + branch[1] ** 2) * amplitude**2
+    return np.pi * frequency * torque_square * layer[1] / square
+
+
+def loss_shares(storage: Any, loss: Any) -> Any:
+    """Shares of a layer's dissipation that its slices have [1], from their moduli [Pa]: as their loss compliances."""
+    compliance = loss / (storage**2 + loss**2)
+    return compliance / np.sum(compliance)
+
+
 def shear_strain(radius: Any, angle: Any, thickness: Any) -> Any:
     """Strain at a radius, gamma = r theta/t [1]."""
     return radius * angle / thickness

@@ -38,8 +38,11 @@ def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory,
     frozen = np.mean(np.asarray(compiled.fractions.map(len(times))(states, currents, columns)), axis=0)
     depth = [f"cell_{i + 1}" for i in range(model.cells)]
     plate = [f"rotor_{i + 1}" for i in range(int(inputs[model.index["rotor_cells"]]))]
-    names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate, "rotor_rest", "core_and_link"]
-    names += ["sink"] * (len(temperatures) - len(names))
+    names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate]
+    beside, around = compiled.bodies
+    names += [*(f"rotor_beside_{i + 1}" for i in range(beside - 1)), "core_and_link"]
+    names += ["sink"] * (len(temperatures) - len(names) - around)
+    names += [*(f"beside_pads_{i + 1}" for i in range(around - 1)), "housing"]
     history = dict(zip(names, temperatures.tolist(), strict=True))
     shown = np.asarray(compiled.watch(list(SHOWN.values())).map(len(times))(states, currents, columns))
     drawn = dict(zip(SHOWN, shown, strict=True))

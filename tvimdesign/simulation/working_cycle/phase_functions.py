@@ -41,6 +41,11 @@ class PhaseFunctions:
         stack: heat.Stack = self.table.evaluate_instant(self._known, ["stack_now"])["stack_now"]
         return stack
 
+    @property
+    def bodies(self) -> tuple[int, int]:
+        """Count of bodies beside the plate, core and link last, and of those around the pads, the housing last."""
+        return len(self._stack.beside), len(self._stack.around)
+
     @cached_property
     def _instant(self) -> dict[str, Any]:
         state = ca.SX.sym("state", self.state_size)
@@ -85,9 +90,9 @@ class PhaseFunctions:
 
     @cached_property
     def temperatures(self) -> Any:
-        """The function -> temperatures [K]: cold, hot, near face, cells, far face, plate, beside, sink."""
+        """The function -> temperatures [K]: cold, hot, near face, cells, far face, plate, beside, sink, around."""
         seen = self._instant["stack_profile"]
-        ends = [seen.plate, seen.beside, seen.sink]
+        ends = [seen.plate, seen.beside, seen.sink, seen.around]
         return self._function("temperatures", [seen.cold, seen.hot, seen.near, seen.cells, seen.far, *ends])
 
     @cached_property

@@ -1,0 +1,133 @@
+"""Bodies at one temperature each around the stack, what they give to one another, and surfaces that meet the air.
+
+Surfaces lose heat by convection and grey radiation to surroundings at ambient temperature (Incropera, Fundamentals of
+Heat and Mass Transfer, ch. 1). Two faces with a gap between them exchange it by conduction in the still air of the gap
+and by radiation between parallel grey plates (ch. 13).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+STEFAN_BOLTZMANN = 5.670374419e-8  # W/(m^2 K^4), CODATA
+STRIP = (0.05, 0.22, 0.73)
+"""Widths of the three bodies a strip that is heated at its edge is divided into, from that edge on, as shares.
+
+Each is several times as wide as the one before, so that the first seconds are seen as well as the rest. Calibrated,
+with `TO_EDGE`, to a strip in two dimensions (`validation/heat_sector`).
+"""
+TO_EDGE = 0.22
+"""Way from where a heated strip has its mean temperature to its edge, as a share of its half width; calibrated.
+
+A strip that loses heat at its edge has its mean a third of its half width away once its profile is a parabola; before
+that the loss comes from nearer to the edge.
+"""
+
+
+class Surface(NamedTuple):
+    """A surface that loses heat to ambient."""
+
+    area: Any
+    """[m^2]"""
+    coefficient: Any
+    """Convection [W/m^2 K]."""
+    emissivity: Any = 0.0
+
+
+NOWHERE = Surface(0.0, 0.0)
+
+
+class Lump(NamedTuple):
+    """A body at one temperature."""
+
+    conductance: Any
+    """To what comes before it: plate, one side of the pads, the lump before it in a chain, a sink's cold side [W/K]."""
+    capacity: Any
+    """[J/K]"""
+    surface: Surface
+
+
+class Gap(NamedTuple):
+    """Still air between two lumps."""
+
+    conductance: Any
+    """Through the air [W/K]."""
+    radiating_area: Any
+    """Area times exchange factor 1/(1/e + 1/e - 1) [m^2]."""
+    above: int
+    """Place in the chain beside the plate of what is above it, in the chain around the pads of what is below."""
+    below: int
+
+
+def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
+    """Convection and radiation together [W/m^2 K]: h + e s (T^2 + T_a^2)(T + T_a)."""
+    radiation = surface.emissivity * STEFAN_BOLTZMANN * (temperature**2 + ambient**2) * (temperature + ambient)
+    return surface.coefficient + radiation
+
+
+def surface_heat(surface: Surface, temperature: Any, ambient: Any) -> Any:
+    """Heat lost by a surface [W]."""
+    return surface.area * surface_coefficient(surface, temperature, ambient) * (temperature - ambient)
+
+
+def air_gap(area: Any, width: Any, air_conductivity: Any, emissivity: Any, places: tuple[int, int]) -> Gap:
+    """Gap of an area [m^2] and a width [m] between faces of one emissivity; its air does not move.
+
+    `places` are those of the bodies above and below it in their chains.
+    """
+    return Gap(air_conductivity * area / width, area * emissivity / (2.0 - emissivity), *places)
+
+
+def gap_heat(gap: Gap, warm: Any, cool: Any) -> Any:
+    """Heat [W] across a gap, k A/d (T_1 - T_2) + A_r s (T_1^4 - T_2^4), temperatures in kelvin."""
+    radiation = gap.radiating_area * STEFAN_BOLTZMANN * (warm**2 + cool**2) * (warm + cool)
+    return (gap.conductance + radiation) * (warm - cool)
+
+
+def cooled_through(gap: Gap, lump: Lump, below: Surface, ambient: Any) -> Lump:
+    """A lump that also loses heat to ambient across a gap and then by the `below` surface, near ambient temperature."""
+    across = gap.conductance + gap.radiating_area * 4.0 * STEFAN_BOLTZMANN * ambient**3
+    more = in_series(across, below.area * surface_coefficient(below, ambient, ambient)) / lump.surface.area
+    return lump._replace(surface=lump.surface._replace(coefficient=lump.surface.coefficient + more))
+
+
+def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple[Lump, ...]:
+    """A strip heated along its edge, in three bodies in a row from the edge on.
+
+    Its area [m^2], its heat capacity per area [J/m^2 K], k t L/w [W/K], which conducts across its whole width, and
+    what it loses to the air, for an area of one. The first body's conductance is from the edge itself.
+    """
+    lumps, before = [], 0.0
+    for share in STRIP:
+        own = surface._replace(area=share * area * surface.area)
+        lumps.append(Lump(2.0 * across / (before + share), share * area * heat_capacity, own))
+        before = share
+    return tuple(lumps)
+
+
+def in_series(*conductances: Any) -> Any:
+    """Conductance [W/K] of what heat passes one after the other."""
+    return 1.0 / sum(1.0 / conductance for conductance in conductances)
+
+
+def kept(lumps: Sequence[Lump], temperatures: Any, inflow: Any, ambient: Any) -> list[Any]:
+    """Heat [W] each lump of a chain keeps when `inflow` [W] comes into the first, less what surfaces lose."""
+    left = []
+    for i, lump in enumerate(lumps):
+        onward: Any = 0.0
+        if i + 1 < len(lumps):
+            onward = lumps[i + 1].conductance * (temperatures[i] - temperatures[i + 1])
+        left.append(inflow - onward - surface_heat(lump.surface, temperatures[i], ambient))
+        inflow = onward
+    return left
+
+
+def heating(lumps: Sequence[Lump], watts: Sequence[Any], empty: Any) -> Any:
+    """Rate [K/s] at which each lump's temperature rises; `empty` is an array of none."""
+    rates = empty
+    for lump, heat in zip(lumps, watts, strict=True):
+        rates = np.append(rates, heat / lump.capacity)
+    return rates
