@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from test_derivatives import differences, event_gradient
+from event_derivatives import differences, event_gradient
 
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.casadi_setup import ca

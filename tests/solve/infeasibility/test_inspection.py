@@ -90,6 +90,35 @@ solver: {starts: 1}
     assert {name for names in conditioning.objectives for name in names} == {"placement_radius", "wall_thickness"}
 
 
+def test_what_limits_see_of_the_free_numbers_is_that_of_differences_of_the_table() -> None:
+    """Over the whole of the ranges, in logarithms, every row scaled to one; rows nothing changes are left out."""
+    text = """
+mode: shear
+vary: {wire_diameter: [2 mm, 3 mm], coil_diameter: [20 mm, 26 mm]}
+require: {spring_stiffness: ">= 2 N.m/rad", springs_mass: "<= 100 g"}
+minimize: springs_mass
+solver: {starts: 1}
+"""
+    optimizer = Optimizer(_study(text))
+    model = optimizer.model
+    outputs = [*(limit.output for limit in optimizer.problem.limits), "springs_mass"]
+    scales = np.array([*(limit.scale for limit in optimizer.problem.limits), 1.0])
+    never = dict.fromkeys(model.switch_names, np.inf)
+    columns = []
+    for free in optimizer.free:
+        place, step = model.index[free.name], 1e-5
+        ends = [model.start.copy(), model.start.copy()]
+        ends[0][place], ends[1][place] = (model.start[place] * np.exp(sign * step) for sign in (1.0, -1.0))
+        above, below = (model.some_values(outputs, end, never) for end in ends)
+        slopes = [(above[name] - below[name]) / (2.0 * step) for name in outputs]
+        columns.append(np.array(slopes) / scales * np.log(free.upper / free.lower))
+    matrix = np.column_stack(columns)
+    sizes = np.linalg.norm(matrix, axis=1)
+    seen = sizes > 1e-9
+    expected = np.linalg.cond(matrix[seen] / sizes[seen, None])
+    assert Inspection(optimizer).conditioning().decisions == pytest.approx(expected, rel=1e-4)
+
+
 def test_a_limit_that_nothing_varied_changes_is_told(inspection: Inspection) -> None:
     structure = inspection.structure()
     assert structure.unchangeable == ("pcl_area >= 100 mm²",)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from test_derivatives import event_gradient
+from event_derivatives import event_gradient
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.paper import paper_case

@@ -1,0 +1,56 @@
+"""Derivatives that tests hold against exact ones: by differences, and of an event's time by the implicit function."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
+from tvimdesign.solve.nlp.transcription import guess, phase_block
+
+Array = NDArray[np.float64]
+ELEMENTS = 128
+
+
+def differences(function: Any, at: Array, which: list[int], share: float) -> Array:
+    """Jacobian by a central stencil of fourth order; the step is a share of the value."""
+    columns = []
+    for i in which:
+        step = share * (abs(at[i]) or 1.0)
+        shifted = []
+        for times in (-2, -1, 1, 2):
+            point = at.copy()
+            point[i] += times * step
+            shifted.append(np.asarray(function(point)).ravel())
+        far_below, below, above, far_above = shifted
+        columns.append((far_below - 8.0 * below + 8.0 * above - far_above) / (12.0 * step))
+    return np.column_stack(columns)
+
+
+def event_gradient(model: DeviceFunctions, cycle: Cycle, event: str) -> tuple[float, Array]:
+    """Time of an event by collocation, and its derivative by every input from the implicit function theorem."""
+    inputs = ca.MX.sym("inputs", len(model.names))
+    phase = model.phases["softening"]
+    current = inputs[model.index["current"]]
+    block = phase_block(phase, event, ELEMENTS, inputs, phase.initial(inputs), current)
+    unknowns = ca.vertcat(ca.vec(block.states), block.log_time)
+    system = ca.Function("system", [unknowns, inputs], [block.equations])
+    solve = ca.rootfinder("solve", "newton", system, {"abstol": 1e-11, "max_iter": 50})
+    time = cycle.values[event]
+    scaled = guess(cycle.trajectory, ELEMENTS) if event == "response_time" else _until(cycle, time)
+    begin = np.append(scaled.ravel(order="F"), np.log(time))
+    gradient = ca.Function("gradient", [inputs], [ca.jacobian(solve(begin, inputs)[-1], inputs)])
+    found = float(np.asarray(solve(begin, model.start))[-1, 0])
+    return float(np.exp(found)), np.exp(found) * np.asarray(ca.DM(gradient(model.start)).full()).ravel()
+
+
+def _until(cycle: Cycle, time: float) -> Array:
+    """Guess of the states at the collocation points of a switch that ends at another time than the simulated one."""
+    trajectory = cycle.trajectory
+    times = np.linspace(0.0, time, 400)
+    states = np.array([np.interp(times, trajectory.times, row) for row in trajectory.states])
+    return guess(type(trajectory)(times=times, states=states, currents=np.zeros(400)), ELEMENTS)
