@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import subprocess
 import sys
@@ -15,6 +16,8 @@ pytest_plugins = ["shear_designs"]
 
 # What the benchmarks have written for numba is tested as plain Python: compiling it takes longer than all else.
 os.environ["NUMBA_DISABLE_JIT"] = "1"
+# As the command line does: tests make many objects and keep most, and looking for garbage among them takes its time.
+gc.set_threshold(200_000, 20, 20)
 
 LONGEST = (
     "tests/cad/test_random_designs.py",

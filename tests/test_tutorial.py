@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import ast
 import json
-import os
 from collections.abc import Iterator
+from contextlib import chdir, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -34,19 +34,32 @@ def executed(cells: list[dict[str, Any]], names: dict[str, Any]) -> Iterator[Any
         yield shown("".join(cell["source"]), names)
 
 
-@pytest.fixture(scope="module")
-def outputs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[Any]]:
-    before = Path.cwd()
-    os.chdir(tmp_path_factory.mktemp("tutorial"))
+@contextmanager
+def notebook(folder: Path, cells: list[dict[str, Any]]) -> Iterator[list[Any]]:
+    """What cells show that are executed in a folder, then the names they leave, and the folder."""
     mpl.use("Agg")
     names: dict[str, Any] = {}
-    try:
-        found = list(executed([cell for cell in CODE if "slow" not in cell["metadata"].get("tags", ())], names))
-        yield [*found, names, Path.cwd()]
-    finally:
-        os.chdir(before)
+    with chdir(folder):
+        yield [*executed(cells, names), names, folder]
 
 
+@pytest.fixture(scope="module")
+def outputs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[Any]]:
+    cells = [cell for cell in CODE if "slow" not in cell["metadata"].get("tags", ())]
+    with notebook(tmp_path_factory.mktemp("tutorial"), cells) as found:
+        yield found
+
+
+def test_its_cells_up_to_the_first_figure_show_a_study_and_its_optimum(tmp_path: Path) -> None:
+    first = next(i for i, cell in enumerate(CODE) if ".plot(" in "".join(cell["source"]))
+    with notebook(tmp_path, CODE[: first + 1]) as found:
+        kinds = [type(output) for output in found]
+        assert [kinds.count(kind) for kind in (tvim.Study, tvim.Result, pd.DataFrame, Figure)] == [1, 1, 3, 1]
+        assert found[-2]["result"].status == "optimal"
+        assert found[-2]["result"]["module_mass"].value < found[-2]["drawn"]["module_mass"].value
+
+
+@pytest.mark.slow
 def test_it_shows_a_study_results_tables_and_figures(outputs: list[Any]) -> None:
     kinds = [type(output) for output in outputs]
     assert kinds.count(tvim.Study) == 1
@@ -61,6 +74,7 @@ def test_it_shows_a_study_results_tables_and_figures(outputs: list[Any]) -> None
             assert any(line.get_xydata().size > 6 for axes in output.axes for line in axes.lines)
 
 
+@pytest.mark.slow
 def test_its_numbers_are_those_of_an_optimum(outputs: list[Any]) -> None:
     names = outputs[-2]
     assert names["result"].status == "optimal"
@@ -70,6 +84,7 @@ def test_its_numbers_are_those_of_an_optimum(outputs: list[Any]) -> None:
     assert swept["response_time"].is_monotonic_increasing
 
 
+@pytest.mark.slow
 def test_it_saves_what_a_run_writes(outputs: list[Any]) -> None:
     folder = outputs[-1] / "tutorial_results"
     assert {"manifest.json", "results.json", "design.json", "study.yaml", "plots"} <= {p.name for p in folder.iterdir()}

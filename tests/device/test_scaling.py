@@ -19,7 +19,7 @@ POWERS = {
 # Gravity does not grow with it: heads do, and melt runs the sooner.
 SWINGS = {
     "damping_ratio": -1, "critical_damping": 4, "edge_fracture_angle": -0.5,
-    "melt_head": 1, "melt_loss": 1, "layer_drawing_time": -1,
+    "melt_head": 1, "melt_loss": 1, "melt_creep": 2, "layer_drawing_time": -1,
 }  # fmt: skip
 # Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, or lengths that are sold; and
 # temperatures of parts that lose heat.

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
+from numpy.typing import NDArray
 
-from tvimdesign.report.figures.theme.canvas import png, sign
+from tvimdesign.report.figures.theme.canvas import sign
 
 NAME = "A study's name"
 LABEL = re.compile(r"^[A-Z][^_]* \((?:[^()]+|\(.*\))\)$", re.DOTALL)
@@ -17,9 +18,9 @@ LABEL = re.compile(r"^[A-Z][^_]* \((?:[^()]+|\(.*\))\)$", re.DOTALL)
 
 
 def signed(figure: Figure) -> Figure:
-    """The figure as the process that draws finishes it."""
+    """The figure as the process that draws finishes it, laid out; its pixels have tests of their own."""
     sign(figure, NAME)
-    png(figure)
+    figure.draw_without_rendering()
     return figure
 
 
@@ -84,8 +85,11 @@ def _crosses(box: Bbox, line: Any) -> bool:
     if len(points) > 1:
         steps = np.linspace(0.0, 1.0, 20)[:, None, None]
         points = (points[:-1] + steps * np.diff(points, axis=0)).reshape(-1, 2)
-    drawn = line.axes.bbox
-    return any(box.contains(x, y) and drawn.contains(x, y) for x, y in points)
+    return bool(np.any(_inside(box, points) & _inside(line.axes.bbox, points)))
+
+
+def _inside(box: Bbox, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    return np.all((points >= box.min) & (points <= box.max), axis=1)
 
 
 def _area(one: Bbox, other: Bbox | None) -> float:

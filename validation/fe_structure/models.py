@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tvimdesign.device import table_for
+from tvimdesign.physics.solids import structure
 from tvimdesign.study import given, read_study
 
 ROOT = Path(__file__).resolve().parents[2]
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}
 """Idealisations that the drawn parts do not have."""
-PARTS = {"core": "core_stiffness", "plate": "plate_stiffness", "housing": "floor_stiffness"}
 
 
 class Row(NamedTuple):
@@ -43,26 +42,35 @@ def design_rows(study: str, values: dict[str, float]) -> list[Row]:
     return [Row(study, name, "SI", values[name]) for name in sorted(read_study(ROOT / f"studies/{study}.yaml").vary)]
 
 
+def fe_values(found: dict[str, float]) -> dict[str, float]:
+    """What FE finds, by the names of the model: vanes with what they stand on, the core where its stress is highest."""
+    values = {name: found[name] for name in ("hub", "core", "plate", "housing", "spring_rate") if name in found}
+    if "rotor_vanes" in found:
+        values["rotor_vanes_and_plate"] = structure.series(found["rotor_vanes"], values.pop("plate"))
+        values["housing_vanes_and_floor"] = structure.series(found["housing_vanes"], values.pop("housing"))
+    values["core_stress"] = max(found["core_mises"], found["foot_highest"])
+    return values
+
+
 def model_values(study: str, varied: dict[str, float]) -> dict[str, tuple[str, float]]:
     """Unit and value by the model, of a study with the values (SI) of what it varies."""
     read = read_study(ROOT / f"studies/{study}.yaml")
     inputs: dict[str, Any] = {**given(read), **DRAWN, **varied}
-    shear = read.mode == "shear"
-    names = ["spring_rate", "structure_stiffness", "elastic_support", "pcl_stiffness@cold", "core_holding_torque",
-             "structure_layer_strength", "holding_safety", *PARTS.values()]  # fmt: skip
-    names += [] if shear else ["rotor_vane_stiffness", "housing_vane_stiffness", "volume_stiffness"]
-    found = {**inputs, **table_for(read.mode).evaluate(inputs, names)}
-    stiffness = {name: float(found[row]) for name, row in PARTS.items()}
-    stiffness["hub"] = 1.0 / (1.0 / found["pcl_stiffness@cold"] + 1.0 / found["structure_stiffness"])
-    if not shear:
-        stiffness["rotor_vanes_and_plate"] = 1.0 / (1.0 / found["rotor_vane_stiffness"] + 1.0 / stiffness["plate"])
-        stiffness["housing_vanes_and_floor"] = 1.0 / (
-            1.0 / found["housing_vane_stiffness"] + 1.0 / stiffness["housing"]
-        )
-    held = found["core_holding_torque"] * found["holding_safety"]
-    stress = found["structure_layer_strength"] / held * 1e-6
-    quantities = {name: ("N*m/rad", value) for name, value in stiffness.items()}
-    quantities["spring_rate"] = ("N*m/rad", float(found["spring_rate"]))
-    quantities["core_stress"] = ("MPa/(N*m)", float(stress))
-    assert all(math.isfinite(value) for _, value in quantities.values())
-    return quantities
+    blocks = read.mode == "compression"
+    names = ["spring_rate", "structure_stiffness", "pcl_stiffness@cold", "core_holding_torque",
+             "core_stiffness", "plate_stiffness", "floor_stiffness"]  # fmt: skip
+    names += ["rotor_vane_stiffness", "housing_vane_stiffness", "volume_stiffness"] if blocks else []
+    found = {name: float(value) for name, value in table_for(read.mode).evaluate(inputs, names).items()}
+    hub = structure.series(found["pcl_stiffness@cold"], found["structure_stiffness"])
+    stiffness = {"hub": hub, "core": found["core_stiffness"], "spring_rate": found["spring_rate"]}
+    plate, floor = found["plate_stiffness"], found["floor_stiffness"]
+    if blocks:
+        stiffness["rotor_vanes_and_plate"] = structure.series(found["rotor_vane_stiffness"], plate)
+        stiffness["housing_vanes_and_floor"] = structure.series(found["housing_vane_stiffness"], floor)
+    else:
+        stiffness |= {"plate": plate, "housing": floor}
+    yields = found["core_holding_torque"] * float(inputs["holding_safety"])
+    strength = float(inputs["structure_layer_strength"])
+    return {name: ("N*m/rad", float(value)) for name, value in stiffness.items()} | {
+        "core_stress": ("MPa/(N*m)", strength / yields * 1e-6)
+    }

@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 import yaml
-from models import Row, design_rows, model_values
+from models import Row, design_rows, fe_values, model_values
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -54,7 +54,8 @@ def solved(study: str, work: Path, fe_python: Path) -> dict[str, float]:
     done([fe_python, HERE / "solve.py", parts], work / study / "structure.yaml")
     done([fe_python, HERE.parent / "fe_spring/solve.py", parts], work / study / "spring.yaml")
     (spring,) = yaml.safe_load((work / study / "spring.yaml").read_text())["parts"]
-    return {**yaml.safe_load((work / study / "structure.yaml").read_text())["parts"], "spring_rate": spring["rate"]}
+    found = yaml.safe_load((work / study / "structure.yaml").read_text())["parts"]
+    return fe_values({**found, "spring_rate": spring["rate"]})
 
 
 def rows_of(study: str, work: Path, fe_python: Path) -> list[Row]:

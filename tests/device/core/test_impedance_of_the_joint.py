@@ -115,17 +115,18 @@ def test_frozen_layer_holds_until_its_outer_rim_slips(joint: dict[str, Any]) -> 
     assert joint["layer_holding_torque"] == pytest.approx(torque, rel=1e-9)
 
 
-def test_core_holds_until_the_wall_of_a_hole_yields_in_shear(joint: dict[str, Any], inputs: dict[str, Any]) -> None:
-    # The yield of the print across its layers, 31 MPa/sqrt(3). Four holes of 2.5 mm for screws on 6.5 mm and four of
-    # 2.5 mm for pins on 7 mm take twice their own polar moment of a core of 10 mm; beside a hole the shear is twice
-    # that of the whole core there. Safety 1.25.
-    assert joint["core_radius"] == 10e-3
-    left = 0.5 * np.pi * 10.0**4 - 4 * 2 * np.pi * 1.25**2 * (6.5**2 + 7.0**2)  # mm^4
-    torque = 31.0 / np.sqrt(3.0) * left / (2.0 * 7.0) * 1e-3
-    assert joint["core_holding_torque"] == pytest.approx(torque / 1.25, rel=1e-9)
-    bare = TABLE.evaluate({**inputs, "link_fit": "clearance"}, ["core_holding_torque"])["core_holding_torque"]
-    left = 0.5 * np.pi * 10.0**4 - 4 * 2 * np.pi * 1.25**2 * 6.5**2
-    assert bare == pytest.approx(31.0 / np.sqrt(3.0) * left / (2.0 * 6.5) * 1e-3 / 1.25, rel=1e-9)
+def test_core_holds_until_its_foot_or_the_wall_of_a_hole_yields_in_shear(inputs: dict[str, Any]) -> None:
+    # The yield of the print across its layers, 31 MPa/sqrt(3), over 1.82 of a plain bar's shear: FE of cores as drawn.
+    # An optimum of paper_shear.yaml with a core of 7.53 mm had 55 MPa at 12 N.m by FE from outside, where 31 were told.
+    bar = 31.0 / np.sqrt(3.0) * 0.5 * np.pi
+    held = TABLE.evaluate(inputs, ["core_holding_torque"])["core_holding_torque"]
+    assert held == pytest.approx(bar / 1.82 / 1.25, rel=1e-9)
+    slim = TABLE.evaluate({**inputs, "core_radius": 7.53e-3}, ["core_holding_torque"])["core_holding_torque"]
+    assert 12.0 / (1.25 * slim) * 31.0 == pytest.approx(55.0, rel=0.05)
+    # Wide holes yield first: four of 6 mm on 6.5 mm take twice their own polar moment, the shear beside them is double.
+    wide = TABLE.evaluate({**inputs, "link_screw_pilot": 6e-3}, ["core_holding_torque"])["core_holding_torque"]
+    left = 0.5 * np.pi * 10.0**4 - 4 * 2 * np.pi * 3.0**2 * 6.5**2  # mm^4
+    assert wide == pytest.approx(31.0 / np.sqrt(3.0) * left / (2.0 * 6.5) * 1e-3 / 1.25, rel=1e-9)
 
 
 def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:

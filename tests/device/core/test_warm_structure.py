@@ -89,7 +89,7 @@ def test_structure_in_a_phase_is_as_warm_as_the_stack_is(inputs: dict[str, Any])
 
 def test_cold_point_that_is_warmer_weakens_what_yields() -> None:
     table = table_for("shear")
-    names = ["core_holding_torque", "link_holding_torque"]
+    names = ["core_holding_torque", "link_screw_bearing_torque"]
     cold, warmer = (table.evaluate({**inputs_of("shear"), "temperature@cold": t + 273.15}, names) for t in (23.0, 45.0))
     for name in names:
         assert warmer[name] / cold[name] == pytest.approx(np.exp(-0.003 * 22.0), rel=2e-3), name

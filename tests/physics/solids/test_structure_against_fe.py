@@ -13,41 +13,52 @@ FOLDER = ROOT / "validation"
 JOINTS = yaml.safe_load((FOLDER / "fe_structure/results.yaml").read_text())
 LINKS = yaml.safe_load((FOLDER / "fe_link/results.yaml").read_text())
 SHEAR = [name for name, case in JOINTS.items() if case["mode"] == "shear"]
-BLOCKS = [name for name, case in JOINTS.items() if case["mode"] == "compression"]
+BLOCKS = [name for name, case in JOINTS.items() if "block_stiffness" in case]
 SCREWS = 4
 
 
 def read(case: dict[str, Any]) -> tuple[dict[str, float], float, float]:
     """Lengths in m, Young's and shear modulus in Pa."""
     youngs = case["youngs_modulus"] * 1e9
-    lengths = {name: value * (1.0 if name == "vane_count" else 1e-3) for name, value in case["mm"].items()}
+    lengths = {name: value * (1.0 if name.endswith("_count") else 1e-3) for name, value in case["mm"].items()}
     return lengths, youngs, structure.shear_modulus(youngs, case["poissons_ratio"])
 
 
-def weakening(mm: dict[str, float]) -> float:
-    hole = 0.5 * mm["link_screw_hole"]
-    return float(structure.hole_weakening(hole, mm["link_bolt_circle_radius"], SCREWS, mm["core_radius"]))
+def bores(mm: dict[str, float]) -> tuple[structure.Bores, structure.Bores]:
+    """Holes of the link screws and of the dowel pins, which the older cases have none of."""
+    radius, count = mm["core_radius"], mm.get("link_dowel_count", 0.0)
+    screws = structure.hole_weakening(0.5 * mm["link_screw_hole"], mm["link_bolt_circle_radius"], SCREWS, radius)
+    found = structure.Bores(screws, mm["link_screw_depth"], mm["link_bolt_circle_radius"])
+    if not count:
+        return found, structure.Bores(0.0, 0.0, 0.0)
+    circle = mm["link_dowel_circle_radius"]
+    pins = structure.hole_weakening(0.5 * mm["link_dowel_diameter"], circle, count, radius)
+    return found, structure.Bores(pins, mm["link_dowel_depth"], circle)
 
 
 @pytest.mark.parametrize("name", JOINTS)
 def test_the_core_with_its_empty_holes_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(JOINTS[name])
     length = mm["link_bottom_level"] - mm["rotor_top_level"]
-    screws, pins = structure.Bores(weakening(mm), mm["link_screw_depth"]), structure.Bores(0.0, 0.0)
-    found = structure.bored_shaft_stiffness(shear, mm["core_radius"], length, screws, pins)
+    found = structure.bored_shaft_stiffness(shear, mm["core_radius"], length, *bores(mm))
     fe = JOINTS[name]["found"]["core"]
-    assert found == pytest.approx(fe, rel=0.10 if length > 0.8 * mm["core_radius"] else 0.13)  # hardly a bar
+    assert found == pytest.approx(fe, rel=0.07)
     assert structure.shaft_stiffness(shear, mm["core_radius"], length) > 1.15 * fe  # what stood here: no hole, no entry
 
 
 @pytest.mark.parametrize("name", JOINTS)
 def test_the_core_yields_where_fe_has_its_highest_stress(name: str) -> None:
-    # Away from its ends; the corner at the plate is sharp in the drawing and has no stress of its own.
+    # Beside a hole, or where FE looked there at its foot, a mean over the first millimetre above the sharp corner.
     mm, _, _ = read(JOINTS[name])
-    circle = mm["link_bolt_circle_radius"]
-    unit = structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], weakening(mm), circle)
-    mises = 1e-6 / unit
-    assert mises == pytest.approx(JOINTS[name]["found"]["core_mises"], rel=0.11)
+    fe = JOINTS[name]["found"]
+    beside, foot = fe["core_mises"], fe.get("foot_highest", 0.0)
+    plain = 1e-6 / structure.shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"])
+    holes = max(max(1.0, 2.0 * one.circle_radius / mm["core_radius"]) / (1.0 - one.weakening) for one in bores(mm))
+    assert plain * holes == pytest.approx(beside, rel=0.11)
+    mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], *bores(mm))
+    assert mises > 0.95 * beside
+    if foot:
+        assert mises == pytest.approx(max(foot, beside), rel=0.10)
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -64,30 +75,27 @@ def test_the_floor_on_its_feet_is_as_stiff_as_in_fe(name: str) -> None:
     ring = structure.ring_stiffness(shear, mm["floor_thickness"], mm["pcl_outer_radius"], mm["placement_radius"])
     foot = structure.foot_stiffness(youngs, shear, mm["mount_boss_radius"], 0.5 * mm["mount_hole"], mm["foot_height"])
     found = structure.footed_floor_stiffness(ring, foot, JOINTS[name]["feet"], mm["placement_radius"])
-    assert found == pytest.approx(JOINTS[name]["found"]["housing"], rel=0.12)
+    assert found == pytest.approx(JOINTS[name]["found"]["housing"], rel=0.10)
 
 
 @pytest.mark.parametrize("name", BLOCKS)
 def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     mm, youngs, shear = read(JOINTS[name])
-    fe = JOINTS[name]["found"]
+    fe, block = JOINTS[name]["found"], JOINTS[name]["block_stiffness"] * 1e3
     middle = 0.5 * (mm["pcl_inner_radius"] + mm["pcl_outer_radius"])
     plate = structure.plate_stiffness(shear, mm["rotor_thickness"], mm["core_radius"], middle)
     ring = structure.ring_stiffness(shear, mm["floor_thickness"], mm["pcl_outer_radius"], mm["placement_radius"])
     foot = structure.foot_stiffness(youngs, shear, mm["mount_boss_radius"], 0.5 * mm["mount_hole"], mm["foot_height"])
     floor = structure.footed_floor_stiffness(ring, foot, JOINTS[name]["feet"], mm["placement_radius"])
-    arm = mm["vane_count"] * middle**2
-    hangs = arm * vane.stiffness(
-        youngs, shear, mm["block_width"], mm["vane_thickness"], mm["vane_height"], vane.ON_PLATE
-    )
-    stands = arm * vane.stiffness(
-        youngs, shear, 2.0 * mm["slot_web"], mm["housing_vane_thickness"], mm["vane_height"], vane.ON_FLOOR
-    )
+    arm, high = mm["vane_count"] * middle**2, mm["vane_height"]
+    hanging = mm["block_width"], mm["vane_thickness"], high
+    standing = 2.0 * mm["slot_web"], mm["housing_vane_thickness"], high
+    hangs = arm * vane.stiffness(youngs, shear, *hanging, block, vane.ON_PLATE)
+    stands = arm * vane.stiffness(youngs, shear, *standing, block, vane.ON_FLOOR)
     rotor = structure.series(fe["plate"], fe["rotor_vanes"])
     housing = structure.series(fe["housing"], fe["housing_vanes"])
     assert structure.series(plate, hangs) == pytest.approx(rotor, rel=0.10)
-    # Housing vanes are the least well known: blocks that are stiffer than their vanes press on the roots.
-    assert structure.series(floor, stands) == pytest.approx(housing, rel=0.25)
+    assert structure.series(floor, stands) == pytest.approx(housing, rel=0.10)
 
 
 @pytest.mark.parametrize("name", LINKS)

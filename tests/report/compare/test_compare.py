@@ -35,6 +35,7 @@ def pair(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out"
 
 
+@pytest.mark.slow
 def test_a_comparison_leaves_a_whole_folder(pair: Path) -> None:
     names = {path.relative_to(pair).as_posix() for path in pair.rglob("*") if path.is_file()}
     each = {
@@ -48,6 +49,7 @@ def test_a_comparison_leaves_a_whole_folder(pair: Path) -> None:
     assert manifest["files"].keys() == names - {"manifest.json"}
 
 
+@pytest.mark.slow
 def test_pictures_have_something_on_them(pair: Path) -> None:
     import matplotlib.image as mpimg
 
@@ -57,6 +59,7 @@ def test_pictures_have_something_on_them(pair: Path) -> None:
         assert picture[..., :3].std() > 0.02, f"{name} is blank"
 
 
+@pytest.mark.slow
 def test_ratios_are_those_of_the_designs_it_wrote(pair: Path) -> None:
     reported = _told(pair)
     for which in ("drawn", "optimised"):
@@ -74,6 +77,7 @@ def test_ratios_are_those_of_the_designs_it_wrote(pair: Path) -> None:
     assert {("shear", "layer_strain"), ("compression", "block_strain")} <= alone
 
 
+@pytest.mark.slow
 def test_the_optimum_is_no_worse_than_the_drawn_module_in_what_it_minimises(pair: Path) -> None:
     reported = _told(pair)
     rows = {
@@ -85,6 +89,7 @@ def test_the_optimum_is_no_worse_than_the_drawn_module_in_what_it_minimises(pair
         assert sum(gain) < 2.0
 
 
+@pytest.mark.slow
 def test_all_studies_minimise_the_same_over_the_mean_of_what_was_drawn(pair: Path) -> None:
     drawn, optimised = (
         [json.loads((pair / f"{mode}/{which}.json").read_text()) for mode in ("shear", "compression")]
@@ -99,6 +104,7 @@ def test_all_studies_minimise_the_same_over_the_mean_of_what_was_drawn(pair: Pat
         assert design["solution"]["objective"] == pytest.approx(expected, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_contact_lost_and_advice_that_is_not_followed_are_told(pair: Path) -> None:
     reported = _told(pair)
     rows = {row["name"]: row for row in reported["comparisons"]["optimised"]}
@@ -118,6 +124,7 @@ def test_contact_lost_and_advice_that_is_not_followed_are_told(pair: Path) -> No
             assert warning["because"] in summary
 
 
+@pytest.mark.slow
 def test_what_holds_each_back_most_is_told_with_the_machine_s_reasons(pair: Path) -> None:
     reported = _told(pair)
     for mode in ("shear", "compression"):
@@ -132,6 +139,7 @@ def test_what_holds_each_back_most_is_told_with_the_machine_s_reasons(pair: Path
         assert reported["studies"][mode]["drawn"]["active_constraints"] == []
 
 
+@pytest.mark.slow
 def test_the_leads_follow_from_the_fronts(pair: Path) -> None:
     reported = _told(pair)
     fronts = [front for front in reported["fronts"]["fronts"] if front["second"] == "module_mass"]
@@ -147,6 +155,7 @@ def test_the_leads_follow_from_the_fronts(pair: Path) -> None:
     assert "holding_torque >= 5 N·m" in reported["sentence"]
 
 
+@pytest.mark.slow
 def test_the_csv_and_the_summary_hold_what_the_json_holds(pair: Path) -> None:
     reported = _told(pair)
     with (pair / "compare.csv").open(encoding="utf-8-sig") as stream:

@@ -129,6 +129,7 @@ def test_the_ratio_can_turn_round() -> None:
     assert far > 2.0
 
 
+@pytest.mark.slow
 def test_the_table_and_the_figure_hold_every_input(tmp_path: Path) -> None:
     from tvimdesign.report.paper.level_sets import _in_cells, _table
 
@@ -154,6 +155,7 @@ def test_the_table_and_the_figure_hold_every_input(tmp_path: Path) -> None:
     assert drawn["bars"][0]["ratios"] == list(paper_case.influences()[0].ratios)
 
 
+@pytest.mark.slow
 def test_the_documents_tell_these_numbers() -> None:
     conventions = " ".join((ROOT / "docs/conventions.md").read_text().split())
     near = paper_case.alternatives()[0].times

@@ -16,9 +16,11 @@ from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.physics.solids import vane
+from tvimdesign.physics.solids import structure, vane
 
 quantities = QuantityGroup(shared.group)
+SHEET = 3.0
+"""Young's over shear modulus of a pad pressed through its thickness, as of rubber; its pellets' share not counted."""
 
 
 @quantities.output("1")
@@ -76,6 +78,20 @@ def pcl_damping(pcl_dynamic_stiffness: tuple[Scalar, Scalar], frequency: Scalar)
 
 
 @quantities.helper()
+def frozen_block_stiffness(
+    pcl_flexural_modulus: Scalar,
+    shape_factor: Scalar,
+    block_area: Scalar,
+    block_depth: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+) -> Scalar:
+    """Stiffness of a frozen block with its pad [N/m], which decides how it presses on its vanes."""
+    pressed = pcl_flexural_modulus * block.shape_stiffening(shape_factor) * block_area / block_depth
+    return structure.series(pressed, SHEET * peltier_shear_modulus * block_area / peltier_thickness)
+
+
+@quantities.helper()
 def rotor_vane_stiffness(
     structure_youngs_modulus: Scalar,
     structure_shear_modulus: Scalar,
@@ -84,10 +100,11 @@ def rotor_vane_stiffness(
     vane_height: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
+    frozen_block_stiffness: Scalar,
 ) -> Scalar:
     """Stiffness of the rotor's vanes about the axis [N*m/rad], and of the plate under their roots."""
     one = vane.stiffness(structure_youngs_modulus, structure_shear_modulus, block_width, vane_thickness, vane_height,
-                         vane.ON_PLATE)  # fmt: skip
+                         frozen_block_stiffness, vane.ON_PLATE)  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
 
 
@@ -106,6 +123,7 @@ def housing_vane_stiffness(
     vane_height: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
+    frozen_block_stiffness: Scalar,
 ) -> Scalar:
     """Stiffness of the housing's vanes about the axis [N*m/rad], and of the floor under them.
 
@@ -113,7 +131,7 @@ def housing_vane_stiffness(
     """
     one = vane.stiffness(
         structure_youngs_modulus, structure_shear_modulus, 2.0 * slot_web, housing_vane_thickness, vane_height,
-        vane.ON_FLOOR,
+        frozen_block_stiffness, vane.ON_FLOOR,
     )  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
 
@@ -132,8 +150,7 @@ def structure_compliances(
     block_area: Scalar,
 ) -> Compliances:
     """What is in series with the blocks: core, plate, vanes of both, floor up to its feet or its flange, and pads."""
-    # A sheet pressed through its thickness, E = 3 G as of rubber, its pellets' share not counted on top.
-    pads = block.stiffness(3.0 * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness)
+    pads = block.stiffness(SHEET * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness)
     return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness, 1.0 / rotor_vane_stiffness,
                        1.0 / housing_vane_stiffness, 1.0 / floor_stiffness, 1.0 / pads)  # fmt: skip
 

@@ -24,7 +24,7 @@ def core_screw_bores(
 ) -> structure.Bores:
     """Holes of the link screws in the core."""
     share = structure.hole_weakening(0.5 * link_screw_hole, link_bolt_circle_radius, LINK_SCREWS, core_radius)
-    return structure.Bores(share, link_screw_depth)
+    return structure.Bores(share, link_screw_depth, link_bolt_circle_radius)
 
 
 @quantities.helper()
@@ -37,7 +37,7 @@ def core_dowel_bores(
 ) -> structure.Bores:
     """Holes of the dowel pins in the core; they cost nothing where there are none."""
     share = structure.hole_weakening(0.5 * link_dowel_diameter, link_dowel_circle_radius, dowels_fitted, core_radius)
-    return structure.Bores(share, link_dowel_depth)
+    return structure.Bores(share, link_dowel_depth, link_dowel_circle_radius)
 
 
 @quantities.output("N*m/rad")
@@ -136,13 +136,8 @@ def core_holding_torque(
     core_radius: Scalar,
     core_screw_bores: structure.Bores,
     core_dowel_bores: structure.Bores,
-    link_bolt_circle_radius: Scalar,
-    link_dowel_circle_radius: Scalar,
-    dowels_fitted: Scalar,
     holding_safety: Scalar,
 ) -> Scalar:
-    """Torque the core bears in torsion, beside the holes of screws and pins too, by `holding_safety` below yield."""
+    """Torque the core bears at its foot and beside its holes, by `holding_safety` below yield."""
     shear = structure.shear_yield(cold_layer_strength)
-    outermost = np.fmax(link_bolt_circle_radius, np.fmin(dowels_fitted, 1.0) * link_dowel_circle_radius)
-    weakening = core_screw_bores.weakening + core_dowel_bores.weakening
-    return structure.bored_shaft_torque(shear, core_radius, weakening, outermost) / holding_safety
+    return structure.bored_shaft_torque(shear, core_radius, core_screw_bores, core_dowel_bores) / holding_safety

@@ -7,7 +7,7 @@ import numpy as np
 from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.creep_under_hold import quantities as hold
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
-from tvimdesign.device.fixtures.bearing import BEARINGS, bearing_load
+from tvimdesign.device.fixtures.bearing import BEARINGS, bearing_load_per_torque
 from tvimdesign.device.fixtures.sensor_flange import Pattern
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -206,8 +206,8 @@ def motor_bearing_load(
     motor_retainer_level: Scalar,
 ) -> Scalar:
     """Force on the motor's upper bearing of a force at the link's end that the joint just holds; zero without one."""
-    return bearing_load(
-        holding_torque, link_length, link_bottom_level, link_thickness, stator_top_level, motor_retainer_level,
+    return holding_torque * bearing_load_per_torque(
+        link_length, link_bottom_level, link_thickness, stator_top_level, motor_retainer_level,
         drive_motor.bearing_width,
     )  # fmt: skip
 

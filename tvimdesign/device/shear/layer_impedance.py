@@ -132,6 +132,26 @@ def holding_torque(
     return with_bearings(bearing, held, bearing_holding_torque)
 
 
+@quantities.output("MPa")
+def layer_edge_traction(
+    layer_edge_rise: Scalar, holding_torque: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
+) -> Scalar:
+    """Traction along the edge of an arc under the torque the joint holds, a mean over one thickness of the layer.
+
+    The structure is far softer than the frozen layer, so the torque enters at the arcs' edges.
+    """
+    return layer_edge_rise * layer.traction(holding_torque, layer_polar_moment, pcl_outer_radius)
+
+
+_PEELS = "the bond may give way along the arcs' edges before the joint bears what it is said to hold"
+
+
+@quantities.output("1", advice=(Rule(sense=">=", value=1.0, reason=_PEELS),))
+def layer_edge_safety(pcl_bond_strength: Scalar, layer_edge_traction: Scalar) -> Scalar:
+    """Strength of the bond over the traction along the edge of an arc under the torque the joint holds."""
+    return pcl_bond_strength / layer_edge_traction
+
+
 @quantities.output("1", headline=True)
 def parting_share() -> Scalar:
     """Share of the PCL that can part from what presses on it: none, the layer is bonded to both its faces.

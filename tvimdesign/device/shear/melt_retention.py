@@ -11,26 +11,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.joint_impedance import quantities as impedance
+from tvimdesign.device.core.molten import GRAVITY, HOUR
 from tvimdesign.device.core.shrinkage import quantities as shared
-from tvimdesign.device.fixtures.axial_preload import GRAVITY
 from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.polymers import melt_flow, polymer, viscoelasticity
+from tvimdesign.physics.polymers import melt_flow
 
-rheology, quantities = QuantityGroup(impedance.group), QuantityGroup(shared.group)
-groups = (rheology, quantities)
-HOUR = 3600.0
-"""Seconds."""
+quantities = QuantityGroup(shared.group)
 DRAWN = 1.1
 """Thickness over that at the start up to which the time is told."""
-
-
-@rheology.output("Pa*s", per_point=True)
-def pcl_viscosity(temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology) -> Scalar:
-    """Viscosity of the PCL in slow steady flow."""
-    return viscoelasticity.zero_shear_viscosity(polymer.spectrum(temperature, solid_fraction, pcl_rheology))
 
 
 @quantities.output("Pa")
@@ -68,15 +58,6 @@ def melt_loss(
         length = melt_flow.gaps_in_series(arc_width, gap, rotor_rim, running_clearance + freezing_travel)
     head = np.fmax(melt_head - melt_hold, 0.0)
     return HOUR * melt_flow.gap_speed(head / length, gap, pcl_viscosity_at_hot) / arc_width
-
-
-@quantities.output("mm")
-def melt_creep(
-    pcl_melt_density: Scalar, pcl_thickness: Scalar, freezing_travel: Scalar, pcl_viscosity_at_hot: Scalar
-) -> Scalar:
-    """Way the ends of an arc creep along its track in an hour at the hot point, the axis level; lips hold no end."""
-    weight = pcl_melt_density * GRAVITY
-    return HOUR * melt_flow.gap_speed(weight, pcl_thickness + freezing_travel, pcl_viscosity_at_hot)
 
 
 @quantities.output("s")

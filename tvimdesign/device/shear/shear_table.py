@@ -18,6 +18,6 @@ from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (rotor_level, layer_impedance, layer_heat, arc_volumes, arc_clearances)
-GROUPS = (*keys.groups, *layer_shrinkage.groups, *melt_lip.groups, *melt_retention.groups)
+ROOMS = (rotor_level, layer_impedance, layer_heat, arc_volumes, arc_clearances, melt_retention)
+GROUPS = (*keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)

@@ -2,8 +2,8 @@
 
 Sources: [F] Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials (1976), ch. 3 (the power
 law of time); [Fe] Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 11 (temperature shifts time; Arrhenius below
-the glass transition); [Chr] Christensen, Theory of Viscoelasticity, 2nd ed. (quasi-elastic solution). [G] Gazetas, J.
-Geotech. Eng. 109 (1983): rigid discs on a half-space.
+the glass transition); [Chr] Christensen, Theory of Viscoelasticity, 2nd ed. (quasi-elastic solution); [RHW] Richart,
+Hall and Woods, Vibrations of Soils and Foundations (1970), ch. 10 (rigid discs on a half-space).
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def winding_left(rate: Any, *holds: tuple[Any, Any]) -> Any:
 def peg_give(youngs_modulus: Any, poissons_ratio: Any, diameter: Any, height: Any) -> Any:
     """Way per force [m/N] of a round peg on a thick plate at a height: it bends, shears, and its foot tilts.
 
-    h^3/(3 E I) + h/(0.9 G A) (Timoshenko) + h^2 3 (1 - nu^2)/(4 E r^3), a rigid disc rocking on a half-space [G].
+    h^3/(3 E I) + h/(0.9 G A) (Timoshenko) + h^2 3 (1 - nu^2)/(4 E r^3), a rigid disc rocking on a half-space [RHW].
     """
     radius = 0.5 * diameter
     shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio))

@@ -2,8 +2,8 @@
 
 The modulus of a glassy plastic falls slowly with temperature and then, over some kelvins about its glass transition, to
 that of a rubber; its loss factor peaks there. Sources: Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 2 and
-12 (the two levels and the peak between them); the logistic step in ln E is an interpolation between data. A metal
-is the same law far below its step.
+12 (the two levels and the peak between them); Cremer and Heckl, Structure-Borne Sound, 2nd ed., ch. III (complex
+moduli). The logistic step in ln E is an interpolation between data. A metal is the same law far below its step.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ class NeighboringOptima:
                 continue
             unknowns = run.unknowns.copy()
             unknowns[place] = self._optimizer.free[place].to_unknown(value)
-            tried = self._optimizer.solve(begin=run.inputs, unknowns=unknowns, near=True)
+            tried = self._optimizer.solve(begin=run.inputs, unknowns=unknowns, beginning="near")
             if _better(tried, run):
                 return _told(tried, run, run.start, tried.start)
         return None
@@ -110,7 +110,7 @@ class NeighboringOptima:
         unknowns = whole.unknowns.copy()
         unknowns[places] = lender.unknowns[places]
         begin = self._optimizer.vector.inputs(unknowns)
-        run = self._optimizer.solve(begin=begin, unknowns=unknowns, near=True)
+        run = self._optimizer.solve(begin=begin, unknowns=unknowns, beginning="near")
         run.start = replace(run.start, crossed=True)
         return run
 

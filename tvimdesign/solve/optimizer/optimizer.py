@@ -188,17 +188,17 @@ class Optimizer:
         goal: Objective | None = None,
         unknowns: Array | None = None,
         *,
-        near: bool = False,
+        beginning: Beginning | None = None,
     ) -> Run:
         """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within`
         ends of their own.
 
-        `unknowns` stand in place of the switch simulated at `begin`; `near` an optimum, few iterations are allowed.
+        `unknowns` stand in place of the switch simulated at `begin`; `beginning` says what is neither cold nor warm.
         A `goal` stands in place of the study's weights and bounds what is traded; nothing is built anew.
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        solver = self._solver("warm" if warm is not None else "near" if near else "cold")
+        solver = self._solver(beginning or ("cold" if warm is None else "warm"))
         if warm is not None:
             unknowns = warm.unknowns
         arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}

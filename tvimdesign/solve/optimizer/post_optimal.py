@@ -8,6 +8,7 @@ Source: Fiacco, Introduction to Sensitivity and Stability Analysis in Nonlinear 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -21,6 +22,9 @@ Place: TypeAlias = tuple[Literal["row", "upper", "lower"], int]
 
 _FAINT = 1e-6
 """Multiplier below which a limit presses on nothing, however near it is."""
+_CLEAR = 100.0
+"""Times the one of multiplier and room must be the other for a limit to be told as active, or as slack: their product
+is the barrier where IPOPT ended."""
 _DEPENDENT = 1e-10
 """Singular value, as a share of the greatest, below which rows depend on each other."""
 _UNDETERMINED = 1e-6
@@ -34,6 +38,8 @@ class Response:
         """Linearise the optimality conditions of a converged run."""
         self._optimizer, self._run = optimizer, run
         derivatives = optimizer.derivatives(run)
+        if self._unclear(derivatives):
+            derivatives = self._sharpened(derivatives)
         self._values = derivatives.values
         self._decided = self._decisions()
         tied = self._tied_peaks(derivatives)
@@ -52,6 +58,28 @@ class Response:
             for name, value in self._values.items()
             if name in self._adjoints and value != 0.0
         }
+
+    def _unclear(self, derivatives: Derivatives) -> bool:
+        """Whether it cannot be told of some limit or bound that it is active: it hardly presses, with hardly any room.
+
+        Where the objective is flat along a limit, one that is wrongly taken for slack changes every saving.
+        """
+        run, first = self._run, self._optimizer.problem.equation_count
+        lower, upper = self._optimizer.vector.bounds(run.within)
+        multipliers = np.concatenate([run.multipliers[first:], run.bound_multipliers, -run.bound_multipliers])
+        room = np.concatenate([-derivatives.rows[first:], upper - run.unknowns, run.unknowns - lower])
+        room = np.maximum(room, 0.0)
+        likely = (multipliers > _FAINT) & (multipliers < _CLEAR * room)
+        return bool(np.any(likely & (room < _CLEAR * multipliers)))
+
+    def _sharpened(self, derivatives: Derivatives) -> Derivatives:
+        """Derivatives where the same optimum is found more exactly; those there are where it is not."""
+        run = self._optimizer.solve(self._run.within, warm=self._run, beginning="sharp")
+        if not run.start.converged:
+            return derivatives
+        run.start = replace(run.start, choices=self._run.start.choices)
+        self._run = run
+        return self._optimizer.derivatives(run)
 
     def _decisions(self) -> list[int]:
         """Places among the unknowns of what the optimiser decides: free numbers not held to a listed size, currents."""

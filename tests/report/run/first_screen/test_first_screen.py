@@ -8,6 +8,7 @@ import math
 import re
 from functools import cache
 from pathlib import Path
+from subprocess import CompletedProcess
 from typing import NamedTuple
 
 import pytest
@@ -50,6 +51,36 @@ module:
   {process: machine_6061, target_temperature: 90 degC, pcl_thickness: 3 mm, response_criterion: mean, current: 1.1 A}
 operating_points: {hot: {temperature: 90 degC}}
 """
+
+
+class WholeRun(NamedTuple):
+    """A run with its plots and yield, in a process of its own; of the slow ones with sensitivities as well."""
+
+    done: CompletedProcess[str]
+    folder: Path
+
+
+@pytest.fixture(
+    scope="module",
+    params=[
+        (SHEAR, []),
+        pytest.param((SHEAR, ["--sensitivities"]), marks=pytest.mark.slow),
+        pytest.param((COMPRESSION, ["--sensitivities"]), marks=pytest.mark.slow),
+    ],
+    ids=["quick", "shear", "compression"],
+)
+def whole_run(request: pytest.FixtureRequest, process: Command, tmp_path_factory: pytest.TempPathFactory) -> WholeRun:
+    folder = tmp_path_factory.mktemp("whole")
+    text, more = request.param
+    (folder / "study.yaml").write_text(text)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONWARNINGS", "always")
+        words = ("run", folder / "study.yaml", "--no-cad", *more, "--out", folder / "out")
+        done = process(*words, spread="on")
+    assert done.returncode == 0, done.stderr
+    return WholeRun(done, folder / "out")
+
+
 BLOCKS = ("Weighs", "Soft after", "Stiff again", "Needs", "Chosen", "Held back by", "Warning", "Yield")
 
 
@@ -67,8 +98,9 @@ class Case(NamedTuple):
 
 
 @cache
-def case(name: str, *, spread: bool = True) -> Case:
-    """A shipped study as it is drawn or optimised, or one of the texts above; with what it may be, or without."""
+def case(asked: str) -> Case:
+    """A shipped study as it is drawn or optimised, or one of the texts above; `alone` without what it may be."""
+    name = asked.removesuffix(" alone")
     texts = {"choices": CHOICES, "many": MANY, "aluminum": COOL}
     study = read_study_text(texts[name], name) if name in texts else read_study(ROOT / f"studies/{name}.yaml")
     study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
@@ -77,15 +109,18 @@ def case(name: str, *, spread: bool = True) -> Case:
         study = drawn(study)
     shipped = name in ("paper_shear", "paper_as_published")
     found = shipped_answer(name) if shipped else answer(study)
-    data = Uncertainty(study).data(found.design, 256) if spread else {}
+    data = Uncertainty(study).data(found.design, 256) if name == asked else {}
     return Case(study, table, found, Told(12.3, data, record_checks(study)))
 
 
-CASES = ["paper_shear", "paper_as_published", "paper_compression", "wrist_joint", "choices", "many"]
-QUICK = {"paper_shear", "choices", "many"}
-each = pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[] if name in QUICK else pytest.mark.slow) for name in CASES]
-)
+CASES = [
+    "paper_shear",
+    *(pytest.param(name, marks=pytest.mark.slow)
+      for name in ("paper_as_published", "paper_compression", "wrist_joint", "choices", "many")),
+]  # fmt: skip
+uncertain = pytest.mark.parametrize("name", CASES)
+each = pytest.mark.parametrize("name", [*CASES, "choices alone", "many alone"])
+"""With what each may be, and two without it, which takes longer than the answer."""
 widths = pytest.mark.parametrize("width", [80, 100, 140])
 
 
@@ -128,13 +163,14 @@ def test_the_blocks_stand_in_their_order(name: str, width: int) -> None:
     lines = case(name).screen(width)
     places = [(i, block) for block in BLOCKS for i, line in enumerate(lines) if line.startswith(f"{block} ")]
     assert places == sorted(places)
-    assert {"Weighs", "Soft after", "Stiff again", "Needs", "Yield"} <= {block for _, block in places}
+    told = {"Yield"} if case(name).told.uncertainty else set()
+    assert {"Weighs", "Soft after", "Stiff again", "Needs", *told} <= {block for _, block in places}
     assert case(name).study.name in lines[0]
 
 
 def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
     accepted = "ACCEPTING: structure_temperature_margin, stiffening_structure_margin"
-    published = case("paper_as_published", spread=False)
+    published = case("paper_as_published alone")
     first, second = (" ".join(one.screen(140)[:2]) for one in (case("paper_shear"), published))
     solution = case("paper_shear").found.solution
     assert solution is not None
@@ -144,8 +180,8 @@ def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
     assert re.search(rf" · shear · OPTIMAL, {accepted}( ·)? {agree} · 12 s", first)
     # PETG and pads are hotter than they are rated for, as its study accepts.
     assert re.search(r" · shear( ·)? EVALUATED, ACCEPTING: [\w, ]+_margin( ·)? 12 s", second)
-    assert "EVALUATED, ALL LIMITS KEPT · 12 s" in " ".join(case("aluminum", spread=False).screen(140)[:1])
-    assert re.search(r"EVALUATED, \d+ OF \d+ LIMITS BROKEN", case("many").screen(140)[0])
+    assert "EVALUATED, ALL LIMITS KEPT · 12 s" in " ".join(case("aluminum alone").screen(140)[:1])
+    assert re.search(r"EVALUATED, \d+ OF \d+ LIMITS BROKEN", case("many alone").screen(140)[0])
 
 
 def test_what_is_asked_and_got_is_what_the_answer_has() -> None:
@@ -175,7 +211,7 @@ def test_what_holds_it_back_has_the_largest_shadow_prices() -> None:
     assert all(match and match[1] in held for match in found)
 
 
-@each
+@uncertain
 def test_every_headline_and_requirement_is_told_with_what_it_may_be(name: str) -> None:
     one = case(name)
     intervals, text = one.told.uncertainty["intervals"], "\n".join(one.screen(140))
@@ -216,20 +252,20 @@ def test_the_yield_and_what_is_not_known_are_two_lines() -> None:
     assert f"hold in {100.0 * data['ranges_hold']['share']:.3g} % of the ranges" in unknown
 
 
-def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(tvimdesign: Command, tmp_path: Path) -> None:
-    study = ROOT / "studies/paper_as_published.yaml"
-    short = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "short")
-    full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "full", spread="on")
-    assert len(short.stdout.splitlines()) <= LINES
-    assert short.stdout.splitlines()[-1].lstrip().endswith("--full")
-    for table in ("At the operating points", "What the module is", "What rests on what is assumed"):
-        assert table not in short.stdout
-        assert table in full.stdout
-        assert table in (tmp_path / "full/summary.txt").read_text()
-    reported = json.loads((tmp_path / "full/results.json").read_text())
+TABLES = ("At the operating points", "What the module is", "What rests on what is assumed")
+
+
+def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(whole_run: WholeRun) -> None:
+    lines, folder = whole_run.done.stdout.splitlines(), whole_run.folder
+    assert len(lines) <= LINES
+    assert lines[-1].lstrip().endswith("--full")
+    for table in TABLES:
+        assert table not in whole_run.done.stdout
+        assert table in (folder / "summary.txt").read_text()
+    reported = json.loads((folder / "results.json").read_text())
     assert reported["format"] == 1
     soft = reported["uncertainty"]["intervals"]["softening_time"]
-    text = (tmp_path / "full/results.csv").read_text("utf-8-sig")
+    text = (folder / "results.csv").read_text("utf-8-sig")
     rows = {row["name"]: row for row in csv.DictReader(text.splitlines())}
     may_be = [float(rows["softening_time"][f"may_be_{end}"]) for end in ("low", "high")]
     assert may_be == pytest.approx([soft["low"], soft["high"]])
@@ -237,12 +273,21 @@ def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(tvimdesign:
     assert soft["si"]["low"] == soft["low"] < soft["one_at_a_time"]["low"]
 
 
+def test_every_table_is_printed_where_that_is_asked(tvimdesign: Command, tmp_path: Path) -> None:
+    study = ROOT / "studies/paper_as_published.yaml"
+    full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "out").stdout
+    assert all(table in full for table in TABLES[:2])  # the third is of the yield's run
+    assert len(full.splitlines()) > LINES
+
+
 @pytest.mark.slow
 def test_the_same_study_leaves_the_same_tables_whatever_is_printed(tvimdesign: Command, tmp_path: Path) -> None:
     """What a run took is in its manifest alone."""
     study = ROOT / "studies/paper_as_published.yaml"
+    done = {}
     for name, more in (("short", []), ("full", ["--full"])):
-        tvimdesign("run", study, "--no-cad", "--no-plots", *more, "--out", tmp_path / name, spread="on")
+        done[name] = tvimdesign("run", study, "--no-cad", "--no-plots", *more, "--out", tmp_path / name, spread="on")
+    assert all(table in done["full"].stdout for table in TABLES)
     assert (tmp_path / "short/summary.txt").read_bytes() == (tmp_path / "full/summary.txt").read_bytes()
 
 
@@ -272,17 +317,6 @@ def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_i
     assert "Where the solver ended" in (tmp_path / "out/summary.txt").read_text()
 
 
-@pytest.mark.parametrize(
-    "text", [SHEAR, pytest.param(COMPRESSION, marks=pytest.mark.slow)], ids=["shear", "compression"]
-)
-def test_no_library_warns_on_standard_error(
-    process: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
-) -> None:
-    monkeypatch.setenv("PYTHONWARNINGS", "always")
-    (tmp_path / "study.yaml").write_text(text)
-    done = process(
-        "run", tmp_path / "study.yaml", "--no-cad", "--sensitivities", "--out", tmp_path / "out", spread="on"
-    )
-    assert done.returncode == 0
-    assert [line for line in done.stderr.splitlines() if not line.startswith("... ")] == []
-    assert done.stdout.splitlines()[0].startswith("study · ")
+def test_no_library_warns_on_standard_error(whole_run: WholeRun) -> None:
+    assert [line for line in whole_run.done.stderr.splitlines() if not line.startswith("... ")] == []
+    assert whole_run.done.stdout.splitlines()[0].startswith("study · ")

@@ -14,7 +14,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
+from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
 from tvimdesign.solve.uncertainty.unmeasured import unmeasured_inputs
 from tvimdesign.study import read_study_text, standard_tolerances
@@ -37,6 +37,17 @@ def module(found: StudyResult) -> ResolvedModule:
     return replace(resolved, study=resolved.study.model_copy(update={"tolerances": standard_tolerances(TABLE)}))
 
 
+@pytest.fixture(scope="module")
+def model(module: ResolvedModule) -> UncertaintyModel:
+    return UncertaintyModel(module, ASKED)
+
+
+@pytest.fixture(scope="module")
+def spread(model: UncertaintyModel, module: ResolvedModule) -> DesignUncertainty:
+    """The design with few samples, for what does not depend on them."""
+    return model.at(module, 4, 8)
+
+
 @pytest.mark.slow
 def test_the_yield_is_what_tolerate_says(found: StudyResult, module: ResolvedModule) -> None:
     said = Uncertainty(STUDY).data(found.design, SAMPLES)
@@ -47,9 +58,9 @@ def test_the_yield_is_what_tolerate_says(found: StudyResult, module: ResolvedMod
 
 
 def test_a_kernel_for_the_study_says_the_same_of_a_design_as_one_for_the_design(
-    found: StudyResult, module: ResolvedModule
+    found: StudyResult, module: ResolvedModule, model: UncertaintyModel
 ) -> None:
-    alone = UncertaintyModel(module, ASKED).at(module, SAMPLES)
+    alone = model.at(module, SAMPLES)
     said = Uncertainty(STUDY).data(found.design, SAMPLES)
     assert alone.together is not None
     assert said["parts_yield"]["share"] == alone.together.share
@@ -68,21 +79,23 @@ def test_what_is_assumed_is_what_the_chosen_records_assume(module: ResolvedModul
 
 @pytest.mark.parametrize("output", ["holding_torque", "impedance_range"])
 def test_the_assumed_input_shown_is_the_one_that_moves_an_algebraic_output_most(
-    module: ResolvedModule, output: str
+    module: ResolvedModule, spread: DesignUncertainty, output: str
 ) -> None:
     def at(name: str, value: float) -> float:
         return float(TABLE.evaluate({**module.values, name: value}, [output])[output])
 
     every = {one.name: abs(at(one.name, one.high) - at(one.name, one.low)) for one in unmeasured_inputs(module)}
-    swing = UncertaintyModel(module, ASKED).at(module, 4, 8).intervals[output].swings[0]
+    swing = spread.intervals[output].swings[0]
     assert swing.moved.name == max(every, key=lambda name: every[name])
     assert swing.moved.name in TABLE.ancestors(output)
     assert swing.at_low == pytest.approx(at(swing.moved.name, swing.moved.low), rel=1e-9)
     assert swing.at_high == pytest.approx(at(swing.moved.name, swing.moved.high), rel=1e-9)
 
 
-def test_an_assumed_input_moves_the_switch_as_a_simulation_says(module: ResolvedModule) -> None:
-    swings = UncertaintyModel(module, ASKED).at(module, 4, 8).intervals["response_time"].swings
+def test_an_assumed_input_moves_the_switch_as_a_simulation_says(
+    module: ResolvedModule, spread: DesignUncertainty
+) -> None:
+    swings = spread.intervals["response_time"].swings
     for swing in swings[:3]:
         for value, expected in ((swing.moved.low, swing.at_low), (swing.moved.high, swing.at_high)):
             values = {**module.values, swing.moved.name: value}
