@@ -13,6 +13,7 @@ import pytest
 from support import RELEASED, ROOT, STUDIES, Command
 
 from tvimdesign.report.output.results_format import results_schema
+from tvimdesign.study import read_study
 
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
@@ -150,6 +151,14 @@ def test_the_re_optimised_module_is_better_in_all_it_was_asked_for(runs: Runs) -
     after = _results(runs["paper_shear"])["values"]
     for name in ("envelope_volume", "module_mass", "response_time"):
         assert after[name]["value"] < before[name]["value"], name
+
+
+def test_every_module_but_the_paper_s_holds_its_layer_and_its_melt() -> None:
+    built = [path for path in STUDIES if not path.stem.startswith(("paper_", "calibrated_"))]
+    assert len(built) > 8
+    for study in map(read_study, built):
+        assert study.module["axial_preload"] != "none", study.name
+        assert study.mode == "compression" or study.module["melt_lip"] == "rings", study.name
 
 
 @pytest.mark.slow

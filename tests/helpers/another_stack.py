@@ -22,8 +22,9 @@ GAS = 8.314462618
 LAYER, PLATE = slice(2, 2 + CELLS), slice(2 + CELLS, 2 + CELLS + PLATE_CELLS)
 BESIDE, FLOOR = slice(PLATE.stop, PLATE.stop + 4), slice(PLATE.stop + 4, PLATE.stop + 8)
 SINK = FLOOR.stop
-STRIPS = np.array([0.15, 0.3, 0.55])
-"""Widths of the three bodies a strip is divided into, as shares; core and housing come after them."""
+STRIPS = np.array([0.05, 0.22, 0.73])
+TO_EDGE = 0.22
+"""Widths of the three bodies a strip is divided into, as shares, and the way to its edge: the calibrated figures."""
 
 
 def value_of(model: DeviceFunctions) -> Callable[[str], float]:
@@ -83,14 +84,14 @@ class AnotherStack:
         rotor = v("pcl_outer_radius") + v("rotor_rim")
         disc = np.pi * rotor**2
         self.rest = disc - self.area
-        widths, third = STRIPS * self.rest / self.edge, self.area / self.edge / 3.0
+        widths, way = STRIPS * self.rest / self.edge, TO_EDGE * self.area / self.edge
         far = (v("rotor_mass") + v("link_mass") + v("retainer_mass")) / v("structure_density") - disc * height
         near = STRIPS * self.rest
         under = np.append(near * depth, v("housing_mass") / v("structure_density") - self.rest * depth)
         self.lumps = np.append(near * height, far) * rho_c, under * rho_c
         apart = 0.5 * (np.append(0.0, widths[:-1]) + widths) / self.edge
         inner, wall = v("pcl_inner_radius") / v("core_radius"), v("housing_inner_radius") / rotor
-        along = third / self.edge
+        along = way / self.edge
         pads = along / (v("pad_conductivity") * pad) + 1.0 / (v("pad_edge_contact") * pad * self.edge)
         ways = np.append(apart / (k * height), np.log(inner) / (2.0 * np.pi * k * height))
         self.to_beside = 1.0 / (ways + np.array([along / (k * height), 0.0, 0.0, 0.0]))

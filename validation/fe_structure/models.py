@@ -57,7 +57,7 @@ def model_values(study: str, varied: dict[str, float]) -> dict[str, tuple[str, f
     read = read_study(ROOT / f"studies/{study}.yaml")
     inputs: dict[str, Any] = {**given(read), **DRAWN, **varied}
     blocks = read.mode == "compression"
-    names = ["spring_rate", "structure_stiffness", "pcl_stiffness@cold", "core_holding_torque",
+    names = ["spring_rate", "structure_stiffness", "pcl_stiffness@cold", "core_holding_torque", "cold_layer_strength",
              "core_stiffness", "plate_stiffness", "floor_stiffness"]  # fmt: skip
     names += ["rotor_vane_stiffness", "housing_vane_stiffness", "volume_stiffness"] if blocks else []
     found = {name: float(value) for name, value in table_for(read.mode).evaluate(inputs, names).items()}
@@ -70,7 +70,6 @@ def model_values(study: str, varied: dict[str, float]) -> dict[str, tuple[str, f
     else:
         stiffness |= {"plate": plate, "housing": floor}
     yields = found["core_holding_torque"] * float(inputs["holding_safety"])
-    strength = float(inputs["structure_layer_strength"])
     return {name: ("N*m/rad", float(value)) for name, value in stiffness.items()} | {
-        "core_stress": ("MPa/(N*m)", strength / yields * 1e-6)
+        "core_stress": ("MPa/(N*m)", found["cold_layer_strength"] / yields * 1e-6)
     }

@@ -3,8 +3,8 @@
     python validation/fe_structure/run.py --fe-python FE/bin/python [--work FOLDER] [STUDY ...]
 
 Run it where the package and CadQuery are; FE/bin/python has netgen-mesher, ngsolve and pyyaml. Each study is run, its
-parts are exported as STEP, and FE finds the rate of a spring, the stiffness of joint and parts, and stresses.
-What is in the work folder already is not made again. Without a name: all studies that ship.
+parts are exported as STEP, and FE finds the rate of a spring, the stiffness of the joint and of its parts, and
+stresses. What is in the work folder already is not made again. Without a name: all studies that ship.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 from netgen.libngpy._meshing import NgException
-from netgen.occ import Axis, Box, Cylinder, Dir, Glue, OCCGeometry, Pnt, Z
+from netgen.occ import Cylinder, Dir, Glue, OCCGeometry, Pnt
 from ngsolve import (
     CF,
     TET,
@@ -53,16 +53,6 @@ def tube(inner: float, outer: float, bottom: float, top: float):
     return whole - Cylinder(Pnt(0, 0, bottom - 1), Dir(0, 0, 1), r=inner, h=top - bottom + 2) if inner else whole
 
 
-def loosened(pad, index: int, mm: dict[str, float]):
-    """A shear module's pad that does not touch the walls of its pocket: it stands on its ledge alone."""
-    middle = 2 * np.pi * index / round(mm["arc_count"]) + np.pi / mm["spring_count"]
-    half = 0.5 * mm["arc_span"] - LOOSE / mm["pcl_inner_radius"]
-    for sense in (-1, 1):
-        beyond = Box(Pnt(-200, 0, -50), Pnt(200, sense * 200, 50))
-        pad = pad - beyond.Rotate(Axis(Pnt(0, 0, 0), Z), np.degrees(middle + sense * half))
-    return pad * tube(mm["pcl_inner_radius"] + LOOSE, mm["pcl_outer_radius"] - LOOSE, -50, 50)
-
-
 def parts(folder: Path, mm: dict[str, float]) -> list:
     """Solids that carry the torque, named."""
 
@@ -85,17 +75,14 @@ def parts(folder: Path, mm: dict[str, float]) -> list:
         number = int(path.stem.split("_")[-1]) if path.stem[-1].isdigit() else 0
         for kind, label, parity in (("pcl", "pcl", 1), ("peltier_pad", "pad", 0)):
             if path.stem.startswith(kind) and (not blocks or number % 2 == parity):  # blocks of one sense are pressed
-                shape = read(path.stem)
-                loose = LOOSE and label == "pad" and not blocks
-                found.append((loosened(shape, number - 1, mm) if loose else shape, label, SIZES["layer"]))
+                found.append((read(path.stem), label, SIZES["layer"]))
     for shape, label, size in found:
         for solid in shape.solids:
             solid.name, solid.maxh = label, size
     return [shape for shape, _, _ in found]
 
 
-FOOT, EDGE = float(os.environ.get("FOOT", "1")), float(os.environ.get("EDGE", "0"))  # mm; zero: as the layer
-LOOSE = float(os.environ.get("LOOSE", "0"))  # mm: gap between a pad and the walls of its pocket; zero: tied
+FOOT, EDGE = float(os.environ.get("FOOT", "1")), float(os.environ.get("EDGE", "2"))  # mm; zero: as the layer
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": float(os.environ.get("LAYER", "5"))}  # mm
 
 

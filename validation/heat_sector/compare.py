@@ -1,8 +1,8 @@
 """The product's times against the two-dimensional strip, for the shear module of every shipped study as it starts.
 
-`python validation/heat_sector/compare.py` writes `results.csv`. The numbers of a strip are read off the device's table;
-its heat is `sector.py`'s alone. When the joint is soft is decided by the polymer's own spectrum and the structure's
-moduli, from the strip's temperatures and solid fractions.
+`python validation/heat_sector/compare.py` writes `results.csv`; with names of studies it writes their rows. The numbers
+of a strip are read off the device's table; its heat is `sector.py`'s alone. When the joint is soft is decided by the
+polymer's own spectrum and the structure's moduli, from the strip's temperatures and solid fractions.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
 HERE = Path(__file__).parent
+RESULTS = HERE / "results.csv"
 STUDIES = HERE.parents[1] / "studies"
 TIMES = ("softening_time", "mean_time", "far_face_time")
 LONGER = 1.3
@@ -119,20 +120,25 @@ def compared(model: DeviceFunctions, grid: Grid = GRID) -> dict[str, tuple[float
 
 
 def main(names: list[str]) -> None:
-    """Compare the named studies, or all that are in shear."""
-    rows = []
-    for path in sorted(STUDIES.glob("*.yaml")):
-        if read_study(path).mode != "shear" or (names and path.stem not in names):
+    """Compare the named studies, or all that are in shear, and put their rows in `results.csv`."""
+    shear = [path for path in sorted(STUDIES.glob("*.yaml")) if read_study(path).mode == "shear"]
+    for path in shear:
+        if names and path.stem not in names:
             continue
+        rows = []
         for name, (ours, strip) in compared(model_of(path)).items():
-            row = (path.stem, name, f"{ours:.2f}", f"{strip:.2f}", f"{100.0 * (ours / strip - 1.0):+.2f}")
-            print(*row, flush=True)
-            rows.append(row)
-    if not names:
-        with (HERE / "results.csv").open("w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(("study", "time", "product [s]", "strip [s]", "difference [%]"))
-            writer.writerows(rows)
+            rows.append([path.stem, name, f"{ours:.2f}", f"{strip:.2f}", f"{100.0 * (ours / strip - 1.0):+.2f}"])
+            print(*rows[-1], flush=True)
+        _put(path.stem, rows)
+
+
+def _put(study: str, rows: list[list[str]]) -> None:
+    """Write a study's rows in place of those it had."""
+    before = list(csv.reader(RESULTS.open()))[1:] if RESULTS.exists() else []
+    with RESULTS.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(("study", "time", "product [s]", "strip [s]", "difference [%]"))
+        writer.writerows(sorted([row for row in before if row[0] != study] + rows, key=lambda row: row[0]))
 
 
 if __name__ == "__main__":

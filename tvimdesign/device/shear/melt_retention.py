@@ -11,9 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.molten import HOUR
+from tvimdesign.device.core.molten import GRAVITY, HOUR
 from tvimdesign.device.core.shrinkage import quantities as shared
-from tvimdesign.device.fixtures.axial_preload import GRAVITY
 from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
