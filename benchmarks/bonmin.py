@@ -88,11 +88,11 @@ def _search(optimizer: Optimizer, sizes: Sizes, near: Run) -> Chosen:
         "discrete": [False] * count + [True] * binaries, "show_eval_warnings": False, **derivatives_of(function),
     }  # fmt: skip
     solver = ca.nlpsol("bonmin", "bonmin", function, options)
-    goal = Objective(optimizer.study.minimize)
-    ends, zeros = optimizer.ends({}, goal), np.zeros(len(rows))
+    objective = Objective(optimizer.study.minimize)
+    ends, zeros = optimizer.ends({}, objective), np.zeros(len(rows))
     clock = time.process_time()
     found = solver(
-        x0=np.concatenate(begin), p=optimizer.parameters(goal),
+        x0=np.concatenate(begin), p=optimizer.parameters(objective),
         lbx=np.append(ends["lbx"], np.zeros(binaries)), ubx=np.append(ends["ubx"], np.ones(binaries)),
         lbg=np.append(ends["lbg"], zeros), ubg=np.append(ends["ubg"], zeros),
     )  # fmt: skip

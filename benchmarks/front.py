@@ -124,7 +124,7 @@ def ours(reference: Reference, outputs: tuple[str, ...], points: int) -> Ours:
     optimizer, runs = built[0]
     front = trace_front(Tradeoff(asked, solution, optimizer, runs), outputs, points)
     done = time.process_time()
-    alone = [optimizer.solve(begin=optimizer.model.start, goal=point.goal) for point in front.points]
+    alone = [optimizer.solve(begin=optimizer.model.start, objective=point.objective) for point in front.points]
     last = time.process_time()
     for run in alone:
         optimizer.simulator.run(run.inputs, run.current_profiles)

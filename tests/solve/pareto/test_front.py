@@ -207,9 +207,9 @@ def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved, n
 def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> None:
     solve = Optimizer.solve
 
-    def lost_between(self: Optimizer, *args: Any, goal: Objective, **more: Any) -> Run:
-        run = solve(self, *args, goal=goal, **more)
-        if goal.bounds:
+    def lost_between(self: Optimizer, *args: Any, objective: Objective, **more: Any) -> Run:
+        run = solve(self, *args, objective=objective, **more)
+        if objective.bounds:
             run.start = replace(run.start, converged=False, status="Restoration_Failed")
         return run
 

@@ -30,20 +30,20 @@ class FolderMemory:
             raise InputError(f"{folder.path}: holds the front of another study or version; --overwrite to begin anew")
         folder.write_json(f"{PROGRESS}/asked.json", asked)
 
-    def recall(self, number: int, goal: Objective) -> Point | Failure | None:
-        """The answer to a question; None where it is not there, or was of another goal."""
+    def recall(self, number: int, objective: Objective) -> Point | Failure | None:
+        """The answer to a question; None where it is not there, or was of another objective."""
         known = _read(self._folder.path / PROGRESS / f"{number:04d}.json")
-        if known is None or known["goal"] != _plain_goal(goal):
+        if known is None or known["goal"] != _plain_objective(objective):
             return None
         if "reason" in known:
             return Failure(known["where"], known["reason"])
         trace = Trace(*(np.array(known["trace"][name]) for name in Trace._fields))
         kept = {name: known[name] for name in ("where", "values", "current_profiles", "cost", "root")}
-        return Point(**kept, trace=trace, goal=goal)
+        return Point(**kept, trace=trace, objective=objective)
 
-    def keep(self, number: int, goal: Objective, found: Point | Failure) -> None:
+    def keep(self, number: int, objective: Objective, found: Point | Failure) -> None:
         """Write an answer, every digit of it."""
-        reported: dict[str, Any] = {"goal": _plain_goal(goal), "where": found.where}
+        reported: dict[str, Any] = {"goal": _plain_objective(objective), "where": found.where}
         if isinstance(found, Failure):
             reported["reason"] = found.reason
         else:
@@ -53,8 +53,8 @@ class FolderMemory:
         self._folder.write(f"{PROGRESS}/{number:04d}.json", json.dumps(reported))
 
 
-def _plain_goal(goal: Objective) -> dict[str, Any]:
-    return {"weights": dict(goal.weights), "bounds": [asdict(bound) for bound in goal.bounds]}
+def _plain_objective(objective: Objective) -> dict[str, Any]:
+    return {"weights": dict(objective.weights), "bounds": [asdict(bound) for bound in objective.bounds]}
 
 
 def _read(path: Path) -> dict[str, Any] | None:

@@ -43,14 +43,14 @@ class ValueRange:
 
 @dataclass(frozen=True)
 class Conditioning:
-    """What limits and goal see of the free numbers, over the whole of their ranges, the equations kept."""
+    """What limits and objective see of the free numbers, over the whole of their ranges, the equations kept."""
 
     equations: float
     """Condition number of the equations that states and times follow from, rows scaled to one; 1-norm."""
     decisions: float
-    """Greatest over least singular value of limits and goal by the free numbers, rows scaled to one."""
+    """Greatest over least singular value of limits and objective by the free numbers, rows scaled to one."""
     objectives: tuple[tuple[str, ...], ...]
-    """Free numbers that can be traded for each other without any limit or the goal noticing."""
+    """Free numbers that can be traded for each other without any limit or the objective noticing."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class Structure:
     """What depends on nothing, and what nothing changes."""
 
     idle: tuple[str, ...]
-    """Free numbers that neither a limit nor the goal depends on."""
+    """Free numbers that neither a limit nor the objective depends on."""
     unchangeable: tuple[str, ...]
     """Limits of the study that nothing free can change, though they hold."""
 
@@ -109,7 +109,7 @@ class Inspection:
         return ValueRange(*((names[i], float(greatest[i])) for i in ends))
 
     def conditioning(self) -> Conditioning:
-        """The equations' condition number, and what limits and goal see of the free numbers."""
+        """The equations' condition number, and what limits and objective see of the free numbers."""
         decided, along, equations = self._along()
         first = self.problem.equation_count
         seen = [*range(first, first + len(self.problem.limits)), len(self._rows) - 1]
@@ -197,7 +197,7 @@ class Inspection:
         return np.asarray(total).ravel() / (12.0 * STEP)
 
     def structure(self) -> Structure:
-        """What neither limits nor goal depend on, and what nothing changes."""
+        """What neither limits nor objective depend on, and what nothing changes."""
         optimizer = self.optimizer
         table, free = optimizer.table, [one.name for one in optimizer.free]
         used = {int(column) for column in self._jacobian.sparsity().get_triplet()[1]}

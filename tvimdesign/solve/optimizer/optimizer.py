@@ -49,10 +49,10 @@ class Optimizer:
         """Compile the device, simulate the study's start, and build the problem.
 
         `reference` are the values the minimised outputs are divided by: the study's start unless given. A `simulator`
-        of the same device saves compiling it again. Outputs that are `traded` can be weighed and bounded by a `Goal`
-        whether the study minimises them or not. `without_cycle` leaves out the limits that depend on a working cycle,
-        so that none is simulated. Raises InfeasibleError where a limit is broken that nothing free
-        can mend, InputError from the table.
+        of the same device saves compiling it again. Outputs among the `objectives` can be weighed and bounded by an
+        `Objective` whether the study minimises them or not. `without_cycle` leaves out the limits that depend on a
+        working cycle, so that none is simulated. Raises InfeasibleError where a limit is broken that nothing free can
+        mend, InputError from the table.
         """
         self.study, self.table, self.progress = study, study.table, progress
         began = time.perf_counter()
@@ -185,7 +185,7 @@ class Optimizer:
         within: Mapping[str, Ends] | None = None,
         warm: Run | Trace | None = None,
         begin: Array | None = None,
-        goal: Objective | None = None,
+        objective: Objective | None = None,
         unknowns: Array | None = None,
         *,
         beginning: Beginning | None = None,
@@ -194,7 +194,7 @@ class Optimizer:
         ends of their own.
 
         `unknowns` stand in place of the switch simulated at `begin`; `beginning` says what is neither cold nor warm.
-        A `goal` stands in place of the study's weights and bounds what is traded; nothing is built anew.
+        An `objective` stands in place of the study's weights and bounds what is traded; nothing is built anew.
         """
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
@@ -204,18 +204,21 @@ class Optimizer:
         arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
-        goal = goal or Objective(self.study.minimize)
-        answer = solver(**arguments, p=self.parameters(goal), **self.ends(within or {}, goal))
+        objective = objective or Objective(self.study.minimize)
+        answer = solver(**arguments, p=self.parameters(objective), **self.ends(within or {}, objective))
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
         run = self.record(answer, solver.stats(), inputs, seconds)
         return replace(run, within=within or {})
 
-    def ends(self, within: Mapping[str, Ends], goal: Objective) -> dict[str, Array]:
+    def ends(self, within: Mapping[str, Ends], objective: Objective) -> dict[str, Array]:
         """Ends of the unknowns and of the rows for one run, as nlpsol names them."""
         lower, upper = self.vector.bounds(within)
         equations = np.zeros(self.problem.equation_count)
-        room, rest = goal.room(self.problem.objectives), np.zeros(self.problem.slope_count + self.problem.peak_count)
+        room, rest = (
+            objective.room(self.problem.objectives),
+            np.zeros(self.problem.slope_count + self.problem.peak_count),
+        )
         most = np.concatenate([self._limits_less_margins(), room, rest])
         return {
             "lbx": lower, "ubx": upper,
@@ -245,13 +248,13 @@ class Optimizer:
         """What the limits' residuals may come to: zero, or so far within as their margins say."""
         return -np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
 
-    def parameters(self, goal: Objective) -> Array:
+    def parameters(self, objective: Objective) -> Array:
         """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
-        over = [goal.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
-        return np.concatenate([self.model.start, over, goal.factors(self.problem.objectives).ravel(order="F")])
+        over = [objective.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
+        return np.concatenate([self.model.start, over, objective.factors(self.problem.objectives).ravel(order="F")])
 
     def derivatives(self, run: Run) -> Derivatives:
-        """The problem's values and derivatives where a run of the study's own goal ended.
+        """The problem's values and derivatives where a run of the study's own objective ended.
 
         IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
         """

@@ -82,7 +82,7 @@ def trace_front(trade: Tradeoff, outputs: Sequence[str], count: int) -> Front:
 
 
 def completed(front: Front, trade: Tradeoff) -> Front:
-    """A front whose points have every output, those too that no goal and no limit hangs on."""
+    """A front whose points have every output, those too that no objective and no limit hangs on."""
     found = [trade.completed(point) for point in front.points]
     failures = tuple(one for one in found if isinstance(one, Failure))
     return replace(
@@ -144,11 +144,11 @@ class _Tracer:
         for name in self.outputs:
             for others in itertools.permutations([other for other in self.outputs if other != name]):
                 weights = {other: SIDE_WEIGHT ** (i + 1) for i, other in enumerate(others)}
-                goal = Objective(self.trade.weights({name: 1.0, **weights}))
+                objective = Objective(self.trade.weights({name: 1.0, **weights}))
                 near = next((end for end in self.ends if end.where.startswith(f"least {name}")), None)
                 near = near or self.trade.ends.get(name)
                 guess = near.trace if near else None
-                found = self._sought(goal, f"least {name}, then {_and(others)}", near, guess)
+                found = self._sought(objective, f"least {name}, then {_and(others)}", near, guess)
                 if isinstance(found, Point):
                     self.ends.append(replace(found, root=len(self.ends)))
                     self.trade.ends.setdefault(name, found)
@@ -217,8 +217,8 @@ class _Tracer:
         """Seek the design on the line through a place; whether it is a new one."""
         points = self._nearest(place)
         where = f"point {len(self._all) + 1} of {self.count}"
-        goal = self._goal(self.frame.bounds(place, self.trade.reference))
-        found = self._sought(goal, where, points[0], self._guess(points, place))
+        objective = self._objective(self.frame.bounds(place, self.trade.reference))
+        found = self._sought(objective, where, points[0], self._guess(points, place))
         if not isinstance(found, Point):
             return False
         if any(self._same(found, other) for other in self._all):
@@ -227,7 +227,7 @@ class _Tracer:
         self.between.append(found)
         return True
 
-    def _goal(self, bounds: Sequence[Bound]) -> Objective:
+    def _objective(self, bounds: Sequence[Bound]) -> Objective:
         first, *others = self.outputs
         return Objective(self.trade.weights({first: 1.0, **dict.fromkeys(others, SIDE_WEIGHT)}), tuple(bounds))
 
@@ -274,8 +274,10 @@ class _Tracer:
 
     # --- small things ---
 
-    def _sought(self, goal: Objective, where: str, near: Point | None, guess: Trace | None = None) -> Point | Failure:
-        found = self.trade.best(goal, f"{self.title}: {where}", near, guess)
+    def _sought(
+        self, objective: Objective, where: str, near: Point | None, guess: Trace | None = None
+    ) -> Point | Failure:
+        found = self.trade.best(objective, f"{self.title}: {where}", near, guess)
         found = replace(found, where=where)
         if isinstance(found, Failure):
             self.failures.append(found)

@@ -37,15 +37,15 @@ class Point:
     where: str
     """Which point it is, in words."""
     values: dict[str, float]
-    """Every input and, of the outputs, those that its goal and limits hang on, in SI by full name; once it is
+    """Every input and, of the outputs, those that its objective and limits hang on, in SI by full name; once it is
     completed, every output."""
     current_profiles: dict[str, Any]
     trace: Trace | None = field(default=None, repr=False, compare=False)
     """What the solver left behind, for a neighbour to begin from."""
-    goal: Objective | None = field(default=None, repr=False, compare=False)
+    objective: Objective | None = field(default=None, repr=False, compare=False)
     """What it is the best for; None for the study's own optimum."""
     cost: float = math.inf
-    """What the solver made of that goal."""
+    """What the solver made of that objective."""
     root: int = 0
     """The end it descends from, neighbour by neighbour."""
 
@@ -61,10 +61,10 @@ class Failure:
 class Memory(Protocol):
     """What keeps the answers of a trade-off, so that one that was killed goes on where it was."""
 
-    def recall(self, number: int, goal: Objective) -> Point | Failure | None:
+    def recall(self, number: int, objective: Objective) -> Point | Failure | None:
         """The answer to a question, counted from 0; None where it is not known."""
 
-    def keep(self, number: int, goal: Objective, found: Point | Failure) -> None:
+    def keep(self, number: int, objective: Objective, found: Point | Failure) -> None:
         """Note an answer."""
 
 
@@ -106,34 +106,34 @@ class Tradeoff:
         return {name: weight * built[name] / self.reference[name] for name, weight in weights.items()}
 
     def best(
-        self, goal: Objective, where: str, near: Point | None = None, guess: Trace | None = None
+        self, objective: Objective, where: str, near: Point | None = None, guess: Trace | None = None
     ) -> Point | Failure:
-        """The best design for a goal: from a guess, a point nearby, or the study's optima and start.
+        """The best design for an objective: from a guess, a point nearby, or the study's optima and start.
 
         Where a design that was found before keeps the bounds and is better, this has ended in a worse optimum: then
         also from there.
         """
         number, self.asked = self.asked, self.asked + 1
-        found = self._memory.recall(number, goal) if self._memory else None
+        found = self._memory.recall(number, objective) if self._memory else None
         if found is None:
             self.progress(where)
-            found = self._search(goal, where, near, guess)
+            found = self._search(objective, where, near, guess)
             if self._memory:
-                self._memory.keep(number, goal, found)
+                self._memory.keep(number, objective, found)
         if isinstance(found, Point):
             self.found.append(found)
         return found
 
     def again(self, point: Point, other: Point) -> Point | None:
         """A point sought once more from another one; None where nothing better is found."""
-        assert point.goal is not None  # the study's own optimum is never asked for again
+        assert point.objective is not None  # the study's own optimum is never asked for again
         number, self.asked = self.asked, self.asked + 1
-        found = self._memory.recall(number, point.goal) if self._memory else None
+        found = self._memory.recall(number, point.objective) if self._memory else None
         if found is None:
             self.progress(f"{point.where}, from another side")
-            found = self._from(other, point.goal, point.where, point.cost)
+            found = self._from(other, point.objective, point.where, point.cost)
             if self._memory:
-                self._memory.keep(number, point.goal, found)
+                self._memory.keep(number, point.objective, found)
         if isinstance(found, Failure):
             return None
         self.found.append(found)
@@ -149,64 +149,64 @@ class Tradeoff:
             return Failure(point.where, str(error))
         return replace(point, values=point.values | self.optimizer.model.values(inputs, cycle.values))
 
-    def _search(self, goal: Objective, where: str, near: Point | None, guess: Trace | None) -> Point | Failure:
+    def _search(self, objective: Objective, where: str, near: Point | None, guess: Trace | None) -> Point | Failure:
         found: Point | Failure = Failure(where, "nothing to begin from")
         if guess is not None:
-            found = self._checked([self._warm(guess, goal)], goal, where)
+            found = self._checked([self._warm(guess, objective)], objective, where)
         if near is not None and isinstance(found, Failure):
-            found = self._checked([self._cold(self._inputs(near), goal)], goal, where)
+            found = self._checked([self._cold(self._inputs(near), objective)], objective, where)
         if isinstance(found, Failure):
-            found = self._checked([self._warm(run.trace, goal) for run in self._optima], goal, where)
+            found = self._checked([self._warm(run.trace, objective) for run in self._optima], objective, where)
         if isinstance(found, Failure):
             begins = [self.optimizer.model.start, self._inputs(self.optimum)]
-            found = self._checked([self._cold(begin, goal) for begin in begins], goal, where)
+            found = self._checked([self._cold(begin, objective) for begin in begins], objective, where)
         if near is not None and isinstance(found, Point):
             found = replace(found, root=near.root)
-        keeping = [one for one in self.found if all(bound.residual(one.values) <= 0.0 for bound in goal.bounds)]
-        best = min(keeping, key=lambda one: self._value(one, goal), default=None)
-        if best and (isinstance(found, Failure) or self._better(best, found, goal)):
-            again = self._from(best, goal, where, math.inf if isinstance(found, Failure) else found.cost)
+        keeping = [one for one in self.found if all(bound.residual(one.values) <= 0.0 for bound in objective.bounds)]
+        best = min(keeping, key=lambda one: self._value(one, objective), default=None)
+        if best and (isinstance(found, Failure) or self._better(best, found, objective)):
+            again = self._from(best, objective, where, math.inf if isinstance(found, Failure) else found.cost)
             found = replace(again, root=best.root) if isinstance(again, Point) else found
         return found
 
-    def _better(self, one: Point, other: Point, goal: Objective) -> bool:
+    def _better(self, one: Point, other: Point, objective: Objective) -> bool:
         """Whether a design is better than another by more than the simulation's tolerance."""
-        return self._value(one, goal) < self._value(other, goal) * (1.0 - ONE_POINT)
+        return self._value(one, objective) < self._value(other, objective) * (1.0 - ONE_POINT)
 
-    def _value(self, point: Point, goal: Objective) -> float:
-        """What a goal makes small."""
+    def _value(self, point: Point, objective: Objective) -> float:
+        """What an objective makes small."""
         built = self.optimizer.reference
-        return sum(weight * point.values[name] / built[name] for name, weight in goal.weights.items())
+        return sum(weight * point.values[name] / built[name] for name, weight in objective.weights.items())
 
-    def _from(self, point: Point, goal: Objective, where: str, beaten: float) -> Point | Failure:
+    def _from(self, point: Point, objective: Objective, where: str, beaten: float) -> Point | Failure:
         """The best design from a point, if it costs less than what is to be beaten."""
-        run = self._cold(self._inputs(point), goal) if point.trace is None else self._warm(point.trace, goal)
+        run = self._cold(self._inputs(point), objective) if point.trace is None else self._warm(point.trace, objective)
         if run.start.converged and not run.start.objective < beaten * (1.0 - ONE_POINT):
             return Failure(where, "no better")
-        return self._checked([run], goal, where)
+        return self._checked([run], objective, where)
 
     def _inputs(self, point: Point) -> Array:
         return np.array([point.values[name] for name in self.optimizer.model.names])
 
-    def _warm(self, trace: Trace, goal: Objective) -> Run:
-        return self.optimizer.solve(self._fixed, warm=trace, goal=goal)
+    def _warm(self, trace: Trace, objective: Objective) -> Run:
+        return self.optimizer.solve(self._fixed, warm=trace, objective=objective)
 
-    def _cold(self, begin: Array, goal: Objective) -> Run:
-        return self.optimizer.solve(self._fixed, begin=begin, goal=goal)
+    def _cold(self, begin: Array, objective: Objective) -> Run:
+        return self.optimizer.solve(self._fixed, begin=begin, objective=objective)
 
-    def _checked(self, runs: Sequence[Run], goal: Objective, where: str) -> Point | Failure:
+    def _checked(self, runs: Sequence[Run], objective: Objective, where: str) -> Point | Failure:
         """The best of some runs that keeps every limit when it is simulated, or why there is none."""
         reason = f"not converged: {meaning(runs[-1].start.status).words}" if runs else "nothing to begin from"
         for run in self._robust(
-            sorted((run for run in runs if run.start.converged), key=lambda r: r.start.objective), goal
+            sorted((run for run in runs if run.start.converged), key=lambda r: r.start.objective), objective
         ):
-            checked = self._simulated(run, goal, where)
+            checked = self._simulated(run, objective, where)
             if isinstance(checked, Point):
                 return checked
             reason = checked
         return Failure(where, reason)
 
-    def _robust(self, runs: Sequence[Run], goal: Objective) -> Iterator[Run]:
+    def _robust(self, runs: Sequence[Run], objective: Objective) -> Iterator[Run]:
         """Runs as they are; of a robust study sought again, from the optimum's margins to their own."""
         if not self.optimizer.study.robust:
             yield from runs
@@ -214,12 +214,12 @@ class Tradeoff:
         from tvimdesign.solve.uncertainty.robust import settle
 
         for run in runs:
-            settled = settle(self.optimizer, run, self._fixed, goal)
+            settled = settle(self.optimizer, run, self._fixed, objective)
             self.optimizer.margins = dict(self._margins)
             if settled.start.converged:
                 yield settled
 
-    def _simulated(self, run: Run, goal: Objective, where: str) -> Point | str:
+    def _simulated(self, run: Run, objective: Objective, where: str) -> Point | str:
         """The design simulated and held against every limit again; in words which one it breaks."""
         optimizer, problem = self.optimizer, self.optimizer.problem
         try:
@@ -234,10 +234,10 @@ class Tradeoff:
             if not limit.residual(values[limit.output]) <= tolerance:
                 value = format_quantity(values[limit.output], table.unit(limit.output))
                 return f"converged, but simulated it breaks {in_words(limit, table)}: {value}"
-        for bound in goal.bounds:
+        for bound in objective.bounds:
             size = sum(abs(factor * values[name]) for name, factor in bound.factors.items())
             if not bound.residual(values) <= CYCLE_TOLERANCE * size:
                 return "converged, but simulated it is not where it was sought"
         inputs = {name: float(run.inputs[i]) for name, i in optimizer.model.index.items()}
         current_profiles = {phase: profile.plain() for phase, profile in run.current_profiles.items()}
-        return Point(where, {**inputs, **values}, current_profiles, run.trace, goal, run.start.objective)
+        return Point(where, {**inputs, **values}, current_profiles, run.trace, objective, run.start.objective)

@@ -29,19 +29,19 @@ _PRESSING = 1e-6
 """Multiplier from which on a limit holds the design, objectives a share of its scale."""
 
 
-def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Objective | None = None) -> Run:
+def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None = None) -> Run:
     """Seek the optimum `within` ends again until limits on what the cycle supplies are kept as robustly as the others,
     and where a yield is asked for until so many modules keep each limit.
 
     Returns the last run, converged or not; without such limits, the run as it is.
     """
-    run = _settled(optimizer, run, within, goal)
+    run = _settled(optimizer, run, within, objective)
     assert optimizer.study.robust is not None
     share = optimizer.study.robust.share
-    return run if share is None else _reached(optimizer, run, within, goal, share)
+    return run if share is None else _reached(optimizer, run, within, objective, share)
 
 
-def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Objective | None) -> Run:
+def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
     """By deviations: margins of the limits on what the cycle supplies."""
     for _ in range(ROUNDS):
         if not run.start.converged:
@@ -53,11 +53,13 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: O
         if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
             return run
         optimizer.progress("staying within the limits on times by what they spread")
-        run = _again(optimizer, run, within, goal)
+        run = _again(optimizer, run, within, objective)
     return run
 
 
-def _reached(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Objective | None, share: float) -> Run:
+def _reached(
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None, share: float
+) -> Run:
     """By modules drawn: a limit that fewer keep gets what they miss it by for a margin; one that holds the design and
     that more keep gives back what it has too much.
     """
@@ -78,7 +80,7 @@ def _reached(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: O
         optimizer.progress("staying within the limits by what modules drawn at random miss them by")
         optimizer.margins = {name: optimizer.margins.get(name, 0.0) + moved.get(name, 0.0)
                              for name in {**optimizer.margins, **moved}}  # fmt: skip
-        run = _again(optimizer, run, within, goal)
+        run = _again(optimizer, run, within, objective)
     return run
 
 
@@ -89,10 +91,10 @@ def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
     return {limit.name for limit, multiplier in zip(limits, of_limits, strict=True) if multiplier > _PRESSING}
 
 
-def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], goal: Objective | None) -> Run:
+def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
     """The optimum with other margins, warm from the one before and else from its inputs."""
-    found = optimizer.solve(within, warm=run, goal=goal)
-    return found if found.start.converged else optimizer.solve(within, begin=run.inputs, goal=goal)
+    found = optimizer.solve(within, warm=run, objective=objective)
+    return found if found.start.converged else optimizer.solve(within, begin=run.inputs, objective=objective)
 
 
 def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
