@@ -84,8 +84,8 @@ def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
     path = made.report.folder / "assembly.step"
     parts = {name: (shape, colour) for shape, name, _, colour in cq.Assembly.importStep(str(path))}
     assert (
-        len(parts) == 15 + 2 * COPIES[made.design.mode]
-    )  # four of the kinds made once, springs, five screws, two pins
+        len(parts) == 17 + 2 * COPIES[made.design.mode]
+    )  # four of the kinds made once, springs, five screws, four pins
     for name, (shape, colour) in parts.items():
         kind = name.split("/")[-1].rstrip("_0123456789")
         assert isinstance(shape, cq.Solid)

@@ -13,7 +13,7 @@ from tvimdesign.device.core.torsion_springs import quantities as shared
 from tvimdesign.device.core.warm_structure import PartTemperatures
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.solids import creep
+from tvimdesign.physics.polymers import creep
 
 quantities = QuantityGroup(shared.group)
 

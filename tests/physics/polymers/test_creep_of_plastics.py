@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.solids import creep
+from tvimdesign.physics.polymers import creep
 
 HOURS = 3600.0
 
