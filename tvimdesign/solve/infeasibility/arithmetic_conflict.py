@@ -12,7 +12,6 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
-from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.solution import ConflictSet
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
@@ -41,7 +40,7 @@ def refuse_infeasible(study: Study) -> None:
 def _conflict(study: Study) -> str:
     """What conflicts, with what to do; empty where a start keeps all limits."""
     update = {
-        "minimize": {name: weight for name, weight in study.minimize.items() if not on_cycle(study.table, name)},
+        "minimize": {},
         "solver": study.solver.model_copy(update={"starts": max(_STARTS, study.solver.starts)}),
         "profile": ProfileOptions(), "robust": None,
     }  # fmt: skip
@@ -53,7 +52,7 @@ def _conflict(study: Study) -> str:
         return ""
     runs = []
     for begin in optimizer.multistart.points():
-        runs.append(optimizer.solve(begin=begin))
+        runs.append(optimizer.solve(begin=begin, beginning="feasible"))
         if runs[-1].start.converged:
             return ""
     found = find_conflicts(optimizer, runs, lambda _: None)

@@ -31,9 +31,16 @@ _WARM = {
     "warm_start_mult_bound_push": 1e-6,
     "warm_start_slack_bound_push": 1e-6,
 }
-Beginning: TypeAlias = Literal["cold", "near", "warm", "sharp"]
-"""Where a run begins: anywhere; near another optimum, none of whose multipliers hold; at an optimum, with them; at the
-optimum itself, which is sought more exactly."""
+_FEASIBLE = {
+    # The first point that keeps all limits is as good as any.
+    "acceptable_iter": 1,
+    "acceptable_tol": 1e6,
+    "acceptable_compl_inf_tol": 1e6,
+    "acceptable_constr_viol_tol": 1e-8,
+}
+Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
+"""Where a run begins: anywhere; anywhere, to end where all limits are kept; near another optimum, none of whose
+multipliers hold; at an optimum, with them; at the optimum itself, which is sought more exactly."""
 _SHARP = 1e-11
 """Tolerance at which a limit that hardly presses is told from one that does not."""
 _MOST_ITERATIONS = {"near": 60, "warm": 30, "sharp": 30}
@@ -60,7 +67,7 @@ def solver_of(
     most = asked.max_iterations
     ipopt: dict[str, Any] = {
         **_USUAL,
-        **(_WARM if beginning in ("warm", "sharp") else {}),
+        **(_WARM if beginning in ("warm", "sharp") else _FEASIBLE if beginning == "feasible" else {}),
         "max_iter": min(most, _MOST_ITERATIONS.get(beginning, most)),
         "tol": min(asked.tolerance, _SHARP) if beginning == "sharp" else asked.tolerance,
     }
