@@ -11,8 +11,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.constants import R
 
+from tvimdesign.physics.polymers.polymer import GAS_CONSTANT
 from tvimdesign.physics.solids.warm import REFERENCE
 
 HOUR = 3600.0  # s
@@ -31,7 +31,7 @@ class Creep(NamedTuple):
 
 def aged(time: Any, temperature: Any, law: Creep) -> Any:
     """Time at 23 degC [s] in which as much creeps as in a time [s] at a temperature [K] [Fe]."""
-    return time * np.exp(law.activation_energy / R * (1.0 / REFERENCE - 1.0 / temperature))
+    return time * np.exp(law.activation_energy / GAS_CONSTANT * (1.0 / REFERENCE - 1.0 / temperature))
 
 
 def growth(time: Any, law: Creep) -> Any:

@@ -13,9 +13,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.constants import R
 
-from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Melting, ramp
+from tvimdesign.physics.polymers.polymer import GAS_CONSTANT, ZERO_CELSIUS, Melting, ramp
 
 BELOW_GLASS = 30.0  # K; molecules stop moving that far below the glass transition [H]
 # Roundings, each small against what it rounds.
@@ -54,7 +53,7 @@ def _mobility_and_nucleation(temperature_kelvin: Any, kinetics: Kinetics) -> Any
     above_frozen = ramp(temperature_kelvin - (kinetics.glass_transition - BELOW_GLASS), _UNDERCOOLING_ROUNDING)
     undercooling = ramp(kinetics.equilibrium_melting - temperature_kelvin, _UNDERCOOLING_ROUNDING)
     correction = 2.0 * temperature_kelvin / (temperature_kelvin + kinetics.equilibrium_melting)
-    transport = kinetics.transport_energy / (R * above_frozen)
+    transport = kinetics.transport_energy / (GAS_CONSTANT * above_frozen)
     return -transport - kinetics.nucleation_constant / (temperature_kelvin * undercooling * correction)
 
 

@@ -14,11 +14,11 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.constants import R
 
 from tvimdesign.physics.solids.structure import shear_modulus
 
 ZERO_CELSIUS = 273.15  # K
+GAS_CONSTANT = 8.314462618  # J/(mol K), CODATA
 PINNED_FREQUENCY = 2.0 * np.pi  # rad/s, 1 Hz
 """The angular frequency at which the frozen polymer's storage modulus is the data sheet's E/(2 (1 + nu)).
 
@@ -123,7 +123,7 @@ def solid_shear_modulus(temperature_kelvin: Any, solid: SolidModulus) -> Any:
 
 def arrhenius_shift(temperature_kelvin: Any, reference: Any, activation_energy: Any) -> Any:
     """Time-temperature shift factor a_T = exp(E_a/R (1/T - 1/T_ref)) [1] [F ch. 11]."""
-    return np.exp(activation_energy / R * (1.0 / temperature_kelvin - 1.0 / reference))
+    return np.exp(activation_energy / GAS_CONSTANT * (1.0 / temperature_kelvin - 1.0 / reference))
 
 
 def maxwell_moduli(angular_frequency: Any, modes: Modes) -> tuple[Any, Any]:
