@@ -26,7 +26,7 @@ require:
   layer_holding_torque: ">= 40 N.m"
   peak_power: "<= 15 W"
   peak_voltage: "<= 7.6 V"
-  peak_peltier_temperature: "<= 125 degC"
+  peak_peltier_temperature: "<= 120 degC"
 minimize: response_time
 profile: {softening: 0}
 solver: {starts: 1}
@@ -84,13 +84,14 @@ def test_more_pieces_are_never_slower_than_fewer_and_any_beats_a_constant_curren
     assert times[2] < 0.95 * times[0]  # the pads' power first, then their temperature is at its limit
 
 
-def test_the_limits_hold_all_along_the_simulated_heating() -> None:
-    solution = solve(with_pieces(8))
+@pytest.mark.parametrize("pieces", [4, pytest.param(8, marks=pytest.mark.slow)])
+def test_the_limits_hold_all_along_the_simulated_heating(pieces: int) -> None:
+    solution = solve(with_pieces(pieces))
     voltage, hot, _ = terminals(solution, "softening")
     line = solution.cycle.trajectories["softening"]
     assert np.max(voltage) <= 7.6 * (1.0 + TOLERANCE)
     assert np.max(voltage * line.currents) <= 15.0 * (1.0 + TOLERANCE)
-    assert np.max(hot) <= 398.15 + 100.0 * TOLERANCE
+    assert np.max(hot) <= 393.15 + 100.0 * TOLERANCE
     profile = solution.current_profiles["softening"]
     assert (profile.moments[0], profile.currents[0]) == (0.0, 0.0)
     ramped = line.times >= profile.moments[1]
@@ -100,7 +101,7 @@ def test_the_limits_hold_all_along_the_simulated_heating() -> None:
     assert solution.current_profiles["softening"].steepest <= 0.2 * (1.0 + 1e-6)
     # The limits that are said to hold it do: one is met.
     assert max(np.max(voltage) / 7.6, np.max(voltage * line.currents) / 15.0) > 0.99
-    assert np.max(hot) > 398.15 - 0.3
+    assert np.max(hot) > 393.15 - 0.3
 
 
 @pytest.mark.slow
@@ -162,7 +163,7 @@ def one(solution: Solution, name: str) -> ActiveConstraint:
 @pytest.mark.parametrize(
     ("text", "name", "written", "step", "shares"),
     [
-        (with_pieces(8), "peak_peltier_temperature <=", "125 degC", 1.0, 1.0),
+        (with_pieces(8), "peak_peltier_temperature <=", "120 degC", 1.0, 1.0),
         (with_pieces(8), "peak_power <=", "15 W", 0.03, 0.2),
         pytest.param(CYCLE, "peak_peltier_temperature <=", "130 degC", 1.0, 1.0, marks=pytest.mark.slow),
         pytest.param(CYCLE, "peak_power <=", "20 W", 0.2, 1.0, marks=pytest.mark.slow),

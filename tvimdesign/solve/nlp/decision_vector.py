@@ -59,7 +59,10 @@ class DecisionVector:
         return Trajectory(np.array([0.0, 60.0]), np.column_stack([state, state]), np.zeros(2))
 
     def bounds(self, within: Mapping[str, Ends]) -> tuple[Array, Array]:
-        """Least and largest unknowns, with some free numbers kept within ends of their own."""
+        """Least and largest unknowns, with some free numbers and first nodes of currents kept within ends of their own.
+
+        A current is named by the input it is constant by.
+        """
         lower = np.full(self.problem.unknown_count, -np.inf)
         upper = np.full(self.problem.unknown_count, np.inf)
         for i, free in enumerate(self.problem.free):
@@ -67,6 +70,8 @@ class DecisionVector:
             lower[i], upper[i] = free.to_unknown(low), free.to_unknown(high)
         for current, place in self.places_of_currents():
             lower[place], upper[place] = current.lower / current.upper, 1.0
+            low, high = within.get(current.row, (current.lower, current.upper))
+            lower[place.start], upper[place.start] = low / current.upper, high / current.upper
         driven = {current.phase for current in self.problem.free_currents}
         last = len(self.problem.free)
         for block in self.problem.blocks:

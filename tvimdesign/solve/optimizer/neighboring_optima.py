@@ -1,7 +1,8 @@
 """Optima beside those that starts came to: a period of a number away, and with a part of another one.
 
 Where a coil has a whole turn more or less, its legs point as before: each turn has an optimum of its own. Springs and
-layer share few limits, so one start may have found the best springs and another the best layer.
+layer share few limits, so one start may have found the best springs and another the best layer. A current may rest near
+its least after the supply's ramp and rise with its first piece, or rise as fast as the supply can: both are optima.
 """
 
 from __future__ import annotations
@@ -20,6 +21,9 @@ _MOST_CROSSED = 3
 """Optima whose parts are put together with the best one's."""
 _SMALLEST_STEP = 0.5
 """Share of a period that must be left up to an end of the range for the end to be tried."""
+
+_LEAST_RAMP = 0.5
+"""Share of its second node below which the first of a current is where it rests on its way there."""
 
 
 class NeighboringOptima:
@@ -71,7 +75,25 @@ class NeighboringOptima:
             tried = self._optimizer.solve(begin=run.inputs, unknowns=unknowns, beginning="near")
             if _better(tried, run):
                 return _told(tried, run, run.start, tried.start)
-        return None
+        return self._ramped_further(run)
+
+    def _ramped_further(self, run: Run) -> Run | None:
+        """The optimum whose ramps lead to at least half of where currents rise to after them; None if none is better.
+
+        That bound, which presses on no optimum worth having, is left out again.
+        """
+        vector, kept = self._optimizer.vector, {}
+        for current, place in vector.places_of_currents():
+            first, second = current.upper * run.unknowns[place][:2]
+            if first < _LEAST_RAMP * second:
+                kept[current.row] = (_LEAST_RAMP * second, current.upper)
+        if not kept:
+            return None
+        bounded = self._optimizer.solve(kept, begin=run.inputs)
+        if not _better(bounded, run):
+            return None
+        tried = self._optimizer.solve(warm=bounded, begin=run.inputs)
+        return _told(tried, run, run.start, bounded.start, tried.start) if _better(tried, run) else None
 
     def _values_beside(self, run: Run) -> Iterator[tuple[int, float]]:
         """Each periodic number a period below and above, or at the end of its range where half a period is left."""
