@@ -150,7 +150,7 @@ def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, k
     found = joint_motion.released(case, angle, internal)
     moved, gap = found.motion, joint_motion.gap(case, internal)
     # Friction holds the link off its old rest: it settles where it stays.
-    settling = link.settling_time(moved.times, moved.angle - (found.rest or 0.0), SETTLED)
+    settling = found.settling_time(SETTLED)
     if case.one_sided:
         return Released(case, found, gap, *_first_ringing(found), settling, None)
     swings = link.swings(case.joint, case.modes, angle, internal)
