@@ -109,6 +109,6 @@ def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, r
 
 
 def test_the_compression_module_has_them_too() -> None:
-    study = read_study_text("mode: compression\nmodule: {response_criterion: softening}\n", "test")
+    study = read_study_text("mode: compression\nmodule: {response_criterion: softening, current: 2 A}\n", "test")
     values = answer(study).design.values
     assert values["softened_impedance"] == pytest.approx(values["soft_threshold"], rel=1e-4)

@@ -22,6 +22,8 @@ from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, given
 
 TABLE = table_for("shear")
+# The aluminium draws so much of the layer's heat that 9 W never soften it.
+POWERFUL = LISTED.replace("<= 9 W", "<= 30 W").replace("[0.5 A, 2 A]", "[0.5 A, 4 A]")
 WEIGHTS = "{envelope_volume: 1, module_mass: 1, response_time: 1}"
 WEIGHT_SETS = [
     "{envelope_volume: 3, response_time: 1}",
@@ -208,7 +210,7 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
 
 
 def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:
-    text = LISTED.replace("vary:", "module: {structure_material: STUFF}\nvary:")
+    text = POWERFUL.replace("vary:", "module: {structure_material: STUFF}\nvary:")
     petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))
     first = Optimizer(petg)
     shared, own = first.with_records(metal), Optimizer(metal, first.reference)
@@ -223,7 +225,7 @@ def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same
 
 @pytest.mark.slow
 def test_records_and_sizes_are_chosen_together() -> None:
-    text = LISTED.replace("arc_count: {choose: [3, 4]}", "structure_material: {choose: [petg, aluminum_6061_t6]}")
+    text = POWERFUL.replace("arc_count: {choose: [3, 4]}", "structure_material: {choose: [petg, aluminum_6061_t6]}")
     both = _solve(listed(text))
     alone = [
         _solve(listed(text.replace("vary:", f"module: {{structure_material: {name}}}\nvary:").replace(

@@ -13,7 +13,8 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, _root, level_set
 
 WANTED = 70.0
-THICKNESSES = [0.2e-3, 0.6e-3, 2e-3]
+CURRENTS = [1.4, 1.87, 2.2]  # too weak, enough at every place, too strong at some
+THICKNESSES = [0.05e-3, 0.6e-3, 2e-3]
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +24,7 @@ def model() -> DeviceFunctions:
 
 @pytest.fixture(scope="module")
 def found(model: DeviceFunctions) -> LevelSet:
-    return level_set(model, "current", [1.4, 1.75, 2.2], THICKNESSES, WANTED)
+    return level_set(model, "current", CURRENTS, THICKNESSES, WANTED)
 
 
 def test_a_point_on_a_line_takes_the_time_when_it_is_simulated(model: DeviceFunctions, found: LevelSet) -> None:
@@ -35,7 +36,7 @@ def test_a_point_on_a_line_takes_the_time_when_it_is_simulated(model: DeviceFunc
             inputs = model.start.copy()
             inputs[model.index["current"]], inputs[model.index["pcl_thickness"]] = current, thickness
             assert Simulator(model).run(inputs).values[place] == pytest.approx(WANTED, rel=2e-4)
-            assert 0.2e-3 <= thickness <= 2e-3
+            assert THICKNESSES[0] <= thickness <= THICKNESSES[-1]
             points += 1
     assert points >= 4
 

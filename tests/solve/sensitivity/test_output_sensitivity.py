@@ -49,6 +49,12 @@ def found(resolved: ResolvedModule) -> OutputSensitivities:
     return output_sensitivities(resolved, ELEMENTS, CELLS, [*OF_CYCLE, *OF_GEOMETRY, *TEMPERATURES])
 
 
+@pytest.fixture(scope="module")
+def softening(resolved: ResolvedModule) -> OutputSensitivities:
+    """The joint is soft while cells melt: its time is 5e-5 off with ELEMENTS, and that changes with the design."""
+    return output_sensitivities(resolved, 2 * ELEMENTS, CELLS, ["softening_time"])
+
+
 def _logarithmic(found: OutputSensitivities, resolved: ResolvedModule) -> dict[tuple[str, str], float | None]:
     return {(one.output, one.variable): one.logarithmic for one in entries(found, resolved)}
 
@@ -79,9 +85,10 @@ def test_powers_of_textbook_formulae_come_back(found: OutputSensitivities, resol
 
 @pytest.mark.parametrize("name", ["pcl_thickness", "pcl_outer_radius", "current", "cooling_current", "core_radius"])
 def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(
-    name: str, found: OutputSensitivities, resolved: ResolvedModule
+    name: str, found: OutputSensitivities, softening: OutputSensitivities, resolved: ResolvedModule
 ) -> None:
-    by, shown = _logarithmic(found, resolved), _simulated(resolved, CELLS, name, OF_CYCLE)
+    by = _logarithmic(found, resolved) | _logarithmic(softening, resolved)
+    shown = _simulated(resolved, CELLS, name, OF_CYCLE)
     for output in OF_CYCLE:
         assert by[output, name] == pytest.approx(shown[output], rel=3e-3, abs=3e-3), output
 
@@ -115,12 +122,13 @@ def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -
 
 
 def test_the_compression_module_is_differentiated_alike() -> None:
-    found = output_sensitivities(
-        resolved := _rig("mode: compression\n"), 3, CELLS, ["response_time", "module_mass", "block_strain"]
-    )
+    # The far face is never at 100 degC: too much goes from the vanes into the housing.
+    resolved = _rig("mode: compression\nmodule: {response_criterion: softening, current: 2 A}\n")
+    found = output_sensitivities(resolved, 3, CELLS, ["response_time", "module_mass", "block_strain"])
     by = _logarithmic(found, resolved)
+    shown = _simulated(resolved, CELLS, "block_depth", ["response_time"])
     assert by["block_strain", "block_depth"] == pytest.approx(-1.0, rel=1e-9)
-    assert 0.0 < (by["response_time", "block_depth"] or 0.0) < 2.0
+    assert by["response_time", "block_depth"] == pytest.approx(shown["response_time"], rel=3e-3)
 
 
 @pytest.mark.slow
