@@ -38,8 +38,9 @@ def plain(design: Path, out: Path) -> None:
     from tvimdesign.cad.assembly.product_data import instances
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.geometry.production import PRODUCTION
+    from tvimdesign.cad.render.exploded import write_exploded
     from tvimdesign.cad.render.preview import write_preview
-    from tvimdesign.cad.render.views import write_exploded, write_section
+    from tvimdesign.cad.render.section import write_section
     from tvimdesign.study.design import read_design
 
     dims = dimensions(read_design(design))
@@ -77,7 +78,7 @@ def plain(design: Path, out: Path) -> None:
     meshes = instances(dims, drawn, placed)
     write_preview(out / "preview.png", dims, drawn, meshes)
     write_exploded(out / "exploded.png", meshes)
-    write_section(out / "section.png", meshes)
+    write_section(out / "section.png", placed, meshes)
 
 
 def files_only(design: Path, out: Path) -> None:

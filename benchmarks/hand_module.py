@@ -26,7 +26,7 @@ BEND_ACROSS, BEND_IN_PLANE = 1.3, (4.0 * 2.0**2 - 2.0 - 1.0) / (4.0 * 2.0 * (2.0
 E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
 LOSS = 0.03 + 0.01  # of PETG and of what is clamped
-SHAFT_ENTRY, PLATE_ENTRY, FLOOR_SPREAD, FOOT_SPREAD = 0.07, 1.16, 1.5, 1.76
+SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, FLOOR_SPREAD, FOOT_SPREAD = 0.1, 0.15, 1.16, 1.54, 1.8
 WALL_LEAST, FEATURE_LEAST, CORNER, POCKET_RATIO = 1.2e-3, 2e-3, 0.2e-3, 50.0
 PIN_RATIO, PIN, CORE, WALL, FLOOR, ROTOR, LINK = 0.5, 4e-3, 10e-3, 3e-3, 4e-3, 4e-3, 4e-3
 RADIAL, AXIAL, RUNNING, RIM, HUB_WALL, FOOT, NOTCH = 1e-3, 1e-3, 0.4e-3, 1.5e-3, 3e-3, 6e-3, 12e-3
@@ -36,11 +36,15 @@ RETAINER, RETAINER_RADIUS = 2.5e-3, 13e-3
 LINK_PILOT, LINK_HOLE, LINK_HEAD, LINK_HEAD_HEIGHT, LINK_SCREW = 2.5e-3, 3.4e-3, 5.7e-3, 1.65e-3, 12e-3
 LAST_PILOT, LAST_HOLE, LAST_HEAD, LAST_HEAD_HEIGHT, LAST_SCREW = 3.3e-3, 4.5e-3, 7.6e-3, 2.2e-3, 10e-3
 TIP_ROOM, RHO_STEEL = 0.5e-3, 7850.0
-DOWELS, DOWEL, DOWEL_LONG, DOWEL_CIRCLE = 2.0, 2e-3, 10e-3, 7e-3
+DOWELS, DOWEL, DOWEL_LONG, DOWEL_CIRCLE = 4.0, 2.5e-3, 10e-3, 7e-3
+BY_SCREWS, BY_DOWELS = 4.0 * LINK_PILOT**2 * BOLT_CIRCLE**2 / CORE**4, DOWELS * DOWEL**2 * DOWEL_CIRCLE**2 / CORE**4
 # Layer and pads
-ARCS, INNER, LEDGE, RHO_PCL = 4.0, 26e-3, 2e-3, 1145.0
+ARCS, INNER, LEDGE, RHO_PCL, K_SOLID, K_MELT = 4.0, 26e-3, 2e-3, 1145.0, 0.225, 0.18
 BOND, SHEAR_YIELD, MELT_STRAIN, MELT_FRACTURE = 2e6, 16e6 / math.sqrt(3.0), 6.0, 0.2e6
 PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6
+K_PAD, PAD_EDGE = 6.0, 150.0  # in their plane; into the walls of their pockets [W/m^2 K]
+# Strips beside the arcs, in three bodies each, and the air between them
+STRIP, TO_EDGE, K_AIR, EMISSIVITY = (0.05, 0.22, 0.73), 0.22, 0.028, 0.9
 # Enthalpy of PCL: melts between 50 and 65 degC
 C_SOLID, C_MELT, LATENT, MELTS, MOLTEN, ROUNDING = 1850.0, 2100.0, 76750.0, 323.15, 338.15, 1000.0
 H_MELTS = C_SOLID * (MELTS - 273.15)
@@ -77,7 +81,7 @@ def _moduli(kelvin: float) -> tuple[float, float]:
 
 (COLD_STORAGE, COLD_LOSS), (HOT_STORAGE, HOT_LOSS) = _moduli(303.15), _moduli(373.15)
 
-OUTPUTS, RESIDUALS, HEAT = 3, 39, 10
+OUTPUTS, RESIDUALS, HEAT = 3, 41, 37
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
 and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
 switch.
@@ -162,7 +166,6 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     in_coil = straight * inner_fibre * math.sqrt((1.0 + radius / arm) ** 2 + (high / arm) ** 2)
     across, in_plane, twist = BEND_ACROSS * lever, BEND_IN_PLANE * high * sine, BEND_ACROSS * high * cosine
     in_bend = straight * math.sqrt(across**2 + in_plane**2 + 0.75 * twist**2) / arm
-    per_angle = max(in_coil, in_bend)
     strength = STRENGTH * (1e3 * d) ** -STRENGTH_POWER
     most = PRELOAD + STROKE
     height = max(end + slope * arm - plate_top, 0.5 * d)
@@ -172,9 +175,12 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     polar = 0.25 * ARCS * span * (outer**4 - INNER**4)
     middle = 0.5 * (INNER + outer)
     link_deep, last_deep = LINK_SCREW - LINK + TIP_ROOM, LAST_SCREW - RETAINER + TIP_ROOM
-    weaker = 4.0 * LINK_PILOT**2 * BOLT_CIRCLE**2 / CORE**4
+    dowel_deep = DOWEL_LONG - LINK + TIP_ROOM
     free = link_bottom - plate_top
-    free += min(link_deep, free) * weaker / (1.0 - weaker) + SHAFT_ENTRY * CORE
+    to_screws, to_dowels = min(link_deep, free + BORE_ENTRY * CORE), min(dowel_deep, free + BORE_ENTRY * CORE)
+    both = min(to_screws, to_dowels)
+    free += SHAFT_ENTRY * CORE + both * (BY_SCREWS + BY_DOWELS) / (1.0 - BY_SCREWS - BY_DOWELS)
+    free += (to_screws - both) * BY_SCREWS / (1.0 - BY_SCREWS) + (to_dowels - both) * BY_DOWELS / (1.0 - BY_DOWELS)
     hole = 0.5 * MOUNT_HOLE
     sideways = 1.0 / (
         FOOT**3 / (3.0 * PI * E_PETG * (BOSS**4 - hole**4)) + FOOT / (0.9 * PI * G_PETG * (BOSS**2 - hole**2))
@@ -202,7 +208,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     housing = (ring - notches + feet) * FOOT + (PI * (outside**2 - hub**2) - holes) * FLOOR - pads - windows * web
     housing += ring * pin_top + PI * (hub**2 - bore**2) * (t + FLOOR) + SPRINGS * PI * post**2 * (end + 0.5 * d)
     core_long = link_bottom + FLOOR + RUNNING - ROTOR
-    dowel, dowel_deep = DOWELS * 0.25 * PI * DOWEL**2, DOWEL_LONG - LINK + TIP_ROOM
+    dowel = DOWELS * 0.25 * PI * DOWEL**2
     dowel_polar = dowel * (0.125 * DOWEL**2 + DOWEL_CIRCLE**2)
     plate = PI * rotor**2 * ROTOR
     core = PI * CORE**2 * core_long
@@ -250,37 +256,52 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[7], g[8] = 1.0 - index / 5.0, index / 16.0 - 1.0
     g[9], g[10], g[11] = inertia / 300e-6 - 1.0, 2.0 * outside / 0.16 - 1.0, mass / 0.6 - 1.0
     g[12] = 1.0 - ACROSS_LAYERS / pin_stress
-    g[13] = 1.0 - YIELD_RATIO * strength / (per_angle * most)
-    g[14] = 1.0 - YIELD_RATIO * strength / (per_angle * 2.0 * PRELOAD)
-    g[15] = 1.0 - MELT_FRACTURE * t / (outer * STROKE * math.sqrt(HOT_STORAGE**2 + HOT_LOSS**2))
-    g[16] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
-    g[17] = -(r - reach - rotor - RADIAL) / 0.01
-    g[18] = -(end - 0.5 * d - plate_top - AXIAL) / 0.01
-    g[19] = -(rotor - pin_at - 0.5 * PIN - RADIAL) / 0.01
-    g[20] = -(math.sqrt(beside**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
-    g[21] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
-    g[22] = 1.0 - (r - pin_at - offset) / 1e-3
-    g[23] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
-    g[24] = 1.0 - (outer - INNER) / 5e-3
-    g[25] = -(outer - INNER - 2.0 * LEDGE) / 0.01
-    g[26] = -post / 0.01
-    g[27] = -(2.0 * r * math.sin(PI / SPRINGS) - 2.0 * reach - RADIAL) / 0.01
-    g[28] = 1.0 - (span * INNER - 2.0 * LEDGE) / 2e-3
-    g[29] = 1.0 - (link_bottom + FLOOR + RUNNING - link_deep - last_deep) / 1e-3
-    g[30] = -(inside - r - BOSS) / 0.01
-    g[31] = -(r - BOSS - outer - RADIAL) / 0.01
-    g[32] = -(span * INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
-    g[33] = -(outer - INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
-    g[34] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
-    g[35] = -(2.0 * post - FEATURE_LEAST) / 0.01
-    g[36] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
-    g[37] = -(t + FLOOR - WALL_LEAST) / 0.01
-    g[38] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
-    # what the switch needs: current, area, layer, pads, windows, plate beside the arcs, core and link
+    g[13] = 1.0 - YIELD_RATIO * strength / (in_coil * most)
+    g[14] = 1.0 - YIELD_RATIO * strength / (in_coil * 2.0 * PRELOAD)
+    g[15] = 1.0 - YIELD_RATIO * strength / (in_bend * most)
+    g[16] = 1.0 - YIELD_RATIO * strength / (in_bend * 2.0 * PRELOAD)
+    g[17] = 1.0 - MELT_FRACTURE * t / (outer * STROKE * math.sqrt(HOT_STORAGE**2 + HOT_LOSS**2))
+    g[18] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
+    g[19] = -(r - reach - rotor - RADIAL) / 0.01
+    g[20] = -(end - 0.5 * d - plate_top - AXIAL) / 0.01
+    g[21] = -(rotor - pin_at - 0.5 * PIN - RADIAL) / 0.01
+    g[22] = -(math.sqrt(beside**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
+    g[23] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
+    g[24] = 1.0 - (r - pin_at - offset) / 1e-3
+    g[25] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
+    g[26] = 1.0 - (outer - INNER) / 5e-3
+    g[27] = -(outer - INNER - 2.0 * LEDGE) / 0.01
+    g[28] = -post / 0.01
+    g[29] = -(2.0 * r * math.sin(PI / SPRINGS) - 2.0 * reach - RADIAL) / 0.01
+    g[30] = 1.0 - (span * INNER - 2.0 * LEDGE) / 2e-3
+    g[31] = 1.0 - (link_bottom + FLOOR + RUNNING - link_deep - last_deep) / 1e-3
+    g[32] = -(inside - r - BOSS) / 0.01
+    g[33] = -(r - BOSS - outer - RADIAL) / 0.01
+    g[34] = -(span * INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
+    g[35] = -(outer - INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
+    g[36] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
+    g[37] = -(2.0 * post - FEATURE_LEAST) / 0.01
+    g[38] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
+    g[39] = -(t + FLOOR - WALL_LEAST) / 0.01
+    g[40] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
+    # what the switch needs: current, area, layer, pads, windows; beside the plate and around the pads four bodies each
     beside_area = PI * rotor**2 - area
     edge = ARCS * (2.0 * (outer - INNER) + span * (INNER + outer))
+    to_edge = edge**2 / (TO_EDGE * area)
     heat[0], heat[1], heat[2], heat[3] = x[7], area, t, area / PAD_AREA
     heat[4], heat[5] = 0.5 * PAD_MASS / (PAD_AREA * PAD) * pads * C_PAD, windows
-    heat[6], heat[7] = beside_area, 3.0 * K_PETG * ROTOR * edge**2 / beside_area
-    heat[8] = 2.0 * PI * K_PETG * ROTOR / math.log(INNER / CORE)
-    heat[9] = RHO_PETG * (turning - plate + link + retainer) * C_PETG
+    before, floor_heat = 0.0, 0.0
+    for i in range(3):
+        part, way = STRIP[i] * beside_area, 2.0 * K_PETG * edge**2 / beside_area / (before + STRIP[i])
+        heat[6 + i], heat[10 + i], heat[14 + i] = way * ROTOR, part * ROTOR * RHO_PETG * C_PETG, part
+        heat[18 + i], heat[22 + i], heat[26 + i] = way * FLOOR, part * FLOOR * RHO_PETG * C_PETG, part
+        heat[31 + i], heat[34 + i] = K_AIR * part / t, part * EMISSIVITY / (2.0 - EMISSIVITY)
+        before, floor_heat = STRIP[i], floor_heat + heat[22 + i]
+    heat[6] = 1.0 / (1.0 / (K_PETG * ROTOR * to_edge) + 1.0 / heat[6])
+    heat[9] = 2.0 * PI * K_PETG * ROTOR / math.log(INNER / CORE)
+    heat[13], heat[17] = RHO_PETG * (turning - plate + link + retainer) * C_PETG, 0.0
+    heat[18] = 1.0 / (1.0 / heat[18] + 2.0 / (K_PAD * PAD * to_edge) + 2.0 / (PAD_EDGE * PAD * edge))
+    heat[21] = 2.0 * PI * K_PETG * FLOOR / math.log(inside / rotor)
+    heat[25] = RHO_PETG * housing * C_PETG - floor_heat
+    heat[29] = 2.0 * PI * outside * (pin_top + FLOOR + FOOT) + PI * (outside**2 - rotor**2)
+    heat[30] = 1.0 / (1.0 / (K_MELT * t * to_edge) + LEDGE / (K_AIR * t * edge))

@@ -1,9 +1,11 @@
 """The reference problem's switch written out by hand for numba: heat through pads, layer and plate, with derivatives.
 
-Steps of SDIRK2 with a full Newton. Sensitivities to the variables go along, each step's by the factors its Newton
+Beside the plate and around the pads stand bodies that take heat, with air between them. Steps of SDIRK2 with a full
+Newton. Sensitivities to the variables go along, each step's by the factors its Newton
 ended with. The last step is as long as the far face needs to be at 100 degC, so that the time is smooth in the design.
 
-States in kelvin and J/kg: cold side, hot side, cells of the layer, cells of the plate, plate beside the arcs, core.
+States in kelvin and J/kg: cold side, hot side, cells of the layer, cells of the plate, the plate beside the arcs in
+three bodies, core and link, the floor beside the pads in three bodies, the rest of the housing.
 """
 
 from __future__ import annotations
@@ -11,14 +13,17 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from hand_chain import BESIDE, CELLS, CHAIN, CORE, PLATE, STATES, factor, solve
+from hand_chain import AROUND, CELLS, CHAIN, PLATE, ROWS, STATES, factor, solve
 from hand_module import (
     C_MELT,
     C_PETG,
     C_SOLID,
+    EMISSIVITY,
     H_MELTS,
     H_MOLTEN,
+    K_MELT,
     K_PETG,
+    K_SOLID,
     MELTS,
     MOLTEN,
     RHO_PCL,
@@ -32,8 +37,9 @@ from numba import njit
 FREE = 8
 SEEBECK, RESISTANCE, CONDUCTANCE = 0.025, 3.0, 0.12
 AMBIENT, TARGET, CONTACT = 295.15, 373.15, 1e4
-OPEN_AIR, ROTOR_AIR, RADIATION = 10.0, 5.0, 0.9 * 5.670374419e-8
-K_SOLID, K_MELT = 0.225, 0.18
+OPEN_AIR, PARTS_AIR, BLACK = 10.0, 5.0, 5.670374419e-8
+RADIATION = EMISSIVITY * BLACK
+SAME, CORNERS = 0.5, 0.1 * (MOLTEN - MELTS)  # K
 WITHIN = 0.5 * ROTOR / PLATE / K_PETG  # K m^2/W, half a cell of the plate
 GAMMA = 1.0 - math.sqrt(0.5)
 STEPS = 20.0
@@ -51,20 +57,53 @@ IN_MELTING = (MOLTEN - MELTS) / (H_MOLTEN - H_MELTS)
 
 
 @njit(cache=True)
-def phases(y: Array, warm: Array, slope: Array, conducts: Array, bends: Array) -> None:
-    """Temperatures along the chain with their slopes, and conductivities of the layer's cells with theirs."""
-    warm[:] = y[:CHAIN]
-    slope[:] = 1.0
-    for i in range(CELLS):
-        a, b = y[2 + i] - H_MELTS, y[2 + i] - H_MOLTEN
+def potential(kelvin: float) -> tuple[float, float]:
+    """Integral of the conductivity over temperature [W/m], and the conductivity."""
+    a, b = kelvin - MELTS, kelvin - MOLTEN
+    root_a, root_b = math.sqrt(a * a + CORNERS**2), math.sqrt(b * b + CORNERS**2)
+    first, last = 0.5 * (a + root_a), 0.5 * (b + root_b)
+    share = (K_MELT - K_SOLID) / (MOLTEN - MELTS)
+    conducts = K_SOLID + share * (first**2 / root_a - last**2 / root_b)
+    return K_SOLID * a + 0.5 * share * (first**2 - last**2), conducts
+
+
+@njit(cache=True)
+def phases(y: Array, p: Array) -> None:
+    """Along the chain temperatures with their slopes; of the layer's cells conductivities and potentials with theirs.
+
+    Rows of `p`: temperature and its slope, conductivity of the mixture and its slope, potential and its slope.
+    """
+    p[0, :CHAIN] = y[:CHAIN]
+    p[1, :CHAIN] = 1.0
+    for i in range(2, 2 + CELLS):
+        a, b = y[i] - H_MELTS, y[i] - H_MOLTEN
         root_a, root_b = math.sqrt(a * a + ROUNDING**2), math.sqrt(b * b + ROUNDING**2)
         up_a, up_b = 0.5 + 0.5 * a / root_a, 0.5 + 0.5 * b / root_b
         first, last = 0.5 * (a + root_a), 0.5 * (b + root_b)
         rise, fall = IN_MELTING - 1.0 / C_SOLID, 1.0 / C_MELT - IN_MELTING
-        warm[2 + i] = 273.15 + y[2 + i] / C_SOLID + rise * first + fall * last
-        slope[2 + i] = 1.0 / C_SOLID + rise * up_a + fall * up_b
-        bends[i] = -(K_SOLID - K_MELT) * (up_a - up_b) / (H_MOLTEN - H_MELTS)
-        conducts[i] = K_SOLID - (K_SOLID - K_MELT) * (first - last) / (H_MOLTEN - H_MELTS)
+        p[0, i] = 273.15 + y[i] / C_SOLID + rise * first + fall * last
+        p[1, i] = 1.0 / C_SOLID + rise * up_a + fall * up_b
+        p[2, i] = K_SOLID - (K_SOLID - K_MELT) * (first - last) / (H_MOLTEN - H_MELTS)
+        p[3, i] = -(K_SOLID - K_MELT) * (up_a - up_b) / (H_MOLTEN - H_MELTS)
+        p[4, i], conducts = potential(p[0, i])
+        p[5, i] = conducts * p[1, i]
+
+
+@njit(cache=True)
+def to_wall(i: int, wall: float, half: float, other: float, p: Array) -> tuple[float, float, float, float]:
+    """Heat [W] from a cell to a wall at a temperature, through half a cell and another resistance.
+
+    Returns it, its slopes by the cell's state and by the wall's temperature, and the resistance of the half cell.
+    """
+    apart, (there, at_wall) = wall - p[0, i], potential(wall)
+    risen, square = there - p[4, i], apart**2 + SAME**2
+    mean = (risen * apart + SAME**2 * p[2, i]) / square
+    by_wall = (at_wall * apart + risen - 2.0 * mean * apart) / square
+    by_cell = (SAME**2 * p[3, i] - p[5, i] * apart - (risen - 2.0 * mean * apart) * p[1, i]) / square
+    within = half / mean
+    flow = -apart / (within + other)
+    bend = flow / (within + other) * within / mean
+    return flow, p[1, i] / (within + other) + bend * by_cell, bend * by_wall - 1.0 / (within + other), within
 
 
 @njit(cache=True)
@@ -76,90 +115,129 @@ def loss(kelvin: float, air: float) -> tuple[float, float]:
 
 
 @njit(cache=True)
-def rates(y: Array, q: Array, warm: Array, conducts: Array, f: Array) -> float:
-    """Rates of all states; returns the heat out of the layer [W] times half its last cell's resistance [K]."""
+def rates(y: Array, q: Array, p: Array, f: Array) -> float:
+    """Rates of all states; returns the temperature that the far face is below its last cell [K]."""
     current, area, thick, scale, capacity, windows = q[0], q[1], q[2], q[3], q[4], q[5]
-    lump, sideways, onward, core = q[6], q[7], q[8], q[9]
+    warm, bodies, beside, around = p[0], f[CHAIN:], y[CHAIN:], y[CHAIN + AROUND :]
     joule, carried = 0.5 * current**2 * RESISTANCE * scale, SEEBECK * current * scale
     through = CONDUCTANCE * scale * (warm[1] - warm[0])
     lost, _ = loss(warm[0], OPEN_AIR)
-    f[0] = -(carried * warm[0] - joule - through + windows * lost) / capacity
-    half = 0.5 * thick / CELLS / area
-    flow = (warm[1] - warm[2]) / (1.0 / (CONTACT * area) + half / conducts[0])
-    f[1] = (carried * warm[1] + joule - through - flow) / capacity
-    mass = RHO_PCL * area * thick / CELLS
-    for i in range(CELLS - 1):
-        on = (warm[2 + i] - warm[3 + i]) / (half / conducts[i] + half / conducts[i + 1])
-        f[2 + i] = (flow - on) / mass
-        flow = on
+    edges = q[18] * (warm[0] - around[0]), q[18] * (warm[1] - around[0])
+    f[0] = -(carried * warm[0] - joule - through + windows * lost + edges[0]) / capacity
+    half, contact = 0.5 * thick / CELLS / area, 1.0 / (CONTACT * area)
+    flow, _, _, _ = to_wall(2, warm[1], half, contact, p)
+    flow = -flow
+    f[1] = (carried * warm[1] + joule - through - flow - edges[1]) / capacity
+    mass, into_floor = RHO_PCL * area * thick / CELLS, edges[0] + edges[1]
     first, plate = 2 + CELLS, WITHIN / area
-    across = (warm[first - 1] - warm[first]) / (half / conducts[CELLS - 1] + 1.0 / (CONTACT * area) + plate)
-    f[first - 1] = (flow - across) / mass
-    flow, heat, taken = across, RHO_PETG * C_PETG * area * ROTOR / PLATE, 0.0
+    across, _, _, within = to_wall(first - 1, warm[first], half, contact + plate, p)
+    for i in range(2, first):
+        on = 0.5 * (p[4, i] - p[4, i + 1]) / half if i + 1 < first else across
+        side = q[30] / CELLS * (warm[i] - around[0])
+        f[i] = (flow - on - side) / mass
+        into_floor += side
+        flow = on
+    heat, taken = RHO_PETG * C_PETG * area * ROTOR / PLATE, 0.0
     for i in range(first, CHAIN):
         if i + 1 < CHAIN:
             on = (warm[i] - warm[i + 1]) / (2.0 * plate)
         else:
             grey = RADIATION * (warm[i] ** 2 + AMBIENT**2) * (warm[i] + AMBIENT)
-            on = (warm[i] - AMBIENT) / (plate + 1.0 / ((ROTOR_AIR + grey) * area))
-        side = sideways / PLATE * (warm[i] - y[BESIDE])
+            on = (warm[i] - AMBIENT) / (plate + 1.0 / ((PARTS_AIR + grey) * area))
+        side = q[6] / PLATE * (warm[i] - beside[0])
         f[i] = (flow - on - side) / heat
         taken += side
         flow = on
-    lost, _ = loss(y[BESIDE], ROTOR_AIR)
-    on = onward * (y[BESIDE] - y[CORE])
-    f[BESIDE] = (taken - on - lump * lost) / (lump * ROTOR * RHO_PETG * C_PETG)
-    f[CORE] = on / core
-    return across * half / conducts[CELLS - 1]
+    for start, came in ((0, taken), (AROUND, into_floor)):
+        inflow = came
+        for i in range(4):
+            body, n = beside[start + i], (6 if start == 0 else 18) + i
+            on = q[n + 1] * (body - beside[start + i + 1]) if i < 3 else 0.0
+            lost, _ = loss(body, PARTS_AIR)
+            bodies[start + i] = inflow - on - q[n + 8] * lost
+            inflow = on
+    for i in range(3):
+        up, down = beside[i], around[i]
+        heat = (q[31 + i] + q[34 + i] * BLACK * (up**2 + down**2) * (up + down)) * (up - down)
+        bodies[i] -= heat
+        bodies[AROUND + i] += heat
+    for i in range(4):
+        bodies[i] /= q[10 + i]
+        bodies[AROUND + i] /= q[22 + i]
+    return across * within
 
 
 @njit(cache=True)
-def jacobian(y: Array, q: Array, warm: Array, slope: Array, conducts: Array, bends: Array, a: Array) -> None:
-    """Rows of `a`: below, on and above the diagonal; what the chain has from the body beside it, and gives to that."""
+def of_bodies(y: Array, q: Array, among: Array) -> None:
+    """Slopes of the bodies' rates by the bodies' temperatures."""
+    beside, around = y[CHAIN:], y[CHAIN + AROUND :]
+    among[0, 0], among[AROUND, AROUND] = -q[6], -2.0 * q[18] - q[30]
+    for start in (0, AROUND):
+        for i in range(4):
+            k, n = start + i, (6 if start == 0 else 18) + i
+            _, steep = loss(beside[k], PARTS_AIR)
+            among[k, k] -= q[n + 8] * steep
+            if i < 3:
+                among[k, k] -= q[n + 1]
+                among[k + 1, k + 1] -= q[n + 1]
+                among[k, k + 1] += q[n + 1]
+                among[k + 1, k] += q[n + 1]
+    for i in range(3):
+        by_up = q[31 + i] + 4.0 * q[34 + i] * BLACK * beside[i] ** 3
+        by_down = q[31 + i] + 4.0 * q[34 + i] * BLACK * around[i] ** 3
+        among[i, i] -= by_up
+        among[i, AROUND + i] += by_down
+        among[AROUND + i, i] += by_up
+        among[AROUND + i, AROUND + i] -= by_down
+    for i in range(4):
+        among[i] /= q[10 + i]
+        among[AROUND + i] /= q[22 + i]
+
+
+@njit(cache=True)
+def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
+    """Slopes of the rates, in rows as `hand_chain.ROWS` says."""
     current, area, thick, scale, capacity, windows = q[0], q[1], q[2], q[3], q[4], q[5]
-    lump, sideways, onward, core = q[6], q[7], q[8], q[9]
+    warm = p[0]
     carried, through = SEEBECK * current * scale, CONDUCTANCE * scale
     _, steep = loss(warm[0], OPEN_AIR)
     a[:] = 0.0
-    a[1, 0] = -(carried + through + windows * steep) / capacity
+    a[1, 0] = -(carried + through + windows * steep + q[18]) / capacity
     a[2, 0] = through / capacity
     a[0, 1] = through / capacity
-    a[1, 1] = (carried - through) / capacity
-    half, mass = 0.5 * thick / CELLS / area, RHO_PCL * area * thick / CELLS
+    a[1, 1] = (carried - through - q[18]) / capacity
+    a[5, :2], a[6, :2] = q[18] / capacity, q[18] / q[22]
+    half, contact, mass = 0.5 * thick / CELLS / area, 1.0 / (CONTACT * area), RHO_PCL * area * thick / CELLS
     first, plate, heat = 2 + CELLS, WITHIN / area, RHO_PETG * C_PETG * area * ROTOR / PLATE
     for i in range(1, CHAIN - 1):
-        resistance, here, there = 2.0 * plate, 0.0, 0.0
-        if i < first:
-            left, right = 1.0 / (CONTACT * area), 1.0 / (CONTACT * area) + plate
-            if i > 1:
-                left, here = half / conducts[i - 2], -half * bends[i - 2] / conducts[i - 2] ** 2
-            if i < first - 1:
-                right, there = half / conducts[i - 1], -half * bends[i - 1] / conducts[i - 1] ** 2
-            resistance = left + right
-        flow = (warm[i] - warm[i + 1]) / resistance
-        from_here = (slope[i] - flow * here) / resistance
-        from_there = (-slope[i + 1] - flow * there) / resistance
+        if i == 1:
+            _, by_cell, by_wall, _ = to_wall(2, warm[1], half, contact, p)
+            from_here, from_there = -by_wall, -by_cell
+        elif i < first - 1:
+            from_here, from_there = 0.5 * p[5, i] / half, -0.5 * p[5, i + 1] / half
+        elif i == first - 1:
+            _, from_here, from_there, _ = to_wall(i, warm[first], half, contact + plate, p)
+        else:
+            from_here, from_there = 0.5 / plate, -0.5 / plate
         one = capacity if i == 1 else (mass if i < first else heat)
         other = mass if i + 1 < first else heat
         a[1, i] -= from_here / one
         a[2, i] -= from_there / one
         a[0, i + 1] += from_here / other
         a[1, i + 1] += from_there / other
+    for i in range(2, first):
+        side = q[30] / CELLS
+        a[1, i] -= side * p[1, i] / mass
+        a[5, i], a[6, i] = side / mass, side * p[1, i] / q[22]
     last = warm[CHAIN - 1]
-    grey = ROTOR_AIR + RADIATION * (last**2 + AMBIENT**2) * (last + AMBIENT)
+    grey = PARTS_AIR + RADIATION * (last**2 + AMBIENT**2) * (last + AMBIENT)
     steep = RADIATION * (3.0 * last**2 + 2.0 * last * AMBIENT + AMBIENT**2)
     resistance = plate + 1.0 / (grey * area)
     a[1, CHAIN - 1] -= (1.0 + (last - AMBIENT) / resistance * steep / (grey**2 * area)) / resistance / heat
-    body = lump * ROTOR * RHO_PETG * C_PETG
     for i in range(first, CHAIN):
-        a[1, i] -= sideways / PLATE / heat
-        a[3, i] = sideways / PLATE / heat
-        a[4, i] = sideways / PLATE / body
-    _, steep = loss(y[BESIDE], ROTOR_AIR)
-    a[1, BESIDE] = -(sideways + onward + lump * steep) / body
-    a[2, BESIDE] = onward / body
-    a[0, CORE] = onward / core
-    a[1, CORE] = -onward / core
+        a[1, i] -= q[6] / PLATE / heat
+        a[3, i], a[4, i] = q[6] / PLATE / heat, q[6] / PLATE / q[10]
+    of_bodies(y, q, a[7:])
 
 
 @njit(cache=True)
@@ -171,12 +249,12 @@ def implicit(
     `moved` are the numbers of the switch with each variable moved by `STEP_OF`, `lengths` what h is then. Returns how
     far the far face is from its target.
     """
-    warm, slope, conducts, bends = work[0, :CHAIN], work[1, :CHAIN], work[2, :CELLS], work[3, :CELLS]
-    f, right, other, a, w = work[4], work[5], work[6], work[7:12], work[12:17]
-    phases(y, warm, slope, conducts, bends)
+    p, f, right, other = work[:6], work[6], work[7], work[8]
+    a, w = work[9 : 9 + ROWS], work[9 + ROWS : 9 + 2 * ROWS]
+    phases(y, p)
     for _ in range(NEWTON):
-        rates(y, q, warm, conducts, f)
-        jacobian(y, q, warm, slope, conducts, bends, a)
+        rates(y, q, p, f)
+        jacobian(y, q, p, a)
         factor(a, h, w)
         far = 0.0
         for i in range(STATES):
@@ -185,20 +263,20 @@ def implicit(
         for i in range(STATES):
             y[i] += right[i]
             far = max(far, abs(right[i]) / (1e5 if 2 <= i < 2 + CELLS else 100.0))
-        phases(y, warm, slope, conducts, bends)
+        phases(y, p)
         if not far > EXACT:
             break
-    drop = rates(y, q, warm, conducts, f)
+    drop = rates(y, q, p, f)
     if sensitive:
         for k in range(FREE):
-            rates(y, moved[k], warm, conducts, other)
+            rates(y, moved[k], p, other)
             for i in range(STATES):
                 s[k, i] += (lengths[k] * other[i] - h * f[i]) / STEP_OF
             solve(w, s[k])
         for i in range(STATES):
             s[FREE, i] += (lengths[FREE] - h) / STEP_OF * f[i]
         solve(w, s[FREE])
-    return warm[1 + CELLS] - drop - TARGET
+    return p[0, 1 + CELLS] - drop - TARGET
 
 
 STEP_OF = 1e-6
@@ -208,7 +286,7 @@ STEP_OF = 1e-6
 @njit(cache=True)
 def step(y: Array, h: float, q: Array, moved: Array, lengths: Array, s: Array, work: Array, sensitive: bool) -> float:
     """One step of SDIRK2 in place; returns how far the far face is from its target."""
-    begin, base = work[17], work[18]
+    begin, base = work[9 + 2 * ROWS], work[10 + 2 * ROWS]
     begin[:] = y
     old = s.copy() if sensitive else s
     implicit(y, begin, GAMMA * h, q, moved, GAMMA * lengths, s, work, sensitive)
@@ -233,7 +311,7 @@ def cycle(q: Array, moved: Array, slopes: Array, sensitive: bool) -> float:
     """Time [s] until the far face is at its target, and its slopes by the logarithms of the variables."""
     y, before = np.full(STATES, AMBIENT), np.empty(STATES)
     y[2 : 2 + CELLS] = H_AMBIENT
-    s, old, work = np.zeros((FREE + 1, STATES)), np.zeros((FREE + 1, STATES)), np.zeros((19, STATES))
+    s, old, work = np.zeros((FREE + 1, STATES)), np.zeros((FREE + 1, STATES)), np.zeros((11 + 2 * ROWS, STATES))
     usual, lengths = pace(q), np.empty(FREE + 1)
     lengths[:] = usual
     if sensitive:
@@ -277,11 +355,11 @@ def cycle(q: Array, moved: Array, slopes: Array, sensitive: bool) -> float:
 @njit(cache=True)
 def slope_of_gap(y: Array, q: Array, moved: Array, s: Array, work: Array, gaps: Array) -> None:
     """What the far face moves by with each variable, and with the length of the last step."""
-    warm, slope, conducts, bends, f = work[0, :CHAIN], work[1, :CHAIN], work[2, :CELLS], work[3, :CELLS], work[4]
+    p, f = work[:6], work[6]
     for k in range(FREE + 1):
         ends = np.empty(2)
         for side in range(2):
             moving = y + (side * STEP_OF) * s[k]
-            phases(moving, warm, slope, conducts, bends)
-            ends[side] = -rates(moving, moved[k] if side and k < FREE else q, warm, conducts, f) + warm[1 + CELLS]
+            phases(moving, p)
+            ends[side] = -rates(moving, moved[k] if side and k < FREE else q, p, f) + p[0, 1 + CELLS]
         gaps[k] = (ends[1] - ends[0]) / STEP_OF

@@ -147,8 +147,10 @@ class Reference:
         return found
 
     def _is_one(self, design: Array) -> bool:
+        inputs, known = self.inputs(design), self.optimizer.multistart.cycle.values
         if not np.all(np.isfinite(self.rows(design, 1.0))):
             return False
-        cycle = self.optimizer.simulator.run(self.inputs(design), phases=["softening"])
-        values = self.model.values(self.inputs(design), cycle.values)
-        return np.isfinite(values[self.event]) and not impossible(values, self.model.table)
+        if impossible(self.model.values(inputs, known), self.model.table):
+            return False  # no layer, or one of less than nothing: nothing of it can be simulated
+        cycle = self.optimizer.simulator.run(inputs, phases=["softening"])
+        return bool(np.isfinite(cycle.values[self.event]))

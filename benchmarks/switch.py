@@ -76,7 +76,8 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
         now = heat.profile(state, stack)
         moduli = layer.series_modulus(*polymer.moduli(now.cells, now.fractions, omega, rheology))
         support = warm_structure.in_series(parts, warm_structure.parts_now(now), law, numbers["clamped_loss_factor"])
-        branch = thermal_stack.branch_now(moduli, moment, numbers["pcl_thickness"], support)
+        stiffness = thermal_stack.layer_stiffness_now(moduli, moment, numbers["pcl_thickness"])
+        branch = thermal_stack.branch_now(stiffness, support)
         impedance = thermal_stack.impedance_now(springs, branch)
         mean = np.mean(now.cells)
         return [now.near - target, mean - target, now.far - target, np.log(soft / impedance)]

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import settings
 from support import ROOT, Command, called, environment
 
 pytest_plugins = ["shear_designs"]
@@ -18,6 +19,10 @@ pytest_plugins = ["shear_designs"]
 os.environ["NUMBA_DISABLE_JIT"] = "1"
 # As the command line does: tests make many objects and keep most, and looking for garbage among them takes its time.
 gc.set_threshold(200_000, 20, 20)
+
+# A test that is right is right on a machine that is busy, too.
+settings.register_profile("any machine", deadline=None)
+settings.load_profile("any machine")
 
 LONGEST = (
     "tests/cad/test_random_designs.py",

@@ -27,7 +27,11 @@ vary: {wire_diameter: [1.5 mm, 3 mm], pcl_thickness: [0.6 mm, 2 mm]}
 minimize: {module_mass: 1, response_time: 1}
 solver: {starts: 1, cells: 8}
 """,
-    "evaluated, in compression": "mode: compression\nsolver: {cells: 8}\n",
+    "evaluated, in compression": """
+mode: compression
+module: {response_criterion: softening, current: 2 A}
+solver: {cells: 8}
+""",
 }
 NAMES = ("cycle", "stiffness_and_damping", "power_and_energy", "impedance", "torque", "mass", "bounds")
 

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from tvimdesign.physics.motions import motion, one_sided
 from tvimdesign.physics.motions.one_sided import Blocks
 from tvimdesign.simulation.link_motion import contact, link
+from tvimdesign.simulation.link_motion.contact_simulation import OneSided
 
 Array = NDArray[np.float64]
 INERTIA, SPRINGS = 4.156e-4, 5.61  # the paper's table I
@@ -294,3 +295,23 @@ def test_energy_never_rises_once_the_link_is_let_go(
     assert np.max(np.diff(moved.motion.energy)) <= 1e-9 * moved.motion.energy[0]
     assert np.all(moved.motion.energy >= 0.0)
     assert np.all(np.diff(moved.motion.times) >= 0.0)
+
+
+@pytest.mark.parametrize("end", [10.25, 10.255])
+def test_a_curve_that_ends_as_the_link_passes_its_rest_does_not_say_that_it_settles(end: float) -> None:
+    def swinging(decay: float) -> OneSided:
+        times = np.linspace(0.0, end, 4001)
+        angle = 0.1 * np.exp(-decay * times) * np.cos(2.0 * np.pi * times)
+        none = np.zeros((0, times.size))
+        moved = link.Motion(times, angle, np.gradient(angle, times), none, none, none, ())
+        return OneSided(moved, np.ones((2, times.size), dtype=bool), ())
+
+    # Its last sample is within 5 % of the start, but it swings by 99 % of the start to either side.
+    endless = swinging(1e-3)
+    assert abs(endless.motion.angle[-1]) < 0.05 * endless.motion.angle[0]
+    assert endless.settling_time(0.05) == np.inf
+    # It turns atan(1/2 pi)/2 pi = 0.025 s before every half second: at 2.975 s it is 5.04 % of the start off, at the
+    # next turn 3.06 %.
+    settled = swinging(1.0).settling_time(0.05)
+    assert 2.975 < settled < 3.0
+    assert np.exp(-settled) * abs(np.cos(2.0 * np.pi * settled)) == pytest.approx(0.05, rel=1e-3)

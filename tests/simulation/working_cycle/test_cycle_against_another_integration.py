@@ -66,6 +66,14 @@ def test_switch_agrees_with_the_independent_integration(pair: tuple[Cycle, dict[
         assert cycle.values[name] == pytest.approx(reference[name], rel=5e-3), name
 
 
+@pytest.mark.parametrize("pair", ["thin"], indirect=True)
+def test_switch_at_the_cells_a_run_has_is_within_the_percent_that_is_promised(
+    pair: tuple[Cycle, dict[str, float]], switch_of: Callable[[str], Cycle]
+) -> None:
+    for name in ("near_face_time", "mean_time", "far_face_time", "switch_energy", "peak_power", "peak_pcl_temperature"):
+        assert switch_of("thin").values[name] == pytest.approx(pair[1][name], rel=1e-2), name
+
+
 def test_peak_of_the_rotor_is_that_of_its_face_to_the_layer(pair: tuple[Cycle, dict[str, float]]) -> None:
     cycle, reference = pair
     assert cycle.values["peak_rotor_temperature"] == pytest.approx(reference["rotor_face"], abs=1.0)

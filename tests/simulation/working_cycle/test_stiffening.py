@@ -97,16 +97,28 @@ def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cel
     assert values["far_face_cooling_time"] == pytest.approx(another.far_face, rel=0.01)
 
 
-@pytest.mark.parametrize("design", ["as it is", "sink"])
-def test_stiffening_converges_with_the_square_of_the_cell(design: str, build: Callable[..., DeviceFunctions]) -> None:
-    names = ("stiffening_time", "equilibrium_stiffening_time", "far_face_cooling_time", "stiffening_energy")
+@pytest.mark.parametrize(
+    ("design", "cooling"),
+    [pytest.param("as it is", 0.2, id="as it is"), pytest.param("sink", 0.8, id="sink"), ("sink", 0.2)],
+)
+def test_stiffening_converges_with_the_square_of_the_cell(
+    design: str, cooling: float, build: Callable[..., DeviceFunctions]
+) -> None:
+    names = ["stiffening_time", "equilibrium_stiffening_time", "far_face_cooling_time", "stiffening_energy"]
     found = []
     for cells in (6, 12, 24, 48):
-        model = build(design, cells)
+        model = build(design, cells, cooling_current=cooling)
         values = fine(model).run(model.start).values
         found.append([values[name] for name in names])
     changes = np.abs(np.diff(found, axis=0))
-    assert np.log2(changes[:-1] / changes[1:]) == pytest.approx(2.0, abs=0.25)
+    orders = np.log2(changes[:-1] / changes[1:])
+    if (design, cooling) == ("sink", 0.8):
+        # On the melting curve the joint is stiff here just as the last cell passes the end of the melting range, where
+        # the curve has a corner: the order is uneven from cell to cell, and two on the whole.
+        curve = names.index("equilibrium_stiffening_time")
+        assert changes[-1, curve] < 0.25 * np.max(changes[:-1, curve])
+        orders = np.delete(orders, curve, axis=1)
+    assert orders == pytest.approx(2.0, abs=0.25)
     assert np.all(changes[-1] < 2e-4 * np.array(found[-1]))
 
 

@@ -70,7 +70,7 @@ def _thinnest(part: str, where: Samples, thickness: Array, minimum_wall: float, 
     least = float(thickness[at])
     text = f"the thinnest wall is {least:.3g} mm; the process makes {minimum_wall:.3g} mm"
     return finding(
-        part, "wall", least, minimum_wall, "mm", at_least(least, minimum_wall - 1e-6, thinnest_wall), text,
+        part, "wall", least, minimum_wall, "mm", at_least(least, minimum_wall - 1e-6, thinnest_wall - 1e-6), text,
         place=where.point[at] - 0.5 * least * where.normal[at], resolution=SPACING,
     )  # fmt: skip
 

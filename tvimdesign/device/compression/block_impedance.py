@@ -12,6 +12,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.core.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
+from tvimdesign.device.fixtures.dowels import LINK_PARTS
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
@@ -250,7 +251,7 @@ def housing_vane_holding_torque(
 
 _PARTS = (
     "block_holding_torque", "rotor_vane_holding_torque", "housing_vane_holding_torque", "core_holding_torque",
-    "link_holding_torque", "bearing_holding_torque",
+    *LINK_PARTS, "bearing_holding_torque",
 )  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.core.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
+from tvimdesign.device.fixtures.dowels import LINK_PARTS
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
@@ -116,7 +117,7 @@ def layer_holding_torque(
     return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
 
 
-_PARTS = ("layer_holding_torque", "core_holding_torque", "link_holding_torque", "bearing_holding_torque")
+_PARTS = ("layer_holding_torque", "core_holding_torque", *LINK_PARTS, "bearing_holding_torque")
 
 
 @quantities.output("N*m", headline=True, least_of=_PARTS)

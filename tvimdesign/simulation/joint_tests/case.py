@@ -106,16 +106,21 @@ def histories_at(resolved: ResolvedModule, temperature: float) -> tuple[History,
     )
 
 
+def one_sided(resolved: ResolvedModule) -> bool:
+    """Whether the polymer only pushes."""
+    return float(resolved.quantity("parting_share")) > 0.0
+
+
 def cases(resolved: ResolvedModule) -> list[Case]:
     """The joint at every operating point, once for each history that matters there, the nominal one first."""
-    one_sided = float(resolved.quantity("parting_share")) > 0.0
+    pushes = one_sided(resolved)
     friction = float(resolved.quantity("pin_friction_torque"))
     found = []
     for point in resolved.points:
         _, loss = resolved.quantity(f"support@{point}")
         joint, temperature = joint_of(resolved, point), float(resolved.quantity(f"temperature@{point}"))
         for history in histories_at(resolved, temperature):
-            case = Case(point, temperature, history, joint, one_sided, (), friction)
+            case = Case(point, temperature, history, joint, pushes, (), friction)
             modes = [(float(time), float(k)) for time, k in case.rows(resolved, ("pcl_modes",))["pcl_modes"]]
             lossy = with_loss(joint, modes, float(loss), float(resolved.quantity(f"frequency@{point}")))
             found.append(replace(case, joint=lossy[0], modes=lossy[1]))

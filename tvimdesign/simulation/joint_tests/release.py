@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from tvimdesign.simulation.joint_tests.case import (
     cases,
     finding,
     notes_for,
+    one_sided,
     overload_notes,
     with_paper_points,
 )
@@ -124,6 +126,9 @@ def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
 
 def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tuple[float, float, float]]:
     """Nominal, least and largest value of every row that a first swing shows, by full name, after `hold_time`."""
+    if not one_sided(resolved):
+        values = _rows_of_a_swing(resolved, Touching(1.0, 1.0))
+        return {f"{name}@{point}": (float(x),) * 3 for point in resolved.points for name, x in values.items()}
     seen: dict[str, list[float]] = {}
     for case in cases(resolved):
         for name, value in _first_swing_of(resolved, case, angle).items():
@@ -131,17 +136,18 @@ def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tu
     return {name: (values[0], min(values), max(values)) for name, values in seen.items()}
 
 
-def _first_swing_of(resolved: ResolvedModule, case: Case, angle: float) -> dict[str, float]:
-    """Mean of every row of a swing over the first one; a bonded layer is in contact whatever the link does."""
+def _rows_of_a_swing(resolved: ResolvedModule, touching: Touching) -> dict[str, Any]:
+    """Every row that a swing shows, where the blocks touch as said; a bonded layer does whatever the link does."""
     names = [row.name for row in resolved.table.first_oscillations]
-    if not case.one_sided:
-        bonded = resolved.table.evaluate_instant({**resolved.values, TOUCHING: Touching(1.0, 1.0)}, names)
-        return {name: float(value) for name, value in bonded.items()}
+    return resolved.table.evaluate_instant({**resolved.values, TOUCHING: touching}, names)
+
+
+def _first_swing_of(resolved: ResolvedModule, case: Case, angle: float) -> dict[str, float]:
+    """Mean of every row of a swing over the first one."""
     found = joint_motion.released(
         case, angle, joint_motion.held(case, angle, float(resolved.quantity("hold_time"))), TURNS_OF_A_SWING
     )
-    touching = Touching(*found.touching.astype(float))
-    instants = resolved.table.evaluate_instant({**resolved.values, TOUCHING: touching}, names)
+    instants = _rows_of_a_swing(resolved, Touching(*found.touching.astype(float)))
     return {name: found.average(values, 0.0, found.first_swing()) for name, values in instants.items()}
 
 
@@ -150,7 +156,7 @@ def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, k
     found = joint_motion.released(case, angle, internal)
     moved, gap = found.motion, joint_motion.gap(case, internal)
     # Friction holds the link off its old rest: it settles where it stays.
-    settling = link.settling_time(moved.times, moved.angle - (found.rest or 0.0), SETTLED)
+    settling = found.settling_time(SETTLED)
     if case.one_sided:
         return Released(case, found, gap, *_first_ringing(found), settling, None)
     swings = link.swings(case.joint, case.modes, angle, internal)

@@ -17,7 +17,7 @@ from tvimdesign.physics.motions import one_sided
 from tvimdesign.physics.motions.motion import Joint
 from tvimdesign.physics.motions.one_sided import Blocks, Touching
 from tvimdesign.simulation.link_motion.linear_system import Stretch, matrix_of
-from tvimdesign.simulation.link_motion.link import Array, Motion
+from tvimdesign.simulation.link_motion.link import Array, Motion, settling_time
 
 Rates = Callable[[Array, Array, list[Array], Touching], list[Array]]
 """Rates of angle, speed and internal angles while the same blocks touch."""
@@ -68,6 +68,18 @@ class OneSided:
         turns = turns_of(self.motion.speed)
         enough = len(turns) >= TURNS_OF_A_SWING
         return float(self.motion.times[turns[TURNS_OF_A_SWING - 1]] if enough else self.motion.times[-1])
+
+    def settling_time(self, share: float) -> float:
+        """Time [s] after which it stays within a share of its start from its rest; infinite if that is not seen.
+
+        A curve that ends while the link swings may end just as it passes its rest: a whole swing must be within.
+        """
+        times, turns = self.motion.times, turns_of(self.motion.speed)
+        settled = settling_time(times, self.motion.angle - (self.rest or 0.0), share)
+        if self.rest is None and len(turns) > TURNS_OF_A_SWING:
+            swing = times[turns[-1]] - times[turns[-1 - TURNS_OF_A_SWING]]
+            return settled if times[-1] - settled >= swing else float("inf")
+        return settled
 
 
 def turns_of(speed: Array) -> NDArray[np.int64]:
