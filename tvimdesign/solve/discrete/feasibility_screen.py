@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.solve.nlp.constraints import on_cycle
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
 from tvimdesign.solve.nlp.ipopt import NLP
 from tvimdesign.solve.nlp.solver_run import Ends
-from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
 

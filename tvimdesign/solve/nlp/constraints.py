@@ -12,6 +12,9 @@ from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.table.quantity import Feature, Rule
 from tvimdesign.study import Study, given
 
+ALGEBRAIC_TOLERANCE = 1e-6
+"""Share of its scale by which a limit on what needs no simulation may be broken: IPOPT's tolerance with a margin."""
+
 
 @dataclass(frozen=True)
 class Constraint:
@@ -41,6 +44,10 @@ class Constraint:
         """How far a value is beyond the limit, as a share of the scale; kept where <= 0. Floats and symbols."""
         beyond = value - self.limit if self.sense == "<=" else self.limit - value
         return beyond / self.scale
+
+    def keeps(self, value: Any) -> Any:
+        """Whether values keep the limit; one that an optimum stands on is kept but for what the solver leaves of it."""
+        return self.residual(value) <= ALGEBRAIC_TOLERANCE
 
 
 def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None = None) -> list[Constraint]:

@@ -18,7 +18,7 @@ from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.current_profile import ramp_time
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle, unchangeable
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.ipopt import NLP, Beginning, solver_of
 from tvimdesign.solve.nlp.objective import Objective
@@ -28,8 +28,6 @@ from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, 
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
-ALGEBRAIC_TOLERANCE = 1e-6
-"""Share of its scale by which a limit on an algebraic row may be broken: IPOPT's own tolerance with a margin."""
 RAMP_ELEMENT = 15.0  # s, the longest element of a ramp, in which the current changes fastest
 
 

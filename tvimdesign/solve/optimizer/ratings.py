@@ -9,8 +9,7 @@ import numpy as np
 from tvimdesign.device import Path, Table
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.nlp.constraints import Constraint, on_cycle, ratings_of
-from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, on_cycle, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import Study, given
 

@@ -6,10 +6,10 @@ from typing import Literal
 
 import numpy as np
 
-from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint, on_cycle
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, in_words, make_constraint, on_cycle
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution, Start
 from tvimdesign.solve.nlp.solver_run import Run
-from tvimdesign.solve.optimizer.optimizer import ALGEBRAIC_TOLERANCE, Optimizer
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.post_optimal import Place, Response
 from tvimdesign.solve.optimizer.statuses import OPTIMAL, meaning
 from tvimdesign.study import Range

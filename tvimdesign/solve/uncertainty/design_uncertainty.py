@@ -145,7 +145,7 @@ class UncertaintyModel:
 def _kept(limits: Sequence[Constraint], outputs: Sequence[str], values: Array) -> NDArray[np.bool_]:
     """Whether each module (column) keeps each limit (row)."""
     with np.errstate(invalid="ignore"):
-        return np.array([limit.residual(values[outputs.index(limit.output)]) <= 0.0 for limit in limits])
+        return np.array([limit.keeps(values[outputs.index(limit.output)]) for limit in limits])
 
 
 def _behind(table: Table, output: str, names: set[str]) -> bool:

@@ -178,7 +178,7 @@ class Tolerancing:
         for limit in self.limits:
             i = self.outputs.index(limit.output)
             with np.errstate(invalid="ignore"):
-                keeps = np.asarray(limit.residual(drawn.values[i])) <= 0.0
+                keeps = np.asarray(limit.keeps(drawn.values[i]))
             every &= keeps
             able = spread.capability(float(drawn.mean[i]), float(drawn.deviation[i]), limit.limit, limit.sense)
             found.append(Kept(limit, spread.share_kept(keeps), able))
@@ -199,7 +199,7 @@ class Tolerancing:
         for adjusted in (False, True):
             contributors = contributors_of(self.resolved, adjusted)
             drawn = spread.monte_carlo(self._function(contributors, many), contributors, samples, seed)
-            kept = [limit.residual(drawn.values[outputs.index(limit.output)]) <= 0.0 for limit in limits]
+            kept = [limit.keeps(drawn.values[outputs.index(limit.output)]) for limit in limits]
             yields.append(spread.share_kept(np.all(kept, axis=0)))
             sizes.append(next((one.plus_minus for one in contributors if one.name == FREE_ANGLE), 0.0))
         stroke = abs(float(self.resolved.values["stroke"]))

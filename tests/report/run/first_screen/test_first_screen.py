@@ -244,6 +244,12 @@ def test_what_the_stiffness_may_be_covers_the_whole_stroke() -> None:
     assert low < intervals["spring_stiffness"]["low"] - 0.01
 
 
+def test_a_limit_that_binds_and_nothing_moves_is_not_told_as_broken() -> None:
+    # The stiffness at full stroke over that at rest is of the geometry alone; the optimum is on its limit.
+    held = case("paper_shear").told.uncertainty["held"]
+    assert held.get("stiffness_over_stroke >=", 1.0) > 0.4
+
+
 def test_the_yield_and_what_is_not_known_are_two_lines() -> None:
     data, text = case("paper_shear").told.uncertainty, case("paper_shear").screen(140)
     (parts,) = [line for line in text if line.startswith("Yield ")]
