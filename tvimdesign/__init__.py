@@ -24,7 +24,8 @@ _PUBLIC = {
 """Public names by the module that has them; a module is loaded when one of its names is first asked for."""
 _MODULE_OF = {name: module for module, names in _PUBLIC.items() for name in names}
 
-__all__ = ["__version__", *_MODULE_OF]  # noqa: PLE0604 - names, all of them text
+__all__ = ["__version__"]
+__all__ += list(_MODULE_OF)
 
 
 def __getattr__(name: str) -> Any:
