@@ -27,6 +27,7 @@ from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles
 from tvimdesign.cad.inspection.samples import samples
 from tvimdesign.cad.inspection.walls import wall_checks
+from tvimdesign.cad.parts.common_parts import mounts
 from tvimdesign.study.design import Design
 
 BED = (220.0, 220.0, 250.0)
@@ -307,6 +308,20 @@ def test_a_driver_that_meets_something_is_told_how_far_before_the_screw(
     assert {check.level for check in found} == {"failure"}
     assert found[0].value == pytest.approx(dims.link_bottom_level + 15.0, abs=0.2)
     assert "lid" in found[0].text
+
+
+@pytest.mark.parametrize(("bore", "level"), [(1.6, "pass"), (1.3, "failure")])
+def test_a_screw_is_reached_by_its_own_key(
+    dims: Dimensions, drawn: dict[str, cq.Solid], bore: float, level: str
+) -> None:
+    # The key of an M3 socket head cap screw, ISO 4762, is 2.5 mm across flats: its corners are 1.44 mm from its axis.
+    lid = box(200.0, 200.0, 1.0).translate((0, 0, dims.link_bottom_level + 15.0))
+    holes = [cq.Workplane(origin=(x, y, 0)).circle(bore).extrude(200.0) for x, y in mounts(dims)]
+    for hole in holes:
+        lid = lid.cut(hole)
+    placed = instances(dims, drawn, place(dims, drawn))
+    meshes = {name: order.in_module(one) for name, one in placed.items()} | {"lid": solid_mesh(one_solid(lid))}
+    assert {check.level for check in order.mount_checks(dims, order.Standing(meshes))} == {level}
 
 
 @pytest.mark.slow
