@@ -183,7 +183,7 @@ def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
     assert (lines["inside diameter"].value, lines["outside diameter"].value) == ("22", "26.82")
     assert (lines["body coils n"].value, lines["free angle"].value) == ("3.25", "90")
     assert lines["wire"].value == "Music wire, ASTM A228"
-    assert lines["hand"].value == "2 right, 2 left"
+    assert lines["quantity for one module"].value == "2 wound right, 2 wound left"
     # DIN 2194, grade 2: 2.4 x 3.25^0.76 x sqrt(10.116) = 18.70 deg; 0.025 x 24.409 x 2.413^-0.17 = 0.525 mm.
     assert lines["free angle"].tolerance == "± 18.7"
     assert lines["mean coil diameter D"].tolerance == "± 0.53"
