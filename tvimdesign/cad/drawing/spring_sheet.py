@@ -72,7 +72,7 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
         SpringLine("tensile strength taken", _figure(1e-6 * design.value("spring_tensile_strength"), 0), "MPa"),
         SpringLine("heat treatment", "stress relieved after coiling", "", "", "the free angle is that after it"),
         SpringLine("finish", "bright, oiled", "", "", _finish(design)),
-        SpringLine("to be measured", "free angle, torque at M1 and M2", "", "", "of each spring, on a mandrel as above"),
+        SpringLine("to be measured", "free angle, torque at M1 and M2", "", "", "of each, on such a mandrel"),
         SpringLine("wire length", _figure(coil.wire_length, 1), "mm"),
         SpringLine("mass of one", _figure(1e3 * design.value("spring_volume") * design.value("spring_density")), "g"),
     ]  # fmt: skip
