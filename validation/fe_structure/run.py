@@ -4,7 +4,8 @@
 
 Run it where the package and CadQuery are; FE/bin/python has netgen-mesher, ngsolve and pyyaml. Each study is run, its
 parts are exported as STEP, and FE finds the rate of a spring, the stiffness of the joint and of its parts, and
-stresses. What is in the work folder already is not made again. Without a name: all studies that ship.
+stresses. Of a study with a front or a comparison, its own optimum. What is in the work folder already is not made
+again. Without a name: all studies that ship. A study that fails keeps its rows; the command then ends with 1.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -22,6 +24,8 @@ from models import Row, design_rows, fe_values, model_values
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RESULTS = HERE / "results.csv"
+LONGEST = 1800.0
+"""Time [s] after which a step is given up."""
 HEADER = ("study", "quantity", "unit", "model", "fe", "ratio")
 
 
@@ -30,7 +34,10 @@ def done(command: list[object], into: Path) -> None:
     if into.exists():
         return
     print(*command, file=sys.stderr, flush=True)
-    found = subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True).stdout
+    paths = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
+    alone = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": paths}
+    asked = [str(part) for part in command]
+    found = subprocess.run(asked, check=True, stdout=subprocess.PIPE, text=True, timeout=LONGEST, env=alone).stdout
     into.write_text(found)
 
 
@@ -49,7 +56,7 @@ def solved(study: str, work: Path, fe_python: Path) -> dict[str, float]:
         "--out",
         folder,
     ]
-    done(run, work / study / "run.txt")
+    done(run, work / study / "run.txt")  # it ends with 1 where nothing meets the study: then there is no design
     done([sys.executable, HERE.parent / "export_parts.py", folder / "design.json", parts], work / study / "parts.txt")
     done([fe_python, HERE / "solve.py", parts], work / study / "structure.yaml")
     done([fe_python, HERE.parent / "fe_spring/solve.py", parts], work / study / "spring.yaml")
@@ -78,12 +85,22 @@ def main() -> None:
     parser.add_argument("--fe-python", type=Path, required=True)
     parser.add_argument("--work", type=Path, default=Path("fe_work"))
     asked = parser.parse_args()
+    failed = []
     for study in asked.studies or sorted(path.stem for path in (ROOT / "studies").glob("*.yaml")):
-        fresh = rows_of(study, asked.work, asked.fe_python)
-        with RESULTS.open(newline="") as file:
-            kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
-        with RESULTS.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*kept, *(row.cells() for row in fresh)])])
+        try:
+            put(study, rows_of(study, asked.work.resolve(), asked.fe_python))
+        except (subprocess.SubprocessError, OSError) as trouble:
+            failed.append(f"{study}: {trouble}")
+    if failed:
+        sys.exit("\n".join(failed))
+
+
+def put(study: str, fresh: list[Row]) -> None:
+    """Put a study's rows in place of those that stood in results.csv."""
+    with RESULTS.open(newline="") as file:
+        kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
+    with RESULTS.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*kept, *(row.cells() for row in fresh)])])
 
 
 if __name__ == "__main__":
