@@ -125,7 +125,7 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
         beside = abs((centre.x**2 + centre.y**2) ** 0.5 - mm["placement_radius"]) < 0.2
         if flat and abs(low - top) < 1e-3:
             face.name = "turned"
-        elif flat and abs(low - ground) < 1e-3 and beside and wide < 3 * mm["mount_boss_radius"]:  # not the skirt
+        elif flat and abs(low - ground) < 1e-3 and _stands(beside, wide, mm):
             face.name = "fixed"
         else:
             face.name = "free"
@@ -183,6 +183,13 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
     if not mm.get("vane_count"):
         result |= _edges(mesh, stress(strain), mm, torque)
     return result | {"seconds": time.time() - began}
+
+
+def _stands(beside: bool, wide: float, mm: dict[str, float]) -> bool:
+    """Whether a face at the ground is what holds the housing: a torque sensor's flange, or else a foot; no skirt."""
+    if mm["flange_outer_radius"]:
+        return not beside and wide < 2 * mm["flange_outer_radius"] + 0.1
+    return beside and wide < 3 * mm["mount_boss_radius"]
 
 
 def _refine(whole, mm) -> None:
