@@ -105,7 +105,7 @@ def parts(folder: Path, mm: dict[str, float]) -> list:
     return [shape for shape, _, _ in found]
 
 
-FOOT, EDGE = float(os.environ.get("FOOT", "1")), float(os.environ.get("EDGE", "2"))  # mm; zero: as the layer
+FOOT, EDGE = float(os.environ.get("FOOT", "0.5")), float(os.environ.get("EDGE", "2"))  # mm; zero: as the layer
 PAD_GAP = float(os.environ.get("PAD_GAP", "0.2"))  # mm; zero: tied to the walls of their pockets
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": float(os.environ.get("LAYER", "5"))}  # mm
 

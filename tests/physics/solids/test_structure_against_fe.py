@@ -127,6 +127,20 @@ def test_pads_over_windows_are_about_as_stiff_as_in_fe(name: str) -> None:
     assert even * held_share(case, mm) == pytest.approx(case["found"]["pad"], rel=0.20)
 
 
+@pytest.mark.parametrize("name", SHEAR)
+def test_the_layer_s_edge_bears_what_it_does_in_fe(name: str) -> None:
+    # Highest over two millimetres of edge, a mean over one thickness in from it and over its height.
+    case = SHIPPED[name]
+    mm, _, shear = read(case)
+    inner, outer, held = mm["pcl_inner_radius"], mm["pcl_outer_radius"], held_share(case, mm)
+    pad, pcl = case["pad_shear_modulus"] * 1e9, case["frozen_shear_modulus"] * 1e9
+    layer = held / (mm["pcl_thickness"] / pcl + mm["peltier_thickness"] / pad)
+    sheets = [np.sqrt(coverage(mm)) / (shear * mm[name]) for name in ("rotor_thickness", "floor_web")]
+    rise = shear_lag.edge_rise(layer, *sheets, outer - inner) + 1.0 / held - 1.0
+    polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
+    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.14)
+
+
 @pytest.mark.parametrize("name", BLOCKS)
 def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     mm, youngs, shear = read(SHIPPED[name])

@@ -180,6 +180,7 @@ def layer_edge_rise(
     arc_width: Scalar,
     layer_polar_moment: Scalar,
     held_polar_moment: Scalar,
+    driven_share: Scalar,
 ) -> Scalar:
     """Traction of the frozen layer along the outer rim of its arcs over T r/J, a mean over one thickness.
 
@@ -187,7 +188,8 @@ def layer_edge_rise(
     """
     held = held_polar_moment / layer_polar_moment
     per_area = held / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
-    plate, floor = 1.0 / (structure_shear_modulus * rotor_thickness), 1.0 / (structure_shear_modulus * floor_web)
+    sheet = np.sqrt(driven_share) / structure_shear_modulus  # of the circle the arcs take up a share: as in the plate
+    plate, floor = sheet / rotor_thickness, sheet / floor_web
     return shear_lag.edge_rise(per_area, plate, floor, arc_width) + 1.0 / held - 1.0
 
 

@@ -31,7 +31,7 @@ def on_plate(thickness: Any) -> Footing:
 
 
 def on_floor(thickness: Any) -> Footing:
-    """A vane that stands on the floor, slotted, its pad beside it; with the floor, FE of five modules within 4 %."""
+    """A vane that stands on the floor, slotted, its pad beside it; with the floor, FE of five modules within 9 %."""
     return Footing(thickness, 0.69, 0.33, 1.08)
 
 
