@@ -14,12 +14,13 @@ DRAWN = {"leg_model": "bending", "transmission": "geometry"}
 """Idealisations that the drawn parts do not have."""
 
 
-LENGTHS = """
-    core_radius link_bottom_level rotor_top_level rotor_thickness pcl_inner_radius pcl_outer_radius placement_radius
-    floor_thickness mount_boss_radius mount_hole foot_height arc_count arc_span floor_web pcl_thickness
-    peltier_thickness window_ledge vane_count vane_height vane_thickness block_height block_width slot_web
-    housing_vane_thickness flange_bore_radius flange_outer_radius
-""".split()
+LENGTHS = (
+    "core_radius", "link_bottom_level", "rotor_top_level", "rotor_thickness", "pcl_inner_radius",
+    "pcl_outer_radius", "placement_radius", "floor_thickness", "mount_boss_radius", "mount_hole", "foot_height",
+    "arc_count", "arc_span", "floor_web", "pcl_thickness", "peltier_thickness", "window_ledge", "vane_count",
+    "vane_height", "vane_thickness", "block_height", "block_width", "slot_web", "housing_vane_thickness",
+    "flange_bore_radius", "flange_outer_radius",
+)  # fmt: skip
 """What the closed forms are held against FE by, in mm, counts and rad."""
 
 

@@ -1,4 +1,4 @@
-"""Shear lag in a lap joint and over a window: Volkersen's result for like sheets, and the equations solved by numbers."""
+"""Shear lag in a lap joint and over a window: Volkersen's result for like sheets, the equations solved by numbers."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,8 @@
 """How a bonded layer shares its load between sheets that stretch: at its edges, and over a window in a sheet's support.
 
-Sources: [V] Volkersen, Die Nietkraftverteilung in zugbeanspruchten Nietverbindungen mit konstanten Laschenquerschnitten,
-Luftfahrtforschung 15 (1938) 41-47; the same differential equation, with no support below, for the sheet over a window.
+Sources: [V] Volkersen, Die Nietkraftverteilung in zugbeanspruchten Nietverbindungen mit konstanten
+Laschenquerschnitten, Luftfahrtforschung 15 (1938) 41-47; the same differential equation for a sheet over a window,
+with no support below.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ import numpy as np
 def edge_rise(layer: Any, first: Any, second: Any, width: Any) -> Any:
     """Traction where the second sheet leaves the lap, over its mean [1]: p ((1 - c) coth p + c/sinh p) [V].
 
-    p^2 = k (a_1 + a_2) w^2 and c = a_1/(a_1 + a_2). `layer` is the stiffness k of the layer per area [Pa/m], `first` and
-    `second` the compliance a of the sheets that load comes in and goes out by, 1 over modulus and thickness [1/(Pa*m)].
+    p^2 = k (a_1 + a_2) w^2 and c = a_1/(a_1 + a_2). `layer` is the stiffness k of the layer per area [Pa/m], `first`
+    and `second` the compliance a of the sheets that load comes in and goes out by, 1/(G h) [1/(Pa*m)].
     """
     reach = np.sqrt(layer * (first + second)) * width
     share = first / (first + second)

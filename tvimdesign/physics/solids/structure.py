@@ -74,8 +74,8 @@ def bored_shaft_stiffness(modulus: Any, radius: Any, length: Any, first: Bores, 
     return shaft_stiffness(modulus, radius, length + longer)
 
 
-FOOT_NOTCH = 1.82
-"""Rise of a core's stress at its foot on a plate, a mean over the first millimetre; FE of cores as drawn: 1.67 to 2.01.
+FOOT_NOTCH = 1.81
+"""Rise of a core's stress at its foot on a plate, a mean over the first millimetre; FE of cores as drawn: 1.65 to 1.99.
 
 The corner is sharp, so that stress at a point has no value there: validation/fe_structure.
 """
@@ -84,7 +84,7 @@ The corner is sharp, so that stress at a point has no value there: validation/fe
 def bored_shaft_torque(shear_yield: Any, radius: Any, *holes: Bores) -> Any:
     """Torque [N*m] at which a round bar with holes that stands on a plate starts to yield: at its foot, or at a hole.
 
-    tau pi r^3/2 over the larger of 1.82 at the foot and, of each set of holes, max(1, 2 b/r)/(1 - w): beside a hole on
+    tau pi r^3/2 over the larger of 1.81 at the foot and, of each set of holes, max(1, 2 b/r)/(1 - w): beside a hole on
     the circle b the shear is doubled [T]. Sets that stand between one another shield each other and count apart.
     """
     worst = FOOT_NOTCH
@@ -149,14 +149,14 @@ def footed_floor_stiffness(ring: Any, foot: Any, count: Any, foot_radius: Any) -
 
 
 FLANGE_SPREAD = 1.4
-"""Rise of a flanged floor's compliance below the layer; between FE of a printed module (1.05) and a milled one (1.96)."""
+"""Rise of a flanged floor's compliance below the layer; between FE of a printed module, 1.05, and a milled, 1.96."""
 
 
 def flanged_floor_stiffness(modulus: Any, whole: Any, web: Any, flange: tuple[Any, Any], height: Any) -> Any:
     """Floor that hands its torque to a tube under it [N*m/rad]: 1/K = 1/K_whole + 1.4/K_web + 2 h/(pi G (b^4 - a^4)).
 
-    `whole` is its ring between tube and layer, `web` what is left of it below the layer; the tube's radii are a and b, its
-    height is h. FE of a printed and a milled shear module: within 25 %.
+    `whole` is its ring between tube and layer, `web` what is left of it below the layer; the tube's radii are a and b,
+    its height is h. FE of a printed and a milled shear module: within 25 %.
     """
     bore, outer = flange
     tube = shaft_stiffness(modulus, outer, height) - shaft_stiffness(modulus, bore, height)

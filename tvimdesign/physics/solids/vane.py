@@ -51,9 +51,9 @@ def stiffness(
 ) -> Any:
     """Force on the face over the face's mean deflection [N/m], pressed by a block of a stiffness of its own [N/m].
 
-    1/k = c C/(1 + 0.03 k_b C) + (r t/h + q (a/t)^2)/(E w) on a plate of thickness h, c, r and q of its `Footing`; 1/C on
-    what is rigid. The block presses over the `height` b beyond a length g at the root that is `free` of it, at the arm
-    a = g + b/2. Pressed evenly, a cantilever has there C = (g^3/3 + b g^2/2 + b^2 g/4 + b^3/20)/(E I)
+    1/k = c C/(1 + 0.03 k_b C) + (r t/h + q (a/t)^2)/(E w) on a plate of thickness h, c, r and q of its `Footing`; 1/C
+    on what is rigid. The block presses over the `height` b beyond a length g at the root that is `free` of it, at the
+    arm a = g + b/2. Pressed evenly, a cantilever has there C = (g^3/3 + b g^2/2 + b^2 g/4 + b^3/20)/(E I)
     + (g + b/3)/(kappa G A), I = w t^3/12, A = w t, kappa = 5/6 [T].
     """
     reach = free**3 / 3.0 + height * free**2 / 2.0 + height**2 * free / 4.0 + height**3 / 20.0
