@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import csv
 import importlib.util
+import os
+import sys
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -15,14 +18,14 @@ from tvimdesign.study import read_study
 
 FOLDER = ROOT / "validation/fe_structure"
 WITHIN = 0.10
-WIDER = {("standard_parts", "housing"): 0.28}
-"""Further from FE: arcs that cover a quarter of their ring bend the floor where they stand. The hub is within 2 %."""
+WIDER = {"edge_traction": 0.14}
+"""Further from FE: what a warning tells, no requirement of a study."""
 MOVED = 0.10
 """How far spring rate and stiffness of today's optimum may be from those of the design that FE looked at."""
 
 
-def _load() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("fe_models", FOLDER / "models.py")
+def _load(name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(f"fe_{name}", FOLDER / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -30,7 +33,7 @@ def _load() -> ModuleType:
     return module
 
 
-MODELS = _load()
+MODELS = _load("models")
 with (FOLDER / "results.csv").open(newline="") as file:
     ROWS: list[dict[str, str]] = list(csv.DictReader(file))
 STUDIES = sorted({row["study"] for row in ROWS})
@@ -45,13 +48,18 @@ def looked_at(study: str) -> dict[str, dict[str, str]]:
     return {row["quantity"]: row for row in ROWS if row["study"] == study and row["fe"]}
 
 
+def test_fe_looked_at_every_shipped_study() -> None:
+    shipped = {path.stem for path in (ROOT / "studies").glob("*.yaml")}
+    assert set(STUDIES) == shipped
+
+
 @named
 def test_a_study_s_spring_joint_and_parts_are_within_a_tenth_of_fe(study: str) -> None:
     today = {name: value for name, (_, value) in MODELS.model_values(study, design_of(study)).items()}
     found = looked_at(study)
     assert {"spring_rate", "hub", "core", "core_stress"} <= set(found)
     for name, row in found.items():
-        rel = WIDER.get((study, name), WITHIN)
+        rel = WIDER.get(name, WITHIN)
         assert today[name] == pytest.approx(float(row["fe"]), rel=rel), name
         # The table tells what the model said; it is made anew where that is no longer so.
         assert today[name] == pytest.approx(float(row["model"]), rel=0.02), name
@@ -74,3 +82,18 @@ def test_today_s_optimum_is_the_design_that_fe_looked_at(study: str) -> None:
     now = MODELS.model_values(study, {name: float(best.values[name]) for name in read.vary})
     for name in ("spring_rate", "hub"):
         assert now[name][1] == pytest.approx(then[name][1], rel=MOVED), name
+
+
+@pytest.mark.slow
+def test_fe_on_parts_exported_today_finds_what_stands_in_the_table(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fe_python = os.environ.get("TVIMDESIGN_FE_PYTHON")
+    if not fe_python:
+        pytest.skip("TVIMDESIGN_FE_PYTHON names no Python that has netgen-mesher, ngsolve and pyyaml")
+    monkeypatch.setitem(sys.modules, "models", MODELS)
+    found, _ = _load("run").solved("paper_as_published", tmp_path, Path(fe_python))
+    rows = looked_at("paper_as_published")
+    assert set(rows) <= set(found)
+    for name, row in rows.items():
+        assert found[name] == pytest.approx(float(row["fe"]), rel=0.02), name

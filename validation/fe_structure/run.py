@@ -1,10 +1,11 @@
-"""FE of every shipped study's parts against the model, by one command; writes results.csv.
+"""FE of every shipped study's parts against the model, by one command; writes results.csv and shipped.yaml.
 
     python validation/fe_structure/run.py --fe-python FE/bin/python [--work FOLDER] [STUDY ...]
 
 Run it where the package and CadQuery are; FE/bin/python has netgen-mesher, ngsolve and pyyaml. Each study is run, its
 parts are exported as STEP, and FE finds the rate of a spring, the stiffness of the joint and of its parts, and
-stresses. What is in the work folder already is not made again. Without a name: all studies that ship.
+stresses. Of a study with a front or a comparison, its own optimum. What is in the work folder already is not made
+again. Without a name: all studies that ship. A study that fails keeps its rows; the command then ends with 1.
 """
 
 from __future__ import annotations
@@ -12,16 +13,20 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import yaml
-from models import Row, design_rows, fe_values, model_values
+from models import Row, case_of, design_rows, fe_values, model_values
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-RESULTS = HERE / "results.csv"
+RESULTS, CASES = HERE / "results.csv", HERE / "shipped.yaml"
+LONGEST = 1800.0
+"""Time [s] after which a step is given up."""
 HEADER = ("study", "quantity", "unit", "model", "fe", "ratio")
 
 
@@ -30,12 +35,15 @@ def done(command: list[object], into: Path) -> None:
     if into.exists():
         return
     print(*command, file=sys.stderr, flush=True)
-    found = subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True).stdout
+    paths = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
+    alone = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": paths}
+    asked = [str(part) for part in command]
+    found = subprocess.run(asked, check=True, stdout=subprocess.PIPE, text=True, timeout=LONGEST, env=alone).stdout
     into.write_text(found)
 
 
-def solved(study: str, work: Path, fe_python: Path) -> dict[str, float]:
-    """Run a study, export its parts and return what FE finds, by name."""
+def solved(study: str, work: Path, fe_python: Path) -> tuple[dict[str, float], dict[str, Any]]:
+    """Run a study, export its parts and return what FE finds, by name, and its case of shipped.yaml."""
     folder, parts = work / study / "run", work / study / "parts"
     folder.parent.mkdir(parents=True, exist_ok=True)
     run = [
@@ -49,18 +57,27 @@ def solved(study: str, work: Path, fe_python: Path) -> dict[str, float]:
         "--out",
         folder,
     ]
-    done(run, work / study / "run.txt")
+    done(run, work / study / "run.txt")  # it ends with 1 where nothing meets the study: then there is no design
     done([sys.executable, HERE.parent / "export_parts.py", folder / "design.json", parts], work / study / "parts.txt")
     done([fe_python, HERE / "solve.py", parts], work / study / "structure.yaml")
     done([fe_python, HERE.parent / "fe_spring/solve.py", parts], work / study / "spring.yaml")
-    (spring,) = yaml.safe_load((work / study / "spring.yaml").read_text())["parts"]
-    found = yaml.safe_load((work / study / "structure.yaml").read_text())["parts"]
-    return fe_values({**found, "spring_rate": spring["rate"]})
+    (spring,) = found_in(work / study / "spring.yaml")
+    found = found_in(work / study / "structure.yaml")
+    case = case_of(study, json.loads((parts / "inputs.json").read_text()), found)
+    return fe_values({**found, "spring_rate": spring["rate"]}), case
 
 
-def rows_of(study: str, work: Path, fe_python: Path) -> list[Row]:
-    """The design of a study, and its model's values beside those of FE."""
-    fe = solved(study, work, fe_python)
+def found_in(printed: Path) -> Any:
+    """What FE found, from what it printed; the mesher prints above it, and a mesh with holes is no mesh."""
+    text = printed.read_text()
+    if "NOT ALL FACES" in text:
+        raise ValueError(f"{printed}: faces without a mesh")
+    return yaml.safe_load(text[text.index("parts:") :])["parts"]
+
+
+def rows_of(study: str, work: Path, fe_python: Path) -> tuple[list[Row], dict[str, Any]]:
+    """The design of a study, and its model's values beside those of FE; its case of shipped.yaml."""
+    fe, case = solved(study, work, fe_python)
     values = json.loads((work / study / "run/design.json").read_text())["values"]
     design = design_rows(study, values)
     found = [
@@ -68,7 +85,7 @@ def rows_of(study: str, work: Path, fe_python: Path) -> list[Row]:
         for name, (unit, value) in model_values(study, {row.quantity: row.model for row in design}).items()
         if name in fe
     ]
-    return [*design, *found]
+    return [*design, *found], case
 
 
 def main() -> None:
@@ -78,12 +95,24 @@ def main() -> None:
     parser.add_argument("--fe-python", type=Path, required=True)
     parser.add_argument("--work", type=Path, default=Path("fe_work"))
     asked = parser.parse_args()
+    failed = []
     for study in asked.studies or sorted(path.stem for path in (ROOT / "studies").glob("*.yaml")):
-        fresh = rows_of(study, asked.work, asked.fe_python)
-        with RESULTS.open(newline="") as file:
-            kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
-        with RESULTS.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*kept, *(row.cells() for row in fresh)])])
+        try:
+            put(study, *rows_of(study, asked.work.resolve(), asked.fe_python))
+        except (subprocess.SubprocessError, OSError, ValueError) as trouble:
+            failed.append(f"{study}: {trouble}")
+    if failed:
+        sys.exit("\n".join(failed))
+
+
+def put(study: str, fresh: list[Row], case: dict[str, Any]) -> None:
+    """Put a study's rows and case in place of those that stood in results.csv and shipped.yaml."""
+    cases = yaml.safe_load(CASES.read_text()) if CASES.exists() else {}
+    CASES.write_text(yaml.safe_dump({**cases, study: case}, width=160, default_flow_style=None))
+    with RESULTS.open(newline="") as file:
+        kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
+    with RESULTS.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*kept, *(row.cells() for row in fresh)])])
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 from netgen.libngpy._meshing import NgException
-from netgen.occ import Cylinder, Dir, Glue, OCCGeometry, Pnt
+from netgen.occ import Cylinder, Dir, Glue, HalfSpace, OCCGeometry, Pnt, Vec
 from ngsolve import (
     CF,
     TET,
@@ -53,6 +53,21 @@ def tube(inner: float, outer: float, bottom: float, top: float):
     return whole - Cylinder(Pnt(0, 0, bottom - 1), Dir(0, 0, 1), r=inner, h=top - bottom + 2) if inner else whole
 
 
+def sectors(mm: dict[str, float], bottom: float, top: float, wider: float = 0.0, ledge: float = 0.0) -> list:
+    """One sector with sharp corners for each arc of PCL, wider on each side, or narrower by a ledge [mm]."""
+    inner, outer = mm["pcl_inner_radius"] - wider + ledge, mm["pcl_outer_radius"] + wider - ledge
+    half, found = 0.5 * mm["arc_span"] - ledge / mm["pcl_inner_radius"], []
+    for arc in range(round(mm["arc_count"])):
+        middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
+        shape = tube(inner, outer, bottom, top)
+        for sense in (-1, 1):
+            side = middle + sense * half
+            out = Vec(-sense * np.sin(side), sense * np.cos(side), 0)
+            shape *= HalfSpace(Pnt(wider * out.x, wider * out.y, 0), out)
+        found.append(shape)
+    return found
+
+
 def parts(folder: Path, mm: dict[str, float]) -> list:
     """Solids that carry the torque, named."""
 
@@ -70,19 +85,28 @@ def parts(folder: Path, mm: dict[str, float]) -> list:
     else:
         wall = tube(mm["housing_inner_radius"], mm["housing_outer_radius"], 0.0, mm["rim_level"])
         housing = (read("housing") - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
+        pads, floor = -mm["peltier_thickness"], -mm["floor_thickness"]
+        for filling in sectors(mm, pads - 0.2, 0.0, wider=PAD_GAP):  # else the rounded pockets' edges stay in its face
+            housing += filling
+        for hole in (*sectors(mm, pads, 1.0, wider=PAD_GAP), *sectors(mm, floor - 1.0, pads, ledge=mm["window_ledge"])):
+            housing -= hole  # corners sharp: where a radius leaves a tenth of a millimetre straight no mesh is found
     found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
     for path in sorted(folder.glob("*.step")):
         number = int(path.stem.split("_")[-1]) if path.stem[-1].isdigit() else 0
         for kind, label, parity in (("pcl", "pcl", 1), ("peltier_pad", "pad", 0)):
             if path.stem.startswith(kind) and (not blocks or number % 2 == parity):  # blocks of one sense are pressed
                 found.append((read(path.stem), label, SIZES["layer"]))
+    if not blocks:
+        found = [part for part in found if part[1] != "pad"]
+        found += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["peltier_thickness"], 0.0)]
     for shape, label, size in found:
         for solid in shape.solids:
             solid.name, solid.maxh = label, size
     return [shape for shape, _, _ in found]
 
 
-FOOT, EDGE = float(os.environ.get("FOOT", "1")), float(os.environ.get("EDGE", "2"))  # mm; zero: as the layer
+FOOT, EDGE = float(os.environ.get("FOOT", "0.5")), float(os.environ.get("EDGE", "2"))  # mm; zero: as the layer
+PAD_GAP = float(os.environ.get("PAD_GAP", "0.2"))  # mm; zero: tied to the walls of their pockets
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": float(os.environ.get("LAYER", "5"))}  # mm
 
 
@@ -101,7 +125,7 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
         beside = abs((centre.x**2 + centre.y**2) ** 0.5 - mm["placement_radius"]) < 0.2
         if flat and abs(low - top) < 1e-3:
             face.name = "turned"
-        elif flat and abs(low - ground) < 1e-3 and beside and wide < 3 * mm["mount_boss_radius"]:  # not the skirt
+        elif flat and abs(low - ground) < 1e-3 and _stands(beside, wide, mm):
             face.name = "fixed"
         else:
             face.name = "free"
@@ -159,6 +183,13 @@ def solve(folder: Path, order: int = 2) -> dict[str, float]:
     if not mm.get("vane_count"):
         result |= _edges(mesh, stress(strain), mm, torque)
     return result | {"seconds": time.time() - began}
+
+
+def _stands(beside: bool, wide: float, mm: dict[str, float]) -> bool:
+    """Whether a face at the ground is what holds the housing: a torque sensor's flange, or else a foot; no skirt."""
+    if mm["flange_outer_radius"]:
+        return not beside and wide < 2 * mm["flange_outer_radius"] + 0.1
+    return beside and wide < 3 * mm["mount_boss_radius"]
 
 
 def _refine(whole, mm) -> None:

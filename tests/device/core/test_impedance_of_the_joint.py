@@ -88,12 +88,17 @@ def test_structure_is_softer_than_the_frozen_layer_and_stiffer_than_the_springs(
 
 
 def test_structure_is_core_rotor_pads_and_floor_in_series(joint: dict[str, Any]) -> None:
-    # A sheet of 100 MPa and 1.5 mm under the arcs, as the catalogue assumes the flexible Peltier module to be.
+    # A sheet of 100 MPa and 1.5 mm under the arcs, as the catalogue assumes the flexible Peltier module to be, held on
+    # 2 mm around its windows of 10 mm, whose corners are round; above them the frozen layer is borne by tanh(x)/x.
     span, outer, inner = (joint[name] for name in ("arc_span", "pcl_outer_radius", "pcl_inner_radius"))
     sheet, _ = quad(lambda r: joint["arc_count"] * span * r**3 * 100e6 / 1.5e-3, inner, outer, epsabs=0.0)
+    open_span = joint["arc_count"] * (span - 4e-3 / inner)
+    window, _ = quad(lambda r: open_span * r**3 * 100e6 / 1.5e-3, inner + 2e-3, outer - 2e-3, epsabs=0.0)
+    reach = 5e-3 * np.sqrt(1.0 / (1e-3 / (411e6 / 2.9) + 0.5e-3 / 100e6) / (100e6 * 1.5e-3))
+    held = sheet - window * (1.0 - np.tanh(reach) / reach)
     parts = ["core_stiffness", "plate_stiffness", "floor_stiffness"]
-    whole = sum(1.0 / value for value in TABLE.evaluate(joint, parts).values()) + 1.0 / sheet
-    assert joint["structure_stiffness"] == pytest.approx(1.0 / whole, rel=1e-9)
+    others = sum(1.0 / value for value in TABLE.evaluate(joint, parts).values())
+    assert 1.0 / joint["structure_stiffness"] - others == pytest.approx(1.0 / held, rel=0.01)
 
 
 def test_frozen_damping_is_the_structures(joint: dict[str, Any]) -> None:
@@ -116,12 +121,12 @@ def test_frozen_layer_holds_until_its_outer_rim_slips(joint: dict[str, Any]) -> 
 
 
 def test_core_holds_until_its_foot_or_the_wall_of_a_hole_yields_in_shear(inputs: dict[str, Any]) -> None:
-    # The yield of the print across its layers, 31 MPa/sqrt(3), over 1.82 of a plain bar's shear: FE of cores as drawn.
+    # The yield of the print across its layers, 31 MPa/sqrt(3), over 1.81 of a plain bar's shear: FE of cores as drawn.
     # An optimum of paper_shear.yaml with a core of 7.53 mm had 55 MPa at 12 N.m by FE from outside, where 31 were told.
     given = {**inputs, **STIFF_WHEN_WARM, "temperature@cold": 296.15}  # where strengths are measured
     bar = 31.0 / np.sqrt(3.0) * 0.5 * np.pi
     held = TABLE.evaluate(given, ["core_holding_torque"])["core_holding_torque"]
-    assert held == pytest.approx(bar / 1.82 / 1.25, rel=1e-9)
+    assert held == pytest.approx(bar / 1.81 / 1.25, rel=1e-9)
     slim = TABLE.evaluate({**given, "core_radius": 7.53e-3}, ["core_holding_torque"])["core_holding_torque"]
     assert 12.0 / (1.25 * slim) * 31.0 == pytest.approx(55.0, rel=0.05)
     # Wide holes yield first: four of 6 mm on 6.5 mm take twice their own polar moment, the shear beside them is double.
@@ -136,12 +141,15 @@ def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
 
 
 def test_the_edges_of_the_arcs_bear_more_than_a_layer_between_rigid_faces(inputs: dict[str, Any]) -> None:
-    # FE of printed modules: 2.2 to 3.3 times T r/J, a mean over one thickness in from the edge; 2 MPa of bond.
+    # FE of the module as published: 0.0448 MPa at 1 N*m, a mean over one thickness in from the edge; 2 MPa of bond.
     names = ["layer_edge_traction", "layer_edge_safety", "holding_torque", "layer_holding_torque"]
     found = TABLE.evaluate(inputs, names)
     even = 2e6 * found["holding_torque"] / found["layer_holding_torque"]
-    assert 2.2 * even < found["layer_edge_traction"] < 3.3 * even
+    assert 1.8 * even < found["layer_edge_traction"] < 2.4 * even
     assert found["layer_edge_safety"] == pytest.approx(2e6 / found["layer_edge_traction"], rel=1e-9)
+    # Between faces that are nearly rigid what is above the windows bears no more for that: 1.718 by hand, no shear lag.
+    rigid = TABLE.evaluate({**inputs, "structure_youngs_modulus": 2e14}, ["layer_edge_rise"])["layer_edge_rise"]
+    assert rigid == pytest.approx(1.718, rel=0.01)
 
 
 def test_strain_of_the_layer_is_its_rims_way_over_its_thickness(joint: dict[str, Any]) -> None:

@@ -98,14 +98,16 @@ def rotor_vane_stiffness(
     structure_shear_modulus: Scalar,
     block_width: Scalar,
     vane_thickness: Scalar,
-    vane_height: Scalar,
+    block_height: Scalar,
+    running_clearance: Scalar,
+    rotor_thickness: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
     frozen_block_stiffness: Scalar,
 ) -> Scalar:
     """Stiffness of the rotor's vanes about the axis [N*m/rad], and of the plate under their roots."""
-    one = vane.stiffness(structure_youngs_modulus, structure_shear_modulus, block_width, vane_thickness, vane_height,
-                         frozen_block_stiffness, vane.ON_PLATE)  # fmt: skip
+    one = vane.stiffness(structure_youngs_modulus, structure_shear_modulus, block_width, vane_thickness, block_height,
+                         running_clearance, frozen_block_stiffness, vane.on_plate(rotor_thickness))  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
 
 
@@ -121,7 +123,9 @@ def housing_vane_stiffness(
     structure_shear_modulus: Scalar,
     slot_web: Scalar,
     housing_vane_thickness: Scalar,
-    vane_height: Scalar,
+    block_height: Scalar,
+    running_clearance: Scalar,
+    floor_thickness: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
     frozen_block_stiffness: Scalar,
@@ -131,10 +135,16 @@ def housing_vane_stiffness(
     Of the vanes what stands on either side of their slots.
     """
     one = vane.stiffness(
-        structure_youngs_modulus, structure_shear_modulus, 2.0 * slot_web, housing_vane_thickness, vane_height,
-        frozen_block_stiffness, vane.ON_FLOOR,
+        structure_youngs_modulus, structure_shear_modulus, 2.0 * slot_web, housing_vane_thickness, block_height,
+        running_clearance, frozen_block_stiffness, vane.on_floor(floor_thickness),
     )  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
+
+
+@quantities.helper()
+def driven_share() -> Scalar:
+    """Share of the circle on which the plate drives the PCL [1]: all of it, its vanes' roots are counted with them."""
+    return 1.0
 
 
 @quantities.helper()

@@ -58,10 +58,16 @@ def core_stiffness(
 
 @quantities.output("N*m/rad")
 def plate_stiffness(
-    structure_shear_modulus: Scalar, rotor_thickness: Scalar, core_radius: Scalar, pcl_mean_radius: Scalar
+    structure_shear_modulus: Scalar,
+    rotor_thickness: Scalar,
+    core_radius: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_mean_radius: Scalar,
+    driven_share: Scalar,
 ) -> Scalar:
     """Torsional stiffness of the rotor plate between the core and the middle of the PCL."""
-    return structure.plate_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_mean_radius)
+    return structure.plate_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_inner_radius,
+                                     pcl_mean_radius, driven_share)  # fmt: skip
 
 
 @quantities.output("N*m/rad")
@@ -71,6 +77,9 @@ def floor_stiffness(
     floor_flange: tuple[Scalar, Scalar] | None,
     floor_ring: Scalar,
     floor_thickness: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_mean_radius: Scalar,
+    driven_share: Scalar,
     pcl_outer_radius: Scalar,
     placement_radius: Scalar,
     spring_count: Scalar,
@@ -84,7 +93,12 @@ def floor_stiffness(
     outer rim, where the floor is whole.
     """
     if floor_flange is not None:
-        return structure.ring_stiffness(structure_shear_modulus, floor_ring, *floor_flange)
+        bore, outer = floor_flange
+        web = structure.covered_ring_stiffness(
+            structure_shear_modulus, floor_ring, pcl_inner_radius, pcl_mean_radius, driven_share
+        )
+        whole = structure.ring_stiffness(structure_shear_modulus, floor_thickness, outer, pcl_inner_radius)
+        return structure.flanged_floor_stiffness(structure_shear_modulus, whole, web, (bore, outer), foot_height)
     ring = structure.ring_stiffness(structure_shear_modulus, floor_thickness, pcl_outer_radius, placement_radius)
     foot = structure.foot_stiffness(structure_youngs_modulus, structure_shear_modulus, mount_boss_radius,
                                     0.5 * mount_hole, foot_height)  # fmt: skip

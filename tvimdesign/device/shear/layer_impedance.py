@@ -12,7 +12,7 @@ from tvimdesign.device.fixtures.dowels import LINK_PARTS
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.layers import hold, layer
+from tvimdesign.physics.layers import hold, layer, shear_lag
 from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.physics.polymers import large_strain
 from tvimdesign.physics.solids import structure
@@ -39,6 +39,38 @@ def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness:
 
 
 @quantities.helper()
+def frozen_shear_modulus(pcl_flexural_modulus: Scalar, pcl_poissons_ratio: Scalar) -> Scalar:
+    """Shear modulus of the frozen PCL at 23 degC [Pa]."""
+    return structure.shear_modulus(pcl_flexural_modulus, pcl_poissons_ratio)
+
+
+@quantities.helper()
+def held_polar_moment(
+    layer_polar_moment: Scalar,
+    window_section: Section,
+    frozen_shear_modulus: Scalar,
+    pcl_thickness: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    window_depth: Scalar,
+) -> Scalar:
+    """Polar moment of the frozen layer [m^4] less what it does not bear above the windows, which do not hold the pads.
+
+    Under the layer a pad gives over a third of its own thickness, as a sheet that is sheared along its upper face.
+    """
+    per_area = 1.0 / (pcl_thickness / frozen_shear_modulus + peltier_thickness / (3.0 * peltier_shear_modulus))
+    sheet = 1.0 / (peltier_shear_modulus * peltier_thickness)
+    borne = shear_lag.borne_over_window(per_area, sheet, 0.5 * window_depth)
+    return layer_polar_moment - (1.0 - borne) * window_section.polar
+
+
+@quantities.helper()
+def driven_share(arc_count: Scalar, arc_span: Scalar) -> Scalar:
+    """Share of the circle that the arcs cover [1]."""
+    return arc_count * arc_span / (2.0 * np.pi)
+
+
+@quantities.helper()
 def structure_compliances(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
@@ -49,11 +81,14 @@ def structure_compliances(
     pcl_mean_radius: Scalar,
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
-    layer_polar_moment: Scalar,
+    held_polar_moment: Scalar,
+    driven_share: Scalar,
 ) -> Compliances:
     """What is in series with the layer: core, rotor plate inside the arcs and above them, floor, and pads."""
-    above = 1.0 / structure.ring_stiffness(structure_shear_modulus, rotor_thickness, pcl_inner_radius, pcl_mean_radius)
-    pads = peltier_thickness / (peltier_shear_modulus * layer_polar_moment)
+    above = 1.0 / structure.covered_ring_stiffness(
+        structure_shear_modulus, rotor_thickness, pcl_inner_radius, pcl_mean_radius, driven_share
+    )
+    pads = peltier_thickness / (peltier_shear_modulus * held_polar_moment)
     return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, 1.0 / floor_stiffness, pads)
 
 
@@ -133,14 +168,36 @@ def holding_torque(
     return with_bearings(bearing, held, bearing_holding_torque)
 
 
+@quantities.output("1")
+def layer_edge_rise(
+    frozen_shear_modulus: Scalar,
+    pcl_thickness: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    structure_shear_modulus: Scalar,
+    rotor_thickness: Scalar,
+    floor_web: Scalar,
+    arc_width: Scalar,
+    layer_polar_moment: Scalar,
+    held_polar_moment: Scalar,
+    driven_share: Scalar,
+) -> Scalar:
+    """Traction of the frozen layer along the outer rim of its arcs over T r/J, a mean over one thickness.
+
+    Plate and floor stretch, so that the torque leaves at the rim; and what is above the windows bears little.
+    """
+    held = held_polar_moment / layer_polar_moment
+    per_area = held / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
+    sheet = np.sqrt(driven_share) / structure_shear_modulus  # of the circle the arcs take up a share: as in the plate
+    plate, floor = sheet / rotor_thickness, sheet / floor_web
+    return shear_lag.edge_rise(per_area, plate, floor, arc_width) + 1.0 / held - 1.0
+
+
 @quantities.output("MPa")
 def layer_edge_traction(
     layer_edge_rise: Scalar, holding_torque: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
 ) -> Scalar:
-    """Traction along the edge of an arc under the torque the joint holds, a mean over one thickness of the layer.
-
-    The structure is far softer than the frozen layer, so the torque enters at the arcs' edges.
-    """
+    """Traction along the edge of an arc under the torque the joint holds, a mean over one thickness of the layer."""
     return layer_edge_rise * layer.traction(holding_torque, layer_polar_moment, pcl_outer_radius)
 
 

@@ -1,0 +1,54 @@
+"""Shear lag in a lap joint and over a window: Volkersen's result for like sheets, the equations solved by numbers."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_bvp
+
+from tvimdesign.physics.layers import shear_lag
+
+
+@pytest.mark.parametrize("reach", [0.1, 1.0, 4.0])
+def test_the_edge_of_a_lap_of_like_sheets_bears_what_volkersen_says(reach: float) -> None:
+    layer, width = 5e10, 0.012  # Pa/m, m
+    sheet = 0.5 * reach**2 / (layer * width**2)
+    # Volkersen 1938, sheets alike: highest over mean stress (p/2) coth(p/2).
+    found = shear_lag.edge_rise(layer, sheet, sheet, width)
+    assert found == pytest.approx(0.5 * reach / np.tanh(0.5 * reach), rel=1e-12)
+
+
+def test_stiff_sheets_load_a_layer_evenly() -> None:
+    assert shear_lag.edge_rise(1e6, 1e-9, 1e-9, 0.01) == pytest.approx(1.0, rel=1e-6)
+
+
+@pytest.mark.parametrize(("first", "second"), [(3e-7, 8e-7), (8e-7, 3e-7)])
+def test_the_edge_of_a_lap_of_unlike_sheets_agrees_with_its_equation_solved(first: float, second: float) -> None:
+    layer, width = 5e10, 0.012
+
+    def slopes(_: np.ndarray, y: np.ndarray) -> np.ndarray:
+        force, slip = y  # of the second sheet, of 1 N/m in all; force in the first is what is left
+        return np.vstack([layer * slip, second * force - first * (1.0 - force)])
+
+    grid = np.linspace(0.0, width, 400)
+    # The whole force enters the first sheet at 0 and leaves the second at the width.
+    solved = solve_bvp(slopes, lambda a, b: np.array([a[0], b[0] - 1.0]), grid, np.zeros((2, grid.size)), tol=1e-9)
+    edge = layer * solved.sol(width)[1] * width
+    assert shear_lag.edge_rise(layer, first, second, width) == pytest.approx(edge, rel=1e-6)
+
+
+@pytest.mark.parametrize("half", [0.2e-3, 1e-3, 5e-3])
+def test_what_is_borne_over_a_window_agrees_with_its_equation_solved(half: float) -> None:
+    layer, sheet = 1.2e11, 1.0 / (0.1e9 * 1.5e-3)
+
+    def slopes(_: np.ndarray, y: np.ndarray) -> np.ndarray:
+        moved, flow = y  # of the sheet, whose upper face is driven by one metre through the layer
+        return np.vstack([sheet * flow, -layer * (1.0 - moved)])
+
+    grid = np.linspace(0.0, half, 400)
+    # Held at the rim; no flow in the middle.
+    solved = solve_bvp(slopes, lambda a, b: np.array([a[0], b[1]]), grid, np.zeros((2, grid.size)), tol=1e-9)
+    share = solved.sol(0.0)[1] / (layer * half)
+    assert shear_lag.borne_over_window(layer, sheet, half) == pytest.approx(share, rel=1e-5)
+
+
+def test_a_window_of_no_width_costs_nothing() -> None:
+    assert shear_lag.borne_over_window(1e11, 1e-5, 0.0) == pytest.approx(1.0, abs=1e-9)
