@@ -60,8 +60,8 @@ class Multistart:
     def _point_among(self, points: Iterator[Array]) -> Array:
         """Inputs at the next of some points of the unit cube, of the logarithm of a free number that is positive.
 
-        Points at which there is no such module, as with a leg that cannot reach its pin or a core wider than the layer's
-        inner edge, are passed over.
+        Points at which there is no such module, as with a leg that cannot reach its pin or a core wider than the
+        layer's inner edge, are passed over.
         """
         for _ in range(MAX_DRAWS):
             point = self.model.start.copy()
@@ -76,7 +76,7 @@ class Multistart:
         return self.model.start
 
     def _heats(self, inputs: Array) -> bool:
-        """Whether every body that takes heat in the problem's phases is one: others cost seconds to simulate in vain."""
+        """Whether every body that takes heat in the problem's phases is one; others cost seconds to simulate."""
         return all(np.all(np.asarray(block.phase.lumps(inputs)) > 0.0) for block in self.problem.blocks)
 
     def trial(self, inputs: Array) -> Cycle | None:

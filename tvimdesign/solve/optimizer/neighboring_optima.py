@@ -67,7 +67,7 @@ class NeighboringOptima:
         return best
 
     def _known_end(self, run: Run) -> Run | None:
-        """The best run that neighbors led to from the optimum where a run ended; None where no steps were taken there."""
+        """The best run that neighbors led to from where a run ended; None where no steps were taken there."""
         known = (end for begin, end in self._improved if run.start.converged and same_optimum(run.start, begin.start))
         return next(known, None)
 
