@@ -41,7 +41,7 @@ vary:
 require:
   layer_holding_torque: ">= 40 N.m"
   peak_power: "<= 20 W"
-  peak_peltier_temperature: "<= 130 degC"
+  peak_peltier_temperature: "<= 120 degC"
   stiffening_peak_voltage: "<= 6 V"
 minimize: cycle_time
 profile: {softening: 4, stiffening: 4}
@@ -110,7 +110,7 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
     assert solution.status == "optimal"
     voltage, hot, _ = terminals(solution, "softening")
     assert np.max(voltage * solution.cycle.trajectories["softening"].currents) <= 20.0 * (1.0 + TOLERANCE)
-    assert np.max(hot) <= 403.15 + 100.0 * TOLERANCE
+    assert np.max(hot) <= 393.15 + 100.0 * TOLERANCE
     voltage, _, _ = terminals(solution, "stiffening")
     profile = solution.current_profiles["stiffening"]
     assert profile.currents[0] == 0.0
@@ -136,8 +136,14 @@ def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
 
 @pytest.mark.slow
 def test_a_cycle_with_profiles_is_no_longer_than_one_with_constant_currents() -> None:
-    constant = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", ""))
-    assert solve(CYCLE).values["cycle_time"] < 0.95 * constant.values["cycle_time"]
+    """A constant current must be small from the beginning, as the pads come to their temperature in the end; one that
+    falls takes all the power the supply has until they do."""
+    constant, profile = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", "")), solve(CYCLE)
+    for solution in (constant, profile):
+        assert solution.values["peak_peltier_temperature"] == pytest.approx(393.15, abs=100.0 * TOLERANCE)
+    assert constant.values["peak_power"] < 0.8 * 20.0
+    assert profile.values["peak_power"] == pytest.approx(20.0, rel=TOLERANCE)
+    assert profile.values["cycle_time"] < 0.95 * constant.values["cycle_time"]
 
 
 @pytest.mark.slow
@@ -165,7 +171,7 @@ def one(solution: Solution, name: str) -> ActiveConstraint:
     [
         (with_pieces(8), "peak_peltier_temperature <=", "120 degC", 1.0, 1.0),
         (with_pieces(8), "peak_power <=", "15 W", 0.03, 0.2),
-        pytest.param(CYCLE, "peak_peltier_temperature <=", "130 degC", 1.0, 1.0, marks=pytest.mark.slow),
+        pytest.param(CYCLE, "peak_peltier_temperature <=", "120 degC", 1.0, 1.0, marks=pytest.mark.slow),
         pytest.param(CYCLE, "peak_power <=", "20 W", 0.2, 1.0, marks=pytest.mark.slow),
         pytest.param(CYCLE, "stiffening_peak_voltage <=", "6 V", 0.06, 1.0, marks=pytest.mark.slow),
     ],

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from support import ROOT
@@ -67,6 +69,26 @@ def test_the_best_turn_is_not_left(optimizer: Optimizer) -> None:
     run = _run_from(optimizer, **WIDE_ARCS, **SOFT_SPRINGS)
     assert NeighboringOptima(optimizer).improve([run]) == [run]
     assert not run.start.by_neighbor
+
+
+def test_no_neighbor_is_tried_twice(optimizer: Optimizer, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A start two turns away is led through an optimum that another start was led on from."""
+    runs = [_run_from(optimizer, **WIDE_ARCS, **{**SOFT_SPRINGS, "coil_count": coils}) for coils in (4.36, 5.36)]
+    tried: list[np.ndarray] = []
+    solve = optimizer.solve
+
+    def watched(*asked: Any, unknowns: np.ndarray, **more: Any) -> Run:
+        tried.append(unknowns[: len(optimizer.free)])
+        return solve(*asked, unknowns=unknowns, **more)
+
+    monkeypatch.setattr(optimizer, "solve", watched)
+    first, led = NeighboringOptima(optimizer).improve(runs)
+    assert first.start.by_neighbor
+    assert led.start.by_neighbor
+    assert led.start.objective == pytest.approx(first.start.objective, rel=1e-6)
+    assert len(tried) >= 2
+    for place, begin in enumerate(tried):
+        assert not any(np.allclose(begin, other, atol=1e-3) for other in tried[:place])
 
 
 def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> None:

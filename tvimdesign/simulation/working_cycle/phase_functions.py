@@ -59,6 +59,18 @@ class PhaseFunctions:
         return ca.Function(name, arguments, [ca.vertcat(*values)])
 
     @cached_property
+    def lumps(self) -> Any:
+        """The function inputs -> conductance [W/K] and capacity [J/K] of every body around the layer, sink included.
+
+        One that is not above zero belongs to no module, as where the core is wider than the layer's inner edge; its
+        temperature runs away.
+        """
+        sink = (self._stack.sink,) if self._stack.sink else ()
+        bodies = (*self._stack.beside, *self._stack.around, *sink)
+        numbers = [number for body in bodies for number in (body.conductance, body.capacity)]
+        return ca.Function("lumps", [self._inputs], [ca.vertcat(*numbers)])
+
+    @cached_property
     def initial(self) -> Any:
         """The function inputs -> state with everything at ambient temperature."""
         return ca.Function("initial", [self._inputs], [ca.vertcat(self._initial(self._stack))])

@@ -60,7 +60,8 @@ class Multistart:
     def _point_among(self, points: Iterator[Array]) -> Array:
         """Inputs at the next of some points of the unit cube, of the logarithm of a free number that is positive.
 
-        Points at which there is no such module, as with a leg that cannot reach its pin, are passed over.
+        Points at which there is no such module, as with a leg that cannot reach its pin or a core wider than the
+        layer's inner edge, are passed over.
         """
         for _ in range(MAX_DRAWS):
             point = self.model.start.copy()
@@ -69,10 +70,14 @@ class Multistart:
                 point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
             values = self.model.values(point, self.cycle.values)
             numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
-            if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table):
+            if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table) and self._heats(point):
                 return point
             self.passed_over["no such module"] += 1
         return self.model.start
+
+    def _heats(self, inputs: Array) -> bool:
+        """Whether every body that takes heat in the problem's phases is one; others cost seconds to simulate."""
+        return all(np.all(np.asarray(block.phase.lumps(inputs)) > 0.0) for block in self.problem.blocks)
 
     def trial(self, inputs: Array) -> Cycle | None:
         """The switch at a point, None where it does not end."""

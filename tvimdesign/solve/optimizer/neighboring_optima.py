@@ -54,15 +54,22 @@ class NeighboringOptima:
         return [*improved, crossed] if crossed else improved
 
     def _beside(self, run: Run) -> Run:
-        """The best run that steps of a period lead to; the run itself where none is better."""
-        for known, end in self._improved:
-            if run.start.converged and same_optimum(run.start, known.start):
-                return run if same_optimum(end.start, known.start) else _told(end, run, run.start)
+        """The best run that steps of a period lead to; the run itself where none is better.
+
+        Steps end at an optimum that others were taken from before.
+        """
         best, left = run, set[tuple[int, int]]()
-        while better := self._step(best, left):
+        while (end := self._known_end(best)) is None and (better := self._step(best, left)):
             best = better
+        if end and not same_optimum(end.start, best.start):
+            best = _told(end, best, best.start)
         self._improved += [(one, best) for one in (run, best) if one.start.converged]
         return best
+
+    def _known_end(self, run: Run) -> Run | None:
+        """The best run that neighbors led to from where a run ended; None where no steps were taken there."""
+        known = (end for begin, end in self._improved if run.start.converged and same_optimum(run.start, begin.start))
+        return next(known, None)
 
     def _step(self, run: Run, left: set[tuple[int, int]]) -> Run | None:
         """The first run beside one that is better, None where none is; no period that was `left` is gone back to."""

@@ -1,0 +1,29 @@
+"""Where searches may begin: at modules, and nowhere a body of the heat equation has a conductance below zero."""
+
+from __future__ import annotations
+
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study import read_study_text
+
+STUDY = """
+mode: shear
+vary:
+  core_radius: [6 mm, 30 mm]
+  pcl_inner_radius: [15 mm, 30 mm]
+  placement_radius: [30 mm, 60 mm]
+minimize: response_time
+solver: {starts: 8}
+"""
+
+
+def test_no_search_begins_with_a_core_wider_than_the_layer_s_inner_edge() -> None:
+    """Nor with a wall inside the rotor's rim: heat would flow from cold to hot there, and CVODES takes seconds."""
+    optimizer = Optimizer(read_study_text(STUDY, "test"))
+    place = optimizer.model.index
+    begins = list(optimizer.multistart.points())
+    assert len(begins) == 8
+    for begin in begins:
+        values = optimizer.model.values(begin, optimizer.multistart.cycle.values)
+        assert begin[place["core_radius"]] < begin[place["pcl_inner_radius"]]
+        assert values["rotor_radius"] < values["housing_inner_radius"]
+    assert optimizer.multistart.passed_over["no such module"] > 0
