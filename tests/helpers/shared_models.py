@@ -1,7 +1,7 @@
 """Equations and integrators that models of the same words have alike, written once in a process for all tests.
 
-A table's equations hang on its records, options and counts of cells, not on the numbers put in: two models that differ in
-numbers alone have the same. Writing them takes half of what it takes to evaluate a module, and hundreds of tests do.
+A table's equations hang on its records, options and counts of cells, not on the numbers put in: two models that differ
+in numbers alone have the same. Writing them takes most of what it takes to evaluate a module, and hundreds of tests do.
 What a process of its own does, such as the command line's tests that start one, shares nothing.
 """
 
