@@ -13,7 +13,7 @@ import pytest
 from hypothesis import settings
 from support import ROOT, Command, called, environment
 
-pytest_plugins = ["shear_designs"]
+pytest_plugins = ["shared_models", "shear_designs"]
 
 # What the benchmarks have written for numba is tested as plain Python: compiling it takes longer than all else.
 os.environ["NUMBA_DISABLE_JIT"] = "1"

@@ -245,11 +245,13 @@ class AnotherStack:
         return self.area * self._flux(surface, self.value("rotor_coefficient"))
 
     def neighbours(self) -> Array:
-        """Which states a rate depends on, for the Jacobian."""
+        """Which states a rate depends on, for the Jacobian, but for the heat from every cell to the bodies at an edge.
+
+        That is a row and a column across the whole layer, and little heat: Newton's steps reach the same state without
+        it, and the differences take five evaluations instead of hundreds.
+        """
         size = self.capacities.size
         near = np.eye(size) + np.eye(size, k=1) + np.eye(size, k=-1)
-        near[BESIDE.start, PLATE] = near[PLATE, BESIDE.start] = 1.0
-        near[FLOOR.start, : LAYER.stop] = near[: LAYER.stop, FLOOR.start] = 1.0
         near[BESIDE, FLOOR] = near[FLOOR, BESIDE] = 1.0
         if self.sink:
             near[0, -1] = near[-1, 0] = 1.0

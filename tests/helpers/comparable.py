@@ -30,6 +30,8 @@ operating_points:
   hot: {temperature: 100 degC, frequency: 1 Hz}
 solver: {starts: 1}
 """
+COARSE = SHEAR.replace("{starts: 1}", "{starts: 1, cells: 6, elements: 2}")
+"""The first on half the cells, for what does not hang on how exact its times are: half the work."""
 COMPRESSION = """mode: compression
 module:
   response_criterion: softening

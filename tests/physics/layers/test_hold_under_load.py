@@ -59,7 +59,7 @@ def by_radau(modes: Modes, time: float) -> tuple[float, float]:
         return np.array([-carried / SPRINGS, *(k * (carried + lost) / np.sum(k) - y[1:] / tau)])
 
     begin = np.array([first, *((LOAD - SPRINGS * first) * k / np.sum(k))])
-    angle, *torques = solve_ivp(rates, (0.0, time), begin, method="Radau", rtol=1e-10, atol=1e-12).y[:, -1]
+    angle, *torques = solve_ivp(rates, (0.0, time), begin, method="Radau", rtol=1e-8, atol=1e-10).y[:, -1]
     return float(angle), float(angle - sum(torques) * (1.0 / STRUCTURE + 1.0 / np.sum(k)))
 
 

@@ -38,7 +38,7 @@ def pair(request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions]) 
         return gap
 
     found = solve_ivp(
-        lambda _, y: reference.rates(y, current), (0.0, 2000.0), begin, method="BDF", rtol=1e-6, atol=1e-4,
+        lambda _, y: reference.rates(y, current), (0.0, 2000.0), begin, method="BDF", rtol=1e-5, atol=1e-3,
         jac_sparsity=reference.neighbours(),
         events=[waits(0), waits(1), waits(2)], dense_output=True,
     )  # fmt: skip

@@ -11,10 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
+from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound, Node
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes, is_one
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.study import read_study_text
 
 
 @dataclass
@@ -113,3 +114,67 @@ def test_neighbours_in_an_enumeration_differ_by_one_size() -> None:
     assert len(set(boxes)) == sizes.count == 12
     for one, other in itertools.pairwise(boxes):
         assert sum(abs(a - b) for (a, _), (b, _) in zip(one, other, strict=True)) == 1
+
+
+def _bowl(first: tuple[float, ...], second: tuple[float, ...], centre: tuple[float, ...]) -> Bowl:
+    return Bowl(0, Sizes(("a", "b"), (first, second)), centre, (1.0, 1.0), 5.0, 0.0)
+
+
+def _node(bowl: Bowl, depth: int = 0, *, solved: bool = True) -> Node:
+    run = bowl.best_within(bowl.sizes.whole, None)[0] if solved else None
+    return Node(cast("Relaxation", bowl), bowl.sizes.whole, 5.0, run, depth, 0)
+
+
+@pytest.mark.parametrize(
+    ("centre", "halves"),
+    [
+        # 2.1 is 5 % from 2 and far from 8; 13 is 26 % from 10: b is split, below 13.
+        ((2.1, 13.0), (((0, 2), (0, 0)), ((0, 2), (1, 3)))),
+        ((3.5, 20.0), (((0, 1), (0, 3)), ((2, 2), (0, 3)))),
+        ((2.0, 39.0), (((0, 2), (0, 2)), ((0, 2), (3, 3)))),
+        # Both are sizes: the longer list is split in its middle.
+        ((2.0, 20.0), (((0, 2), (0, 1)), ((0, 2), (2, 3)))),
+    ],
+)
+def test_a_box_is_split_where_a_number_is_farthest_from_its_sizes(
+    centre: tuple[float, float], halves: tuple[Box, Box]
+) -> None:
+    bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), centre)
+    assert BranchAndBound(cast("list[Relaxation]", [bowl]), 1)._halves(_node(bowl)) == halves
+
+
+def test_a_box_that_was_never_solved_is_split_in_the_middle_of_its_longest_list() -> None:
+    bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
+    search = BranchAndBound(cast("list[Relaxation]", [bowl]), 1)
+    assert search._halves(_node(bowl, solved=False)) == (((0, 2), (0, 1)), ((0, 2), (2, 3)))
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_halves_lie_one_deeper_than_the_box_they_are_of(fails: bool) -> None:
+    bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
+    search, node = BranchAndBound(cast("list[Relaxation]", [bowl]), 1), _node(bowl, depth=3)
+    bowl.fails = fails
+    for box in search._halves(node):
+        search._bound(node, box)
+    assert [one.depth for one in search._open] == [4, 4]
+
+
+@pytest.mark.parametrize(("again", "kept", "inside"), [(9.0, 9.0, 0.1), (11.0, 10.0, 0.0), (None, 10.0, 0.0)])
+def test_a_combination_solved_afresh_counts_where_it_is_better(again: float | None, kept: float, inside: float) -> None:
+    def run(objective: float) -> Any:
+        return SimpleNamespace(values={}, start=SimpleNamespace(converged=True, objective=objective))
+
+    tree: Any = SimpleNamespace(thoroughly=lambda _box, _near: None if again is None else run(again))
+    search = BranchAndBound([tree], 1, {(0, ((0, 0),)): run(10.0)})
+    search._begin_afresh()
+    assert search.found[0, ((0, 0),)].start.objective == kept
+    assert search.inside == pytest.approx(inside)
+
+
+def test_listed_numbers_have_their_sizes_from_the_smallest_up_and_records_have_none() -> None:
+    study = read_study_text(
+        "mode: shear\nminimize: module_mass\nvary:\n  wire_diameter: {choose: [2.5 mm, 2 mm]}\n"
+        "  pcl_grade: {choose: [pcl_80k, pcl_50k]}\n  current: [1 A, 2 A]\n",
+        "a test",
+    )
+    assert discrete_sizes(study, study.table) == Sizes(("wire_diameter",), ((0.002, 0.0025),))

@@ -105,3 +105,18 @@ def test_draws_stay_within_the_limits_of_the_row() -> None:
 
 def test_samples_are_a_power_of_two() -> None:
     assert [spread.power_of_two(n) for n in (256, 257, 100_000)] == [256, 512, 131_072]
+
+
+def test_the_last_of_several_chunks_has_what_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = spread.monte_carlo(_linear, PARTS, 8, seed=1).values
+    monkeypatch.setattr(spread, "CHUNK", 8)
+    chunks: list[int] = []
+
+    def counted(columns: np.ndarray) -> np.ndarray:
+        chunks.append(columns.shape[1])
+        return _linear(columns)
+
+    drawn = spread.monte_carlo(counted, PARTS, 20, seed=1)
+    assert chunks == [8, 8, 4]
+    assert drawn.values.shape == (2, 20)
+    assert np.array_equal(drawn.values[:, :8], whole)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from comparable import COMPRESSION, SHEAR
+from comparable import COARSE, COMPRESSION, SHEAR
 
 from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.objective import Objective
@@ -57,7 +57,7 @@ SMOOTH = COMPRESSION.replace("response_criterion: softening", "response_criterio
 
 
 @pytest.fixture(
-    scope="module", params=[SHEAR, pytest.param(SMOOTH, marks=pytest.mark.slow)], ids=["shear", "compression"]
+    scope="module", params=[COARSE, pytest.param(SMOOTH, marks=pytest.mark.slow)], ids=["shear", "compression"]
 )
 def solved(request: pytest.FixtureRequest) -> Solved:
     return Solved(request.param)
@@ -222,7 +222,7 @@ def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeyp
 
 def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:
     """A smaller rotor is both lighter and smaller, and there is nothing else to choose."""
-    text = SHEAR.replace("  wire_diameter: [2 mm, 3 mm]\n", "").replace("  pcl_thickness: [0.6 mm, 2 mm]\n", "")
+    text = COARSE.replace("  wire_diameter: [2 mm, 3 mm]\n", "").replace("  pcl_thickness: [0.6 mm, 2 mm]\n", "")
     text = text.replace("module:\n", "module:\n  wire_diameter: 2.8 mm\n")
     front = trace_front(Solved(text).trade(), (MASS, SIZE), 5)
     assert len(front.points) == 1

@@ -100,3 +100,10 @@ def test_ends_on_a_line_make_a_thin_front() -> None:
     line = np.outer([0.0, 0.4, 1.0], [1.0, -0.5, -0.5])
     assert shape.thin(line)
     assert not shape.thin(np.array([[-2.0, 1.0, 1.0], [1.0, -2.0, 1.0], [1.0, 1.0, -2.0]]))
+
+
+def test_the_knee_is_deepest_below_the_plane_of_the_ends_however_that_leans() -> None:
+    # The plane through the ends has the normal (0.36, 0.2, 0.2); the fifth point has the smallest sum, the fourth lies
+    # 0.144 below the plane in that measure, the fifth 0.088.
+    ends = [[0.0, 1.0, 1.0], [1.0, 0.0, 0.2], [1.0, 0.2, 0.0]]
+    assert shape.knee(np.array([*ends, [0.1, 0.5, 0.6], [0.7, 0.15, 0.15]])) == 3

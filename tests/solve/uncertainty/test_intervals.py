@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 from functools import cache
 
 import numpy as np
@@ -16,7 +16,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
-from tvimdesign.solve.uncertainty.intervals import draw, intervals, share_of_variance
+from tvimdesign.solve.uncertainty.intervals import Interval, draw, intervals, share_of_variance
 from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, unmeasured_inputs
 from tvimdesign.study import read_study_text, standard_tolerances
 
@@ -223,3 +223,19 @@ def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
         for point in qmc.LatinHypercube(len(found().unmeasured), rng=5).random(40)
     ]
     assert held[name] == pytest.approx(np.mean(np.array(times) <= middle), abs=0.2)
+
+
+def test_what_was_found_is_not_changed_afterwards() -> None:
+    (found,) = intervals(lambda x: x, [unknown("a", 0.0, 1.0)], np.array([[0.2, 0.8]]), np.array([[0.2, 0.8]]), 1.0)
+    for one, name in ((found, "low"), (found.swings[0], "at_low")):
+        with pytest.raises(FrozenInstanceError):
+            setattr(one, name, 0.0)
+
+
+def test_the_fewest_that_halve_an_interval_leave_a_quarter_of_its_variance() -> None:
+    def of(*shares: float) -> tuple[str, ...]:
+        return Interval(0.0, 0.0, 1.0, (), dict(zip("abc", shares, strict=False))).to_halve
+
+    assert of(0.75, 0.2) == ("a",)  # half the width is a quarter of the variance
+    assert of(0.5, 0.24, 0.02) == ("a", "b", "c")
+    assert of(0.5, 0.2) == ()

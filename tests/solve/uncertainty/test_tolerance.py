@@ -13,6 +13,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.batch.batch_model import BatchModel
+from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.solve.nlp.moments import moments
 from tvimdesign.solve.uncertainty.contributors import contributors_of
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
@@ -136,3 +137,33 @@ def test_where_nothing_spreads_that_is_said(resolved: Callable[[str], ResolvedMo
     text = "tolerances: {structure_service_temperature: 5 K}\nrequire: {spring_stiffness: '>= 1 N.m/rad'}\n"
     with pytest.raises(InputError, match="depends on structure_service_temperature; give tolerances of other inputs"):
         Tolerancing(resolved(text), _silent)
+
+
+def _asked(module: ResolvedModule) -> list[str]:
+    """What an analysis would ask for, without compiling anything."""
+    analysis = object.__new__(Tolerancing)
+    analysis.resolved = module
+    analysis.limits = constraints_of(module.study, module.table, module.values)
+    return analysis._asked()
+
+
+@pytest.mark.parametrize(
+    "asks",
+    ["require: {module_mass: '<= 1 kg'}\n", "vary: {wire_diameter: [2 mm, 3 mm]}\nminimize: module_mass\n"],
+    ids=["requires", "minimizes"],
+)
+def test_a_study_that_asks_for_one_thing_is_told_of_that_alone(
+    resolved: Callable[[str], ResolvedModule], asks: str
+) -> None:
+    assert _asked(resolved(f"tolerances:\n{SPRINGS}{asks}")) == ["module_mass"]
+
+
+def test_a_study_that_asks_for_nothing_is_told_what_spreads_up_to_the_switch(
+    resolved: Callable[[str], ResolvedModule],
+) -> None:
+    module = resolved("tolerances: {pcl_thickness: 0.05 mm}\n")
+    asked = set(_asked(module))
+    assert {"module_mass", "softening_time", "joint_stiffness@cold"} <= asked
+    # What comes after the switch takes ten times as long; the springs do not hang on the layer's thickness.
+    assert not asked & {"stiffening_time", "frozen_time", "cycle_time", "spring_rate"}
+    assert all(module.table.output(name).headline for name in asked)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import pytest
 from answers import shipped_answer
-from comparable import COMPRESSION, SHEAR
+from comparable import COARSE, COMPRESSION, SHEAR
 from support import ROOT, Command
 
 from tvimdesign.device import Table
@@ -63,7 +63,7 @@ class WholeRun(NamedTuple):
 @pytest.fixture(
     scope="module",
     params=[
-        (SHEAR, []),
+        (COARSE, []),
         pytest.param((SHEAR, ["--sensitivities"]), marks=pytest.mark.slow),
         pytest.param((COMPRESSION, ["--sensitivities"]), marks=pytest.mark.slow),
     ],

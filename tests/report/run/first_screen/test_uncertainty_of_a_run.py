@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from comparable import SHEAR
+from comparable import COARSE
 
 from tvimdesign.device import table_for
 from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
@@ -20,7 +20,7 @@ from tvimdesign.solve.uncertainty.unmeasured import unmeasured_inputs
 from tvimdesign.study import read_study_text, standard_tolerances
 
 TABLE = table_for("shear")
-TEXT = SHEAR.replace("require:\n", 'require:\n  response_time: "<= 120 s"\n  impedance_range: ">= 3"\n')
+TEXT = COARSE.replace("require:\n", 'require:\n  response_time: "<= 120 s"\n  impedance_range: ">= 3"\n')
 STUDY = read_study_text(TEXT, "a test")
 SAMPLES = 1024
 ASKED = [requirement.output for requirement in STUDY.require]

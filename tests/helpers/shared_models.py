@@ -1,0 +1,73 @@
+"""Equations and integrators that models of the same words have alike, written once in a process for all tests.
+
+A table's equations hang on its records, options and counts of cells, not on the numbers put in: two models that differ
+in numbers alone have the same. Writing them takes most of what it takes to evaluate a module, and hundreds of tests do.
+What a process of its own does, such as the command line's tests that start one, shares nothing.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from typing import Any
+
+import pytest
+
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_simulator import PhaseSimulator
+
+KEPT = 10
+"""Kinds of model whose equations are kept, those used last: each is some ten megabytes."""
+EQUATIONS = ("_symbols", "_settled", "_known", "phases", "output_names", "every_output", "functions")
+
+_by_kind: OrderedDict[Hashable, DeviceFunctions] = OrderedDict()
+_begin, _outputs = DeviceFunctions.__init__, DeviceFunctions.outputs
+
+
+def kind(model: DeviceFunctions) -> Hashable:
+    """What a model's equations hang on; tables and records are told apart by which object they are."""
+    words = tuple((name, word if isinstance(word, str) else id(word)) for name, word in model.words.items())
+    rotor_cells = model.start[model.index["rotor_cells"]] if "rotor_cells" in model.index else None
+    return id(model.table), model.points, model.cells, rotor_cells, tuple(model.names), words
+
+
+def _like_the_last(self: DeviceFunctions, *given: Any, **more: Any) -> None:
+    """Make a model, with the equations that the last one of its kind has written."""
+    _begin(self, *given, **more)
+    self.__dict__["functions"] = {}
+    last = _by_kind.pop(kind(self), None)
+    if last is not None:
+        self.__dict__.update({name: last.__dict__[name] for name in EQUATIONS if name in last.__dict__})
+    _by_kind[kind(self)] = self
+    if len(_by_kind) > KEPT:
+        _by_kind.popitem(last=False)
+
+
+def _shared_outputs(self: DeviceFunctions, wanted: Sequence[str], instead: Mapping[str, float] | None = None) -> Any:
+    """The function of some outputs, written once for all models of a kind."""
+    kept = self.__dict__["functions"]
+    asked = tuple(wanted), tuple((instead or {}).items())
+    if asked not in kept:
+        kept[asked] = _outputs(self, wanted, instead)
+    return kept[asked]
+
+
+def _shared_phase(self: Simulator, name: str) -> PhaseSimulator:
+    """The integrator of a phase, built once for all simulators of one exactness."""
+    functions = self.model.phases[name]
+    kept = functions.__dict__.setdefault("integrators", {})
+    exactness = (self.tolerance, self.steps)
+    if exactness not in kept:
+        kept[exactness] = PhaseSimulator(self.model, functions, *exactness)
+    found: PhaseSimulator = kept[exactness]
+    return found
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _shared_models() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(DeviceFunctions, "__init__", _like_the_last)
+        patch.setattr(DeviceFunctions, "outputs", _shared_outputs)
+        patch.setattr(Simulator, "_phase", _shared_phase)
+        yield

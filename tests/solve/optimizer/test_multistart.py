@@ -1,0 +1,100 @@
+"""Where searches begin, of a made-up module of one number: its switch takes as long as that says, or never ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from tvimdesign.base.errors import SimulationError
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
+from tvimdesign.solve.nlp.problem import Free
+from tvimdesign.solve.optimizer.multistart import MAX_DRAWS, Multistart
+from tvimdesign.study import SolverOptions
+
+LOWER, UPPER, SEED = 1.0, 100.0, 3
+
+
+def searches(
+    starts: int,
+    own: float = 2.0,
+    takes: Callable[[float], float] = lambda size: size,
+    mass: Callable[[float], float] = lambda size: size,
+) -> tuple[Multistart, list[str]]:
+    """Starts for a number from 1 to 100 that is `own` in the study, and what is said meanwhile."""
+    said: list[str] = []
+    table = SimpleNamespace(outputs=(), behind_supplied={"time"})
+    model: Any = SimpleNamespace(start=np.array([own, 7.0]), index={"size": 0, "other": 1}, table=table)
+    model.values = lambda inputs, _: {"mass": mass(inputs[0]), "time": np.nan}
+
+    def simulated(_: Any, inputs: np.ndarray) -> Cycle:
+        return Cycle({"time": takes(float(inputs[0]))}, {}, {})
+
+    problem = SimpleNamespace(free=(Free("size", LOWER, UPPER, 2.0),), events=("time",), simulated=simulated)
+    options = SolverOptions(starts=starts, seed=SEED)
+    return Multistart(cast(Any, problem), model, cast(Any, None), options, said.append), said
+
+
+def sizes(found: Multistart) -> list[float]:
+    points = list(found.points())
+    assert all(point[1] == 7.0 for point in points)  # what is not free stays as the study has it
+    return [float(point[0]) for point in points]
+
+
+def drawn(count: int) -> np.ndarray:
+    """Points evenly drawn in the logarithm, number for number."""
+    shares = np.random.default_rng(SEED).random((count, 1))[:, 0]
+    return np.asarray(LOWER * (UPPER / LOWER) ** shares)
+
+
+@pytest.mark.parametrize("starts", [1, 4])
+def test_the_study_s_own_start_comes_first_and_the_others_are_even_in_the_logarithm(starts: int) -> None:
+    found, said = searches(starts)
+    assert sizes(found) == pytest.approx([2.0, *drawn(starts - 1)])
+    assert found.passed_over == {"switch never ends": 0, "no such module": 0}
+    assert said == []
+
+
+def test_points_whose_switch_never_ends_are_passed_over_and_counted_the_own_start_too() -> None:
+    found, said = searches(3, own=2.0, takes=lambda size: np.inf if size < 10.0 else size)
+    ends = [size for size in drawn(50) if size >= 10.0][:3]
+    tried = 1 + list(drawn(50)).index(ends[-1]) + 1
+    assert sizes(found) == pytest.approx(ends)
+    assert found.passed_over == {"switch never ends": tried - 3, "no such module": 0}
+    assert said == ["the switch of the study's own start never ends: starting elsewhere"]
+
+
+def test_points_at_which_there_is_no_such_module_are_passed_over_unsimulated() -> None:
+    simulated: list[float] = []
+
+    def takes(size: float) -> float:
+        simulated.append(size)
+        return size
+
+    found, _ = searches(4, takes=takes, mass=lambda size: np.nan if size < 10.0 else size)
+    whole = [size for size in drawn(50) if size >= 10.0][:3]
+    assert sizes(found) == pytest.approx([2.0, *whole])
+    assert found.passed_over == {"switch never ends": 0, "no such module": list(drawn(50)).index(whole[-1]) + 1 - 3}
+    assert simulated == pytest.approx([2.0, *whole])  # the study's own once
+
+
+def test_a_point_that_cannot_be_simulated_is_no_start() -> None:
+    def takes(size: float) -> float:
+        if size > 10.0:
+            raise SimulationError("it cannot be simulated")
+        return size
+
+    found, _ = searches(3, takes=takes)
+    assert sizes(found) == pytest.approx([2.0, *[size for size in drawn(50) if size <= 10.0][:2]])
+
+
+def test_where_no_point_will_do_the_search_begins_at_the_study_s_own() -> None:
+    found, _ = searches(2, takes=lambda _: np.inf)
+    assert sizes(found) == [2.0, 2.0]
+    assert found.passed_over["switch never ends"] == 1 + 2 * MAX_DRAWS
+    found, _ = searches(2, mass=lambda _: np.nan)
+    assert sizes(found) == [2.0, 2.0]
+    assert found.passed_over["no such module"] == MAX_DRAWS
