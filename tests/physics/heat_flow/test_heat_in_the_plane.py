@@ -47,14 +47,13 @@ def test_constant_flux_into_an_insulated_slab(fourier: float, front: float, back
     assert risen[-1] == pytest.approx(back, abs=2e-3)
 
 
-def test_all_heat_of_the_current_is_in_what_it_heated_and_melted() -> None:
+def test_what_is_melted_is_as_warm_as_the_heat_of_the_current_makes_it() -> None:
+    # 5 kW/m2 for 40 s into 1 kg/m2: 77 kJ melt it, the rest is 1500 J/kg K above 20 degC.
     found = heated_slab(pcl(latent=77e3, start=50.0), 1e-3, 20, 5000.0)
-    before = found._content(np.full(found.size, 20.0))[0]
-    times, states = found.heat(40.0, 160)
-    layer = found.cells("layer")
-    assert np.mean(found.polymer.molten(states[-1][layer])) > 0.3
-    gained = np.sum((found._content(states[-1])[0] - before)[layer])
-    assert gained == pytest.approx(5000.0 * 1e-3 * times[-1], rel=1e-4)
+    _, states = found.heat(40.0, 160)
+    layer = states[-1][found.cells("layer")]
+    assert np.all(found.polymer.molten(layer) == 1.0)
+    assert np.mean(layer) - 20.0 == pytest.approx((5000.0 * 40.0 - 77e3) / 1500.0, rel=1e-3)
 
 
 def test_a_fin_heated_at_its_root_is_as_warm_as_the_formula_says() -> None:
