@@ -1,7 +1,7 @@
 """Times of a switch against two dimensions, by finite volumes that share no equation with the product.
 
-`validation/heat_sector/results.csv` has every shipped study as it starts and at its optimum; here two with
-coarser cells.
+`validation/heat_sector/results.csv` has every shipped study as it starts and at its optimum; here two of them
+again.
 """
 
 from __future__ import annotations
@@ -22,7 +22,6 @@ from compare import STUDIES, compared, model_of, product_times
 from tvimdesign.study import read_study
 
 THREE_PERCENT = 0.03
-COARSE = {"fine": 0.8, "steps": 150}
 
 
 def rows(name: str = "results") -> list[dict[str, str]]:
@@ -33,7 +32,7 @@ def rows(name: str = "results") -> list[dict[str, str]]:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper_shear", "calibrated_shear"])
 def test_times_of_the_paper_s_sizes_are_those_of_the_plane(name: str) -> None:
-    for time, (ours, plane) in compared(model_of(STUDIES / f"{name}.yaml"), **COARSE).items():
+    for time, (ours, plane) in compared(model_of(STUDIES / f"{name}.yaml")).items():
         assert ours == pytest.approx(plane, rel=THREE_PERCENT), time
 
 
