@@ -1,134 +1,201 @@
-"""The product's times against the two-dimensional strip, for the shear module of every shipped study as it starts.
+"""The product's times against two dimensions, for every shipped study as it starts and at its optimum.
 
-`python validation/heat_sector/compare.py` writes `results.csv`; with names of studies it writes their rows. The numbers
-of a strip are read off the device's table; its heat is `sector.py`'s alone. When the joint is soft is decided by the
-polymer's own spectrum and the structure's moduli, from the strip's temperatures and solid fractions.
+    python validation/heat_sector/compare.py [--work FOLDER] [STUDY ...]
+
+runs the studies that have an optimum (what is in the work folder is not run again), heats each module in the plane
+and writes `results.csv`; with names of studies it writes their rows. The numbers of a plane are read off the device's
+table; its heat is that of `plane.py` alone. When the joint is soft is decided by the polymer's own spectrum and the
+structure's moduli, from the plane's temperatures and molten shares.
 """
 
 from __future__ import annotations
 
+import argparse
 import csv
+import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import compression
 import numpy as np
-from sector import Case, Grid, Heating, Strip, heat
+import shear
+from plane import Array, Plane, passed
 
-from tvimdesign.device import table_for
 from tvimdesign.device.core.warm_structure import WAY_OUT, PartTemperatures, in_series
+from tvimdesign.physics.layers import film
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.study import given, read_study
+from tvimdesign.study.design import read_design
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results.csv"
 STUDIES = HERE.parents[1] / "studies"
 TIMES = ("softening_time", "mean_time", "far_face_time")
-LONGER = 1.3
-GRID = Grid(layer=28, plate=8, across=12, beside=10)
+HEADER = ("study", "design", "time", "product [s]", "plane [s]", "difference [%]")
+LONGER = (1.3, 2.6)
+"""How long the plane is heated, over the product's longest time; the second where it is not soft by the first."""
+STEPS = 250
+
+
+def inputs_of(model: DeviceFunctions) -> dict[str, Any]:
+    """Every input of a module, in SI."""
+    numbers: dict[str, Any] = {name: float(model.start[index]) for name, index in model.index.items()}
+    return {**numbers, **model.words, "rotor_cells": int(numbers["rotor_cells"])}
 
 
 def model_of(path: Path, **changes: float) -> DeviceFunctions:
     """The module a study starts from, with some inputs changed (SI)."""
     study = read_study(path)
-    values = {**given(study), **changes}
-    return DeviceFunctions(table_for(study.mode), values, tuple(study.operating_points), study.solver.cells)
+    return DeviceFunctions(study.table, {**given(study), **changes}, tuple(study.operating_points), study.solver.cells)
 
 
-def case_of(model: DeviceFunctions) -> Case:
-    """The strip of a shear module: everything for a metre of its arcs' edges."""
-    v = {name: float(model.start[index]) for name, index in model.index.items()}
-    known = {**v, **model.words}
-    wanted = ("pcl_area", "edge_length", "rotor_radius", "housing_mass", "pcl_melting", "cold_area",
-              "core_and_link", "around_pads", "peltier_mass", "pcl_depth", "sink")  # fmt: skip
-    found: dict[str, Any] = model.table.evaluate(known, wanted)
-    area, edge, melting = found["pcl_area"], found["edge_length"], found["pcl_melting"]
-    core, housing = found["core_and_link"], found["around_pads"][-1]
-    cooled = {}
-    if found["sink"] is not None:
-        cooled = {
-            "sink_conductance": found["sink"].conductance / edge, "sink_capacity": found["sink"].capacity / edge,
-            "sink_surface": found["sink"].surface.area / edge, "sink_coefficient": v["sink_coefficient"],
-        }  # fmt: skip
-    return Case(
-        half_width=area / edge, beside=(np.pi * found["rotor_radius"] ** 2 - area) / edge,
-        layer_depth=found["pcl_depth"], plate_depth=v["rotor_thickness"], pad_depth=v["peltier_thickness"],
-        floor_depth=v["floor_thickness"], gap=v["pcl_thickness"], conductivity_solid=v["pcl_conductivity_solid"],
-        conductivity_melt=v["pcl_conductivity_melt"], density=v["pcl_density"],
-        specific_heat_solid=melting.specific_heat_solid, specific_heat_melt=melting.specific_heat_melt,
-        latent_heat=melting.latent_heat, melting_start=melting.start - 273.15, melting_end=melting.end - 273.15,
-        structure_conductivity=v["structure_conductivity"],
-        structure_heat_capacity=v["structure_density"] * v["structure_specific_heat"],
-        pad_conductivity=v["pad_conductivity"], pad_edge_contact=v["pad_edge_contact"],
-        pad_heat_capacity=found["peltier_mass"] * v["peltier_specific_heat"] / area, hot_contact=v["hot_contact"],
-        rotor_contact=v["rotor_contact"], seebeck=v["peltier_seebeck"] / v["peltier_area"],
-        resistance=v["peltier_resistance"] / v["peltier_area"],
-        conductance=v["peltier_conductance"] / v["peltier_area"], window_share=found["cold_area"] / area,
-        current=v["current"], ambient=v["ambient_temperature"] - 273.15, cold_coefficient=v["cold_side_coefficient"],
-        rotor_coefficient=v["rotor_coefficient"], floor_coefficient=v["housing_coefficient"],
-        emissivity=v["surface_emissivity"], air_conductivity=v["air_conductivity"],
-        side_coefficient=v["air_conductivity"] / v["window_ledge"], core_conductance=core.conductance / edge,
-        core_capacity=core.capacity / edge, housing_conductance=housing.conductance / edge,
-        housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge, **cooled,
-    )  # fmt: skip
+def optimum_of(folder: Path, **changes: float) -> DeviceFunctions:
+    """The module a run found, with some inputs changed (SI)."""
+    module = resolve_design(read_design(folder / "design.json"))
+    values = {**module.values, **changes}
+    return DeviceFunctions(module.table, values, module.points, module.study.solver.cells)
 
 
-def parts_of(strip: Strip, state: Any) -> PartTemperatures:
-    """Temperatures of the structure's parts [K] in the strip."""
-    kelvin, shares = strip.temperatures(state) + 273.15, strip.dx / strip.case.half_width
-    cold, hot, plate = shares @ kelvin[strip.cold], shares @ kelvin[strip.hot], shares @ kelvin[strip.plate]
-    core, edge = kelvin[strip.core], np.mean(kelvin[strip.beside[0]])
-    return PartTemperatures(core, core + WAY_OUT * (edge - core), list(plate), 0.5 * (hot + cold), cold)
+def plane_of(model: DeviceFunctions, fine: float = 1.0) -> Plane:
+    """The module's drawing in the plane."""
+    values = inputs_of(model)
+    if "arc_span" in values:
+        return shear.plane(shear.case_of(model.table, values), fine)
+    return compression.plane(model.table, values, fine)
 
 
-def strip_times(model: DeviceFunctions, heated: Heating) -> dict[str, float]:
-    """The times of the switch by the strip: soft, mean of the layer and mean of its far face at their targets."""
-    strip = heated.strip
-    known = {**{name: float(model.start[index]) for name, index in model.index.items()}, **model.words}
-    names = ("pcl_rheology", "pcl_moment", "pcl_depth", "spring_stiffness", "soft_threshold",
-             "structure_compliances", "structure_softening", "lossless_compliance")  # fmt: skip
-    found: dict[str, Any] = model.table.evaluate(known, names)
-    target = float(model.start[model.index["target_temperature"]]) - 273.15
-    omega = 2.0 * np.pi * float(model.start[model.index["frequency@hot"]])
-    shares = strip.dx / strip.case.half_width
-    compliances = found["structure_compliances"]
-    law = (found["structure_softening"], known["clamped_loss_factor"], found["lossless_compliance"])
-    soft, means = [], []
-    for state in heated.states.T:
-        celsius = strip.celsius(state[strip.layer])
-        storage, loss = polymer.moduli(celsius + 273.15, strip.solid(celsius), omega, found["pcl_rheology"])
-        moduli = shares @ (1.0 / np.mean(1.0 / (storage + 1j * loss), axis=1))
-        support = complex(*in_series(compliances, parts_of(strip, state), *law))
-        joint = found["spring_stiffness"] + 1.0 / (found["pcl_depth"] / (moduli * found["pcl_moment"]) + 1.0 / support)
-        soft.append(-np.log(abs(joint)))
-        means.append(shares @ np.mean(celsius, axis=1))
-    return {
-        "softening_time": heated.passed(np.array(soft), -np.log(found["soft_threshold"])),
-        "mean_time": heated.passed(np.array(means), target),
-        "far_face_time": heated.passed(heated.far_mean(), target),
-    }
+class Judge:
+    """What the temperatures of a plane are to the joint."""
+
+    def __init__(self, model: DeviceFunctions, found: Plane) -> None:
+        """Take what the joint is beside its heat off the table."""
+        self.model, self.found, self.known = model, found, inputs_of(model)
+        self.sheared = "arc_span" in self.known
+        names = ["pcl_rheology", "pcl_moment", "pcl_depth", "spring_stiffness", "soft_threshold",
+                 "structure_compliances", "structure_softening", "lossless_compliance"]  # fmt: skip
+        self.quantity = model.table.evaluate(self.known, names if self.sheared else [*names, "shape_factor"])
+        layers = shear.columns if self.sheared else compression.rows
+        self.layers, self.shares = layers(found, "layer")
+        self.omega = 2.0 * np.pi * self.known["frequency@hot"]
+
+    def _mean(self, state: Array, name: str) -> float:
+        own = self.found.cells(name)
+        return float(self.found.volume[own] @ state[own] / np.sum(self.found.volume[own])) + 273.15
+
+    def parts(self, state: Array) -> PartTemperatures:
+        """Temperatures of the structure's parts [K]."""
+        found, count = self.found, self.found.count
+        cold, hot, core = self._mean(state, "cold"), self._mean(state, "hot"), float(state[count]) + 273.15
+        if self.sheared:
+            cells, widths = shear.columns(found, "plate")
+            within = found.middle[0][cells[:, 0]] < found.x[found.i[found.cells("layer")]].max()
+            slices = widths[within] @ state[cells[within]] / np.sum(widths[within])
+            depths = found.dy[cells[0]]
+            edge = float(depths @ state[cells[~within][0]] / np.sum(depths)) + 273.15
+        else:
+            cells, heights = shear.columns(found, "vane")
+            slices = np.array([found.dy[column] @ state[column] / np.sum(found.dy[column]) for column in cells])[::-1]
+            depths = heights[::-1]
+            edge = self._mean(state, "plate")
+        middle = (np.arange(8) + 0.5) / 8
+        at = np.interp(middle, (np.cumsum(depths) - 0.5 * depths) / np.sum(depths), slices) + 273.15
+        return PartTemperatures(core, core + WAY_OUT * (edge - core), list(at), 0.5 * (hot + cold), cold)
+
+    def stiffness(self, state: Array) -> float:
+        """Size of the joint's dynamic stiffness at the hot point's frequency [N m/rad]."""
+        q = self.quantity
+        celsius = state[self.layers]
+        solid = 1.0 - self.found.polymer.molten(celsius)
+        storage, loss = polymer.moduli(celsius + 273.15, solid, self.omega, q["pcl_rheology"])
+        moments = np.full(len(celsius), q["pcl_moment"])
+        if not self.sheared:
+            soft = np.array([film.soft_share(*pair) for pair in zip(storage, loss, strict=True)])
+            shape = q["shape_factor"]
+            moments = moments * (1.0 + 2.0 * (shape / soft) ** 2) / (1.0 + 2.0 * shape**2)
+        layer = np.sum(self.shares * moments / np.mean(1.0 / (storage + 1j * loss), axis=1)) / q["pcl_depth"]
+        law = (q["structure_softening"], self.known["clamped_loss_factor"], q["lossless_compliance"])
+        support = complex(*in_series(q["structure_compliances"], self.parts(state), *law))
+        return float(abs(q["spring_stiffness"] + 1.0 / (1.0 / layer + 1.0 / support)))
+
+    def far_face(self, state: Array) -> float:
+        """Mean temperature of the polymer's face away from the pads [degC], from its last two cells."""
+        last = -1 if self.sheared else 0
+        cells = self.layers[:, [last, -2 if self.sheared else 1]]
+        return float(self.shares @ (1.5 * state[cells[:, 0]] - 0.5 * state[cells[:, 1]]))
+
+    def times(self, seconds: float, steps: int = STEPS) -> dict[str, float]:
+        """Times of the switch by the plane: soft, mean of the polymer and mean of its far face at their targets."""
+        times, states = self.found.heat(seconds, steps)
+        target = self.known["target_temperature"] - 273.15
+        soft = [-np.log(self.stiffness(state)) for state in states]
+        own = self.found.cells("layer")
+        means = states[:, own] @ self.found.volume[own] / np.sum(self.found.volume[own])
+        return {
+            "softening_time": passed(times, soft, -np.log(self.quantity["soft_threshold"])),
+            "mean_time": passed(times, means, target),
+            "far_face_time": passed(times, [self.far_face(state) for state in states], target),
+        }
 
 
-def compared(model: DeviceFunctions, grid: Grid = GRID) -> dict[str, tuple[float, float]]:
-    """Each time by the product and by the strip [s]; those that come within an hour."""
+def product_times(model: DeviceFunctions) -> dict[str, float]:
+    """Times of the switch by the product [s]; those that come within the simulation's horizon."""
     values = Simulator(model).run(model.start, phases=["softening"]).values
-    times = {name: values[name] for name in TIMES if np.isfinite(values[name])}
-    found = strip_times(model, heat(case_of(model), LONGER * max(times.values()), grid))
+    return {name: values[name] for name in TIMES if np.isfinite(values[name])}
+
+
+def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> dict[str, tuple[float, float]]:
+    """Each time by the product and by the plane [s]."""
+    times = product_times(model)
+    judge, longest = Judge(model, plane_of(model, fine)), max(times.values())
+    found = judge.times(LONGER[0] * longest, steps)
+    if not np.isfinite(found["softening_time"]):
+        found = judge.times(LONGER[1] * longest, steps)
     return {name: (time, found[name]) for name, time in times.items()}
 
 
-def main(names: list[str]) -> None:
-    """Compare the named studies, or all that are in shear, and put their rows in `results.csv`."""
-    shear = [path for path in sorted(STUDIES.glob("*.yaml")) if read_study(path).mode == "shear"]
-    for path in shear:
-        if names and path.stem not in names:
+def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunctions]]:
+    """A study's start and, where it varies something, its optimum, which is run unless it is in the work folder."""
+    yield "start", model_of(path)
+    if work is None or not read_study(path).vary:
+        return
+    folder = work / path.stem
+    if not (folder / "design.json").exists():
+        run = [
+            sys.executable,
+            "-m",
+            "tvimdesign",
+            "run",
+            path,
+            "--no-cad",
+            "--no-plots",
+            "--overwrite",
+            "--out",
+            folder,
+        ]
+        subprocess.run([str(part) for part in run], check=False, stdout=subprocess.DEVNULL)
+    yield "optimum", optimum_of(folder)
+
+
+def main() -> None:
+    """Compare the named studies, or all, and put their rows in `results.csv`."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("studies", nargs="*", metavar="STUDY")
+    parser.add_argument("--work", type=Path, default=Path("heat_work"))
+    asked = parser.parse_args()
+    for path in sorted(STUDIES.glob("*.yaml")):
+        if asked.studies and path.stem not in asked.studies:
             continue
         rows = []
-        for name, (ours, strip) in compared(model_of(path)).items():
-            rows.append([path.stem, name, f"{ours:.2f}", f"{strip:.2f}", f"{100.0 * (ours / strip - 1.0):+.2f}"])
-            print(*rows[-1], flush=True)
+        for design, model in designs(path, asked.work):
+            for name, (ours, plane) in compared(model).items():
+                row = [path.stem, design, name, f"{ours:.2f}", f"{plane:.2f}", f"{100.0 * (ours / plane - 1.0):+.2f}"]
+                print(*row, flush=True)
+                rows.append(row)
         _put(path.stem, rows)
 
 
@@ -137,9 +204,9 @@ def _put(study: str, rows: list[list[str]]) -> None:
     before = list(csv.reader(RESULTS.open()))[1:] if RESULTS.exists() else []
     with RESULTS.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("study", "time", "product [s]", "strip [s]", "difference [%]"))
+        writer.writerow(HEADER)
         writer.writerows(sorted([row for row in before if row[0] != study] + rows, key=lambda row: row[0]))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -17,7 +17,8 @@ STRIP = (0.05, 0.22, 0.73)
 """Widths of the three bodies a strip that is heated at its edge is divided into, from that edge on, as shares.
 
 Each is several times as wide as the one before, so that the first seconds are seen as well as the rest. Calibrated,
-with `TO_EDGE`, to a strip in two dimensions (`validation/heat_sector`).
+with `TO_EDGE`, to a strip whose floor had one temperature through its depth; `docs/theory/heat.md` tells how far times
+are off the module as drawn.
 """
 TO_EDGE = 0.22
 """Way from where a heated strip has its mean temperature to its edge, as a share of its half width; calibrated.

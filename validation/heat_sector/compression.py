@@ -1,0 +1,144 @@
+"""The compression module in the plane around its axis: from the middle of a rotor vane to that of a housing vane.
+
+Along the ring at its mean radius half a rotor vane, a block, its pad and half a housing vane; upwards the floor, a
+running clearance, these, a clearance and the rotor plate. Blocks and pads stand in still air below and above and face
+the chamber within and without. Plate and floor go on beyond the ring as bodies. Everything for one metre of width.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from plane import STEFAN_BOLTZMANN, Body, Border, Material, Plane, Polymer, Pump, drawn, lines
+
+from tvimdesign.device import Table
+
+WANTED = ("pcl_area", "block_width", "pcl_mean_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
+          "peltier_mass", "rotor_radius", "housing_inner_radius", "housing_mass", "slot_width", "slot_height",
+          "sink")  # fmt: skip
+
+PAD_CONDUCTIVITY = 6.0
+"""Of the pads in their plane [W/m K], the default in shear; the compression module's table does not have it."""
+
+
+def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
+    """The ring of a module, from its inputs in SI; `fine` multiplies the count of cells."""
+    v = {**values, **table.evaluate(values, WANTED)}
+    gap, height, pad = v["running_clearance"], v["block_height"], v["peltier_thickness"]
+    vane, block = 0.5 * v["vane_thickness"], 0.5 * v["vane_thickness"] + v["block_depth"]
+    half, end = block + 0.5 * pad, np.pi * v["pcl_mean_radius"] / v["vane_count"]
+    low, high, plate = gap, gap + height, 2.0 * gap + height
+
+    def n(count: int) -> int:
+        return max(2, round(fine * count))
+
+    x = lines((0.0, vane, n(6), 0.85), (vane, block, n(24), 1.0), (block, half, n(2), 1.0),
+              (half, block + pad, n(2), 1.0), (block + pad, end, n(5), 1.3))  # fmt: skip
+    y = lines((-v["floor_thickness"], 0.0, n(7), 0.75), (0.0, low, 2, 1.0), (low, 0.5 * (low + high), n(7), 1.3),
+              (0.5 * (low + high), high, n(7), 1.0 / 1.3), (high, plate, 2, 1.0),
+              (plate, plate + v["rotor_thickness"], n(7), 1.3))  # fmt: skip
+
+    def what(a: float, b: float) -> str:
+        if b < 0.0:
+            return "floor"
+        if b > plate:
+            return "plate"
+        if a < vane:
+            return "vane" if b > low else "air"
+        if a > block + pad:
+            return "wall" if b < high else "air"
+        if b < low or b > high:
+            return "air"
+        return "layer" if a < block else "hot" if a < half else "cold"
+
+    return _with_borders(Plane(
+        x, y, drawn(x, y, what), _materials(v), _polymer(v), _pump(v), False,
+        {frozenset(("hot", "cold")): v["peltier_conductance"] / v["peltier_area"],
+         frozenset(("hot", "layer")): v["hot_contact"], frozenset(("layer", "vane")): v["rotor_contact"]},
+        v["ambient_temperature"] - 273.15,
+    ), v)  # fmt: skip
+
+
+def _materials(v: Mapping[str, Any]) -> dict[str, Material]:
+    capacity = v["structure_density"] * v["structure_specific_heat"]
+    solid = Material(v["structure_conductivity"], v["structure_conductivity"], capacity)
+    whole = 1.0 - v["slot_width"] * v["slot_height"] / (v["block_width"] * v["block_height"])
+    wall = Material(whole * solid.along, whole * solid.up, whole * capacity)
+    pad_heat = v["peltier_mass"] * v["peltier_specific_heat"] / (v["pcl_area"] * v["peltier_thickness"])
+    pad = Material(100.0, PAD_CONDUCTIVITY, pad_heat)
+    shine = v["running_clearance"] * v["surface_emissivity"] / (2.0 - v["surface_emissivity"])
+    air = Material(v["air_conductivity"], v["air_conductivity"], 0.0, shine)
+    return {"floor": solid, "plate": solid, "vane": solid, "wall": wall, "hot": pad, "cold": pad, "air": air}
+
+
+def _polymer(v: Mapping[str, Any]) -> Polymer:
+    melting = v["pcl_melting"]
+    return Polymer(
+        v["pcl_density"], v["pcl_conductivity_solid"], v["pcl_conductivity_melt"], melting.specific_heat_solid,
+        melting.specific_heat_melt, melting.latent_heat, melting.start - 273.15, melting.end - 273.15,
+    )  # fmt: skip
+
+
+def _pump(v: Mapping[str, Any]) -> Pump:
+    whole = v["peltier_area"]
+    return Pump(v["peltier_seebeck"] / whole, v["peltier_resistance"] / whole, v["peltier_conductance"] / whole,
+                v["current"])  # fmt: skip
+
+
+def _with_borders(found: Plane, v: Mapping[str, Any]) -> Plane:
+    """Add the bodies plate and floor go on in, and the faces towards the air."""
+    wide = 2.0 * v["vane_count"] * v["block_width"]
+    ring = wide * found.x[-1]
+    _bodies(found, v, wide, ring)
+    cold = found.cells("cold")
+    last = cold[found.i[cold] == np.max(found.i[cold])]
+    shown = found.dy[last] * v["cold_area"] / v["pcl_area"]
+    if v["sink"] is None:
+        found.borders.append(Border(last, shown, v["cold_side_coefficient"], v["surface_emissivity"]))
+    else:
+        found.borders.append(Border(last, shown, v["sink_contact"], body=3))
+    found.borders.append(Border(*found.facing("plate", "above"), v["rotor_coefficient"], v["surface_emissivity"]))
+    found.borders.append(Border(*found.facing("floor", "below"), v["housing_coefficient"], v["surface_emissivity"]))
+    # Inner and outer sides of what stands in the chamber, which give their heat to the housing around it.
+    sides = v["housing_coefficient"] + 4.0 * STEFAN_BOLTZMANN * v["surface_emissivity"] * v["ambient_temperature"] ** 3
+    for name in ("layer", "hot", "cold", "vane"):
+        own = found.cells(name)
+        found.borders.append(Border(own, 2.0 * found.volume[own] / v["block_width"], sides, body=2))
+    return found
+
+
+def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> None:
+    """Core, rim of the plate, housing, sink; plate and floor conduct to them around the axis."""
+    k, capacity = v["structure_conductivity"], v["structure_density"] * v["structure_specific_heat"]
+    height, depth = v["rotor_thickness"], v["floor_thickness"]
+    inner, outer, rotor = v["pcl_inner_radius"], v["pcl_outer_radius"], v["rotor_radius"]
+    middle, core, around = np.pi * inner**2, v["core_and_link"], v["around_pads"][-1]
+    rim = max(np.pi * rotor**2 - ring - middle, 1e-6)
+    found.bodies.extend([
+        Body((core.capacity + middle * height * capacity) / wide),
+        Body(rim * height * capacity / wide, rim / wide, v["rotor_coefficient"], v["surface_emissivity"]),
+        Body((v["housing_mass"] * v["structure_specific_heat"] - ring * depth * capacity) / wide,
+             max(around.surface.area - ring, 0.0) / wide, v["housing_coefficient"], v["surface_emissivity"]),
+    ])  # fmt: skip
+    if v["sink"] is not None:
+        surface = v["sink"].surface
+        found.bodies.append(
+            Body(v["sink"].capacity / wide, surface.area / wide, surface.coefficient, surface.emissivity)
+        )
+    found.size = found.count + len(found.bodies)
+    # The mean temperature of a fin that heats evenly is a third of its width away.
+    outwards = 2.0 * np.pi * k * height / np.log((outer + max(rotor - outer, 1e-4) / 3.0) / outer)
+    floor = 2.0 * np.pi * k * depth / np.log(max(v["housing_inner_radius"], outer + 1e-4) / outer)
+    for name, conductance, body in (("plate", core.conductance, 0), ("plate", outwards, 1), ("floor", floor, 2)):
+        own = found.cells(name)
+        found.borders.append(Border(own, found.volume[own] / np.sum(found.volume[own]), conductance / wide, body=body))
+
+
+def rows(found: Plane, name: str) -> tuple[Any, Any]:
+    """Cells of a material by row, along the ring, and the rows' shares of its height."""
+    own = found.cells(name)
+    places, first = np.unique(found.j[own], return_index=True)
+    heights = found.dy[own][first]
+    return np.array([own[found.j[own] == j] for j in places]), heights / np.sum(heights)

@@ -1,0 +1,186 @@
+"""The shear module in the plane: along the stack, and from the middle of an arc through its edge to beside it.
+
+A strip of half the width `half_width` (area of the arcs over the length of their edges) with plate and floor beside it,
+as drawn: the pads lie in pockets of the floor, on a ledge around their window; the layer's free side meets the air of
+the gap. Nothing passes the middle of the arc. Everything for one metre of edge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from plane import Array, Body, Border, Material, Plane, Polymer, Pump, drawn, lines
+
+from tvimdesign.device import Table
+
+NARROWEST = 0.3
+"""Least half width of the window, as a share of that of the strip."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a strip is made of and what it meets; SI and degC."""
+
+    half_width: float
+    beside: float
+    layer_depth: float
+    plate_depth: float
+    pad_depth: float
+    floor_depth: float
+    gap: float
+    conductivity_solid: float
+    conductivity_melt: float
+    density: float
+    specific_heat_solid: float
+    specific_heat_melt: float
+    latent_heat: float
+    melting_start: float
+    melting_end: float
+    structure_conductivity: float
+    structure_heat_capacity: float
+    """Per volume."""
+    pad_conductivity: float
+    """In the plane of the pad."""
+    pad_heat_capacity: float
+    """Per area, both sides together [J/m2 K]."""
+    pad_edge_contact: float
+    hot_contact: float
+    rotor_contact: float
+    seebeck: float
+    """Of all pads in series over their whole area [V/K m2], as are the next two."""
+    resistance: float
+    conductance: float
+    window_share: float
+    current: float
+    ambient: float
+    cold_coefficient: float
+    rotor_coefficient: float
+    floor_coefficient: float
+    emissivity: float
+    air_conductivity: float
+    ledge: float
+    """Width on which the pads lie around their window."""
+    core_conductance: float
+    """From the end of the plate's strip to core and link [W/m K]."""
+    core_capacity: float
+    """[J/m K]"""
+    housing_conductance: float
+    housing_capacity: float
+    housing_surface: float
+    """Outside of the housing for a metre of strip [m]."""
+    sink_conductance: float = 0.0
+    """From the cold side, where that has a sink in place of the air [W/m K]; none where it is zero."""
+    sink_capacity: float = 1.0
+    sink_surface: float = 0.0
+    sink_coefficient: float = 0.0
+
+
+def case_of(table: Table, values: Mapping[str, Any]) -> Case:
+    """The strip of a shear module, from its inputs in SI."""
+    v = values
+    wanted = ("pcl_area", "edge_length", "rotor_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
+              "peltier_mass", "pcl_depth", "sink")  # fmt: skip
+    found = table.evaluate(v, wanted)
+    area, edge, melting = found["pcl_area"], found["edge_length"], found["pcl_melting"]
+    core, housing = found["core_and_link"], found["around_pads"][-1]
+    cooled = {}
+    if found["sink"] is not None:
+        cooled = {
+            "sink_conductance": found["sink"].conductance / edge, "sink_capacity": found["sink"].capacity / edge,
+            "sink_surface": found["sink"].surface.area / edge, "sink_coefficient": v["sink_coefficient"],
+        }  # fmt: skip
+    return Case(
+        half_width=area / edge, beside=(np.pi * found["rotor_radius"] ** 2 - area) / edge,
+        layer_depth=found["pcl_depth"], plate_depth=v["rotor_thickness"], pad_depth=v["peltier_thickness"],
+        floor_depth=v["floor_thickness"], gap=v["pcl_thickness"], conductivity_solid=v["pcl_conductivity_solid"],
+        conductivity_melt=v["pcl_conductivity_melt"], density=v["pcl_density"],
+        specific_heat_solid=melting.specific_heat_solid, specific_heat_melt=melting.specific_heat_melt,
+        latent_heat=melting.latent_heat, melting_start=melting.start - 273.15, melting_end=melting.end - 273.15,
+        structure_conductivity=v["structure_conductivity"],
+        structure_heat_capacity=v["structure_density"] * v["structure_specific_heat"],
+        pad_conductivity=v["pad_conductivity"], pad_edge_contact=v["pad_edge_contact"],
+        pad_heat_capacity=found["peltier_mass"] * v["peltier_specific_heat"] / area, hot_contact=v["hot_contact"],
+        rotor_contact=v["rotor_contact"], seebeck=v["peltier_seebeck"] / v["peltier_area"],
+        resistance=v["peltier_resistance"] / v["peltier_area"],
+        conductance=v["peltier_conductance"] / v["peltier_area"], window_share=found["cold_area"] / area,
+        current=v["current"], ambient=v["ambient_temperature"] - 273.15, cold_coefficient=v["cold_side_coefficient"],
+        rotor_coefficient=v["rotor_coefficient"], floor_coefficient=v["housing_coefficient"],
+        emissivity=v["surface_emissivity"], air_conductivity=v["air_conductivity"],
+        ledge=v["window_ledge"], core_conductance=core.conductance / edge,
+        core_capacity=core.capacity / edge, housing_conductance=housing.conductance / edge,
+        housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge, **cooled,
+    )  # fmt: skip
+
+
+def plane(case: Case, fine: float = 1.0) -> Plane:
+    """The strip of a case; `fine` multiplies the count of cells."""
+    c, w = case, case.half_width
+    inside, end, half = max(w - c.ledge, NARROWEST * w), w + c.beside, 0.5 * c.pad_depth
+    top, plate = c.layer_depth, c.layer_depth + c.plate_depth
+
+    def n(count: int) -> int:
+        return max(2, round(fine * count))
+
+    x = lines((0.0, inside, n(6), 0.8), (inside, w, n(8), 0.8), (w, end, n(14), 1.22))
+    y = lines((-c.floor_depth, -c.pad_depth, n(5), 0.85), (-c.pad_depth, -half, n(2), 1.0), (-half, 0.0, n(3), 0.8),
+              (0.0, top, n(20), 1.0), (top, plate, n(10), 1.1))  # fmt: skip
+
+    def what(a: float, b: float) -> str | None:
+        if b > top:
+            return "plate"
+        if a > w:
+            return "air" if b > 0.0 else "floor"
+        if b > 0.0:
+            return "layer"
+        if b < -c.pad_depth:
+            return "ledge" if a > inside else None
+        return "hot" if b > -half else "cold"
+
+    solid = Material(c.structure_conductivity, c.structure_conductivity, c.structure_heat_capacity)
+    pad = Material(c.pad_conductivity, 100.0, c.pad_heat_capacity / c.pad_depth)
+    facing = c.gap * c.emissivity / (2.0 - c.emissivity)
+    air = Material(c.air_conductivity, c.air_conductivity, 0.0, facing)
+    contacts = {
+        frozenset(("hot", "cold")): c.conductance, frozenset(("hot", "layer")): c.hot_contact,
+        frozenset(("layer", "plate")): c.rotor_contact, frozenset(("hot", "floor")): c.pad_edge_contact,
+        frozenset(("cold", "floor")): c.pad_edge_contact,
+    }  # fmt: skip
+    found = Plane(
+        x, y, drawn(x, y, what), {"plate": solid, "floor": solid, "ledge": solid, "hot": pad, "cold": pad, "air": air},
+        Polymer(c.density, c.conductivity_solid, c.conductivity_melt, c.specific_heat_solid, c.specific_heat_melt,
+                c.latent_heat, c.melting_start, c.melting_end),
+        Pump(c.seebeck, c.resistance, c.conductance, c.current), True, contacts, c.ambient,
+        [Body(c.core_capacity), Body(c.housing_capacity, c.housing_surface, c.floor_coefficient, c.emissivity),
+         Body(c.sink_capacity, c.sink_surface, c.sink_coefficient, c.emissivity)],
+    )  # fmt: skip
+    _borders(found, case)
+    return found
+
+
+def _borders(found: Plane, c: Case) -> None:
+    """Faces to the air, to core, housing and sink."""
+    cold, below = found.facing("cold", "below")
+    share = c.window_share * c.half_width / np.sum(below)
+    if c.sink_conductance:
+        found.borders.append(Border(cold, below, c.sink_conductance / np.sum(below), body=2))
+    else:
+        found.borders.append(Border(cold, share * below, c.cold_coefficient, c.emissivity))
+    for name, side, coefficient in (("plate", "above", c.rotor_coefficient), ("floor", "below", c.floor_coefficient),
+                                    ("ledge", "below", c.floor_coefficient)):  # fmt: skip
+        found.borders.append(Border(*found.facing(name, side), coefficient, c.emissivity))
+    ends = (("plate", c.core_conductance / c.plate_depth, 0), ("floor", c.housing_conductance / c.floor_depth, 1))
+    for name, coefficient, body in ends:
+        cells, areas = found.facing(name, "right")
+        at_end = found.i[cells] == len(found.x) - 2
+        found.borders.append(Border(cells[at_end], areas[at_end], coefficient, body=body))
+
+
+def columns(found: Plane, name: str) -> tuple[Array, Array]:
+    """Cells of a material by column, from below, and the columns' shares of its width."""
+    own = found.cells(name)
+    places, first = np.unique(found.i[own], return_index=True)
+    widths = found.dx[own][first]
+    return np.array([own[found.i[own] == i] for i in places]), widths / np.sum(widths)
