@@ -10,7 +10,6 @@ from pydantic import BaseModel
 
 from tvimdesign.device import MODES, Choice, FirstOscillation, Input, Output, Table, table_for
 from tvimdesign.study.sections.accept import rating_names
-from tvimdesign.study.sections.sizes import SIZES_CATEGORY
 from tvimdesign.study.sections.tolerances import STANDARD, tolerance_rows
 from tvimdesign.study.study import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
 
@@ -137,7 +136,7 @@ def _vary(row: Input | Choice) -> _Schema:
     if isinstance(row, Input):
         record = {
             "type": "string",
-            "description": f"a record of the category {SIZES_CATEGORY}, such as music_wire_gauge",
+            "description": f"a record of the category {row.sizes_in[0]} that lists the sizes one can buy",
         }
         forms.append(_shape({"catalog": record, "from": value, "to": value}, ["catalog"]))
     if isinstance(row, Input):

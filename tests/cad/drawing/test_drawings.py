@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import os
 import subprocess
 import sys
 from math import pi
+from typing import Any
 
 import cadquery as cq
 import ezdxf
@@ -21,7 +23,7 @@ from ezdxf.tools.text_size import text_size
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
-from tvimdesign.cad.assembly.bill_of_materials import Item, bill, bill_csv
+from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, bill_csv
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
@@ -181,7 +183,7 @@ def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
     assert (lines["inside diameter"].value, lines["outside diameter"].value) == ("22", "26.82")
     assert (lines["body coils n"].value, lines["free angle"].value) == ("3.25", "90")
     assert lines["wire"].value == "Music wire, ASTM A228"
-    assert lines["hand"].value == "2 right, 2 left"
+    assert lines["quantity for one module"].value == "2 wound right, 2 wound left"
     # DIN 2194, grade 2: 2.4 x 3.25^0.76 x sqrt(10.116) = 18.70 deg; 0.025 x 24.409 x 2.413^-0.17 = 0.525 mm.
     assert lines["free angle"].tolerance == "± 18.7"
     assert lines["mean coil diameter D"].tolerance == "± 0.53"
@@ -215,7 +217,10 @@ def test_the_bill_counts_and_weighs_the_module(module: tuple[Design, Solids]) ->
     rows = list(csv.DictReader(io.StringIO(bill_csv(items).decode("utf-8-sig"))))
     springs = next(row for row in rows if row["part"] == "spring_left")
     assert (springs["made_or_bought"], springs["catalogue_record"]) == ("bought", "music_wire")
-    assert springs["title"] == "Music wire, ASTM A228"
+    assert springs["title"].startswith("Torsion spring of Music wire, ASTM A228: "), springs["title"]
+    assert springs["title"].endswith(", wound left, by the spring's sheet"), springs["title"]
+    for row, unit in (("wire_diameter", 1e3), ("coil_diameter", 1e3), ("coil_count", 1.0)):
+        assert f" {unit * design.values[row]:.4g} " in springs["title"]
     assert sum(float(row["mass_all_g"]) for row in rows) == pytest.approx(1e3 * design.values["module_mass"], rel=1e-3)
 
 
@@ -233,6 +238,54 @@ def test_the_note_takes_every_part_in_order(module: tuple[Design, Solids]) -> No
     steps = note[note.index("## Steps") :]
     first = [steps.index(words) for words in ("Deburr", "Peltier pads", "retainer", "ight-hand springs", "link to")]
     assert first == sorted(first)
+
+
+@pytest.mark.parametrize("changes", [{}, {"cover": "plate", "core_radius": 10.5e-3}, {"preload_adjuster": "rotary"}])
+def test_the_note_says_of_every_screw_its_length_its_key_and_the_torque_of_its_row(changes: dict[str, Any]) -> None:
+    design = design_of("screwed", changes)
+    dims = dimensions(design)
+    kinds = ("link_screw", "retainer_screw", "cover_screw", "adjuster_screw")
+    there = [kind for kind in kinds if kind in drawn_parts(dims)]
+    names = (
+        "housing",
+        "rotor",
+        "link",
+        "retainer",
+        "cover",
+        "adjuster",
+        "pcl_arc",
+        "spring_right",
+        "spring_left",
+        *there,
+    )
+    note = assembly_note(design, dims, [Item(kind, 4, False, "", "", 1.0, ()) for kind in names]).decode()
+    assert len(there) == 2 + len(changes.keys() - {"core_radius"})
+    for kind in there:
+        value = design.values
+        screw = f"M{1e3 * value[f'{kind}_diameter']:.3g} x {1e3 * value[f'{kind}_length']:.3g}"
+        assert screw in note, (kind, note)
+        assert f"key {1e3 * value[f'{kind}_key']:.3g}" in note, kind
+        assert f"{value[f'{kind}_torque']:.2g} N·m" in note, kind
+
+
+def test_an_adjuster_s_spring_has_its_tang_in_the_adjuster_and_not_in_the_floor() -> None:
+    for changes, words in (({}, "holes of the floor"), ({"preload_adjuster": "rotary"}, "adjusters' holes")):
+        design = design_of("adjusted", changes)
+        dims = dimensions(design)
+        kinds = ("housing", "rotor", "pcl_arc", "spring_right", "spring_left", *(["adjuster"] if changes else []))
+        note = assembly_note(design, dims, [Item(kind, 4, False, "", "", 1.0, ()) for kind in kinds]).decode()
+        found = [one for one in ("holes of the floor", "adjusters' holes") if one in note]
+        assert found == [words]
+
+
+def test_a_supply_is_asked_for_by_the_highest_voltage_and_current_of_the_whole_cycle() -> None:
+    design = design_of("fed", {})
+    switch = {"peak_voltage": 3.21, "stiffening_peak_voltage": -4.01, "peak_current": 1.5, "cooling_current": 0.2}
+    fed = design.model_copy(update={"values": design.values | switch | {"stiffening_peak_current": math.nan}})
+    (supply,) = [one for one in beside(fed, {}) if one.kind == "supply"]
+    assert "both ways round" in supply.title
+    assert "at least 4.1 V and 1.5 A" in supply.title
+    assert [one.kind for one in beside(design, {}) if one.kind == "supply"] == []
 
 
 def test_the_note_says_how_parts_are_made_by_the_process() -> None:

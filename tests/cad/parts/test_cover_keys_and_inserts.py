@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import pi
+from math import cos, pi, sin
 
 import cadquery as cq
 import pytest
@@ -66,6 +66,19 @@ def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
     sizes = {check.name: check for check in size_checks(design, solids) if check.name.endswith("_volume")}
     assert set(sizes) == {f"{kind_of(name)}_volume" for name in placed}
     assert max(abs(check.value) for check in sizes.values()) < 1e-9
+
+
+def test_every_hole_that_the_device_lists_is_drawn_where_it_says_and_none_of_size_zero(dims: Dimensions) -> None:
+    numbers = {"count": 3.0, "radius": 0.0, "circle_radius": 30.0, "azimuth": 0.1}
+    listed = {f"cover_hole_circles.2.{name}": value for name, value in numbers.items()}
+    with_none = Dimensions("shear", {**dims.by_name, **listed, "cover_hole_circles.length": 3.0})
+    assert len(with_none.holes("cover_hole_circles")) == 2
+    vents = Dimensions("shear", {**with_none.by_name, "cover_hole_circles.2.radius": 1.0})
+    plain, vented = (drawn_part(one, "cover") for one in (dims, vents))
+    assert plain.Volume() - vented.Volume() == pytest.approx(3 * pi * dims.cover_height, rel=1e-9)
+    first = cq.Vector(30.0 * cos(0.1), 30.0 * sin(0.1), dims.rim_level + 0.5 * dims.cover_height)
+    assert plain.isInside(first)
+    assert not vented.isInside(first)
 
 
 def test_a_cover_that_is_too_tight_or_too_low_is_found(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:

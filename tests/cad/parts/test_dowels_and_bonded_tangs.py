@@ -12,7 +12,7 @@ from cad_designs import MM, broken_rules, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
-from tvimdesign.cad.assembly.bill_of_materials import bill, bill_csv, consumables
+from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.export.print_files import as_printed
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
@@ -112,11 +112,11 @@ def test_bill_and_note_have_the_pins_and_the_adhesive(
     design: Design, dims: Dimensions, placed: dict[str, cq.Solid]
 ) -> None:
     items = bill(design, {"tang_adhesive": "An epoxy"}, placed)
-    extra = consumables(design, {"tang_adhesive": "An epoxy"})
+    extra = beside(design, {"tang_adhesive": "An epoxy"})
     pins = next(one for one in items if one.kind == "link_dowel")
     assert (pins.quantity, pins.made) == (dims.count("dowels_fitted"), False)
-    assert [(one.kind, one.title) for one in extra] == [("tang_adhesive", "An epoxy")]
-    assert extra[0].mass == pytest.approx(1e3 * design.value("tang_adhesive_mass"))
+    assert [(one.kind, one.title) for one in extra[1:]] == [("tang_adhesive", "An epoxy")]
+    assert extra[1].mass == pytest.approx(1e3 * design.value("tang_adhesive_mass"))
     assert b"tang_adhesive" in bill_csv([*items, *extra])
     note = assembly_note(design, dims, items, extra).decode()
     assert "tang adhesive, An epoxy" in note
@@ -129,6 +129,6 @@ def test_screws_alone_and_loose_tangs_have_none_of_it() -> None:
     design = design_of("loose", {"link_fit": "clearance", "tang_hold": "hole"})
     dims = dimensions(design)
     assert "link_dowel" not in drawn_parts(dims)
-    assert consumables(design, {}) == []
+    assert [one.kind for one in beside(design, {})] == ["thermal_grease"]
     assert drawing_requirements("link", dims, design.choices).seats == []
     assert broken_rules(design_of("fitted", {})) == []

@@ -17,11 +17,13 @@ from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
 
+ANGLES = ("rad", "deg")
+TORQUE = "N*m"
 _STEPS = Path(__file__).with_name("assembly_steps.yaml")
 
 
 def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra: Sequence[Item] = ()) -> bytes:
-    """Write the note as Markdown; `extra` is what is used up beside the parts."""
+    """Write the note as Markdown; `extra` is what is bought beside the parts."""
     lines = [
         f"# Putting together: {design.name}",
         "",
@@ -35,12 +37,17 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
         lines.append(f"| {number} | {_words(one.kind)} | {one.quantity} | {of} | {each} |")
     total = sum(one.mass * one.quantity for one in items)
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{file_names.BILL_OF_MATERIALS}`.", ""]
-    lines += [f"Beside them: {_words(one.kind)}, {one.title}, about {one.mass:.2f} g." for one in extra]
+    lines += [f"Beside them: {_words(one.kind)}, {one.title}{_about(one.mass)}." for one in extra]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
     lines += [f"{number}. {text}" for number, text in enumerate(_steps(design, dims, items), start=1)]
     lines += ["", f"![Cut through the axis]({file_names.SECTION})", ""]
     return "\n".join(lines).encode()
+
+
+def _about(mass: float) -> str:
+    """What is used of something, where that is known."""
+    return f", about {mass:.2f} g" if mass else ""
 
 
 def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]:
@@ -54,7 +61,16 @@ def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]
     lines += ["## Printing", "", *(_printing(kind) for kind in kinds if kind not in milled), ""]
     but = ", those of dowel pins not: they are reamed" if dims.dowels_fitted else ""
     wider = f", with upright holes {dims.hole_compensation:g} mm wider{but}" if dims.hole_compensation else ""
-    return [*lines, f"The files in `print/` lie so{wider}.", ""]
+    solid = "Print them solid (infill 100 %): mass, stiffness and strength count the plastic throughout."
+    return [*lines, f"The files in `print/` lie so{wider}. {solid}{_weigh(design, kinds, milled)}", ""]
+
+
+def _weigh(design: Design, kinds: Sequence[str], milled: Sequence[str]) -> str:
+    """By what a print that is not solid is found out."""
+    if "housing" not in kinds or "housing" in milled:
+        return ""
+    mass = 1e3 * design.value("housing_volume") * design.value("structure_density")
+    return f" A housing that weighs less than {0.97 * mass:.3g} g has hollow places."
 
 
 def _printing(kind: str) -> str:
@@ -85,19 +101,23 @@ def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
 
 
 class _Figures(dict[str, Any]):
-    """Rows by name as they are written in a text: lengths in mm, angles in degrees, counts as they are."""
+    """Rows by name as they are written in a text: lengths in mm, angles in degrees, counts as they are, else as rows
+    show them."""
 
     def __init__(self, design: Design, dims: Dimensions, counts: Mapping[str, int]) -> None:
         """`counts` are there beside the rows."""
         super().__init__(counts)
-        self._dims = dims
+        self._design, self._dims = design, dims
         rows: list[Input | Output] = [*table_for(design.mode).inputs, *table_for(design.mode).outputs]
-        self._angles = {row.name for row in rows if row.unit in {"rad", "deg"}}
+        self._units = {row.name: row.unit for row in rows}
 
     def __missing__(self, name: str) -> str:
         """Value of a row."""
+        unit = self._units.get(name)
+        if unit == TORQUE:
+            return f"{self._design.value(name):.2g}"
         value: float = getattr(self._dims, name)
-        return f"{degrees(value) if name in self._angles else value:.3g}"
+        return f"{degrees(value) if unit in ANGLES else value:.3g}"
 
 
 def _words(kind: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -16,6 +17,11 @@ from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.device.fixtures.tang import BONDED
 from tvimdesign.study.design import Design
+
+_PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
+"""Rows of the switch that a supply is bought by: volts, amperes."""
+_ROUNDING = 1e-6
+_HANDS = {"spring_right": "right", "spring_left": "left"}
 
 
 @dataclass(frozen=True)
@@ -44,19 +50,52 @@ def bill(design: Design, titles: Mapping[str, str], placed: Mapping[str, cq.Soli
     for kind, solids in groups.items():
         what = product(design, kind)
         mass = solids[0].Volume() * what.density * 1e-6
-        title = titles.get(KINDS[kind].material, what.material)
+        title = _titled(design, kind, titles.get(KINDS[kind].material, what.material))
         made = PRODUCTION[kind].down != "bought"
         items.append(Item(kind, len(solids), made, what.material, title, mass, _papers(kind)))
     return items
 
 
-def consumables(design: Design, titles: Mapping[str, str]) -> list[Item]:
-    """What is bought and used up, and drawn in no file: the adhesive of the tangs, all of it as one."""
-    if design.choices.get("tang_hold") != BONDED:
+def _titled(design: Design, kind: str, title: str) -> str:
+    """What a part is ordered by: a spring is no piece of wire, so its sizes go with the wire's name."""
+    if kind not in _HANDS:
+        return title
+    wire, coil = 1e3 * design.value("wire_diameter"), 1e3 * design.value("coil_diameter")
+    turns = design.value("coil_count")
+    size = f"wire {wire:.4g} mm, mean coil {coil:.4g} mm, {turns:.4g} coils, wound {_HANDS[kind]}"
+    return f"Torsion spring of {title}: {size}, by the spring's sheet"
+
+
+def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
+    """What is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the pads."""
+    grease = "Thermal grease, a film under each pad, and above it where the PCL is not cast on"
+    items = [Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_supply(design)]
+    if design.choices.get("tang_hold") == BONDED:
+        mass = 1e3 * design.value("tang_adhesive_mass")
+        record = str(design.choices["tang_adhesive"])
+        items.append(Item("tang_adhesive", 1, False, record, titles.get("tang_adhesive", record), mass, ()))
+    return items
+
+
+def _supply(design: Design) -> list[Item]:
+    """Supply and bridge by what the switch asks of them; none where the design was not taken through it."""
+    volts, amperes = (
+        max(
+            (abs(design.values[name]) for name in names if math.isfinite(design.values.get(name, math.nan))),
+            default=0.0,
+        )
+        for names in _PEAKS
+    )
+    if not volts or not amperes:
         return []
-    mass = 1e3 * design.value("tang_adhesive_mass")
-    record = str(design.choices["tang_adhesive"])
-    return [Item("tang_adhesive", 1, False, record, titles.get("tang_adhesive", record), mass, ())]
+    both = " both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else ""
+    asked = f"at least {_up(volts)} V and {_up(amperes)} A over all pads in series"
+    return [Item("supply", 1, False, "", f"DC supply with a controlled current{both}, {asked}", 0.0, ())]
+
+
+def _up(value: float) -> str:
+    """A figure that a rating must reach, to a tenth upwards."""
+    return f"{math.ceil(10.0 * value - _ROUNDING) / 10.0:g}"
 
 
 def _papers(kind: str) -> tuple[str, ...]:

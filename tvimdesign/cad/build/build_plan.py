@@ -14,7 +14,7 @@ from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.assembly import drawn_part, free_spring, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
-from tvimdesign.cad.assembly.bill_of_materials import bill, bill_csv, consumables
+from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import glb_bytes, instances, product
 from tvimdesign.cad.build.worker import Job, Work
@@ -164,7 +164,7 @@ def _spring_sheet(job: Job) -> list[SolidCheck]:
 def _bill_and_note(job: Job) -> list[SolidCheck]:
     """What there is of each part, and how they go together."""
     items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)))
-    extra = consumables(job.design, job.titles)
+    extra = beside(job.design, job.titles)
     _write(job.folder, file_names.BILL_OF_MATERIALS, bill_csv([*items, *extra]))
     _write(job.folder, file_names.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items, extra))
     return []

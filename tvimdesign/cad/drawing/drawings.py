@@ -10,7 +10,7 @@ from tvimdesign import __version__
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.drawing.call_outs import call_out, sized
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, Seat, ThreadCallout
-from tvimdesign.cad.drawing.drawing_sheet import MARGIN, SIZE, TITLE_WIDTH, DrawingSheet, Field, ratio
+from tvimdesign.cad.drawing.drawing_sheet import MARGIN, SIZE, TITLE_WIDTH, DrawingSheet, Field, ratio, to_fill_in
 from tvimdesign.cad.drawing.number_text import figure
 from tvimdesign.cad.drawing.placed_view import PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, section
@@ -24,7 +24,7 @@ _WIDE, _HIGH = 165.0, 256.0
 _MIDDLE = 132.0
 """Where the views' middle is across the sheet [mm]."""
 _FIRST, _NEXT, _GAP, _BOTTOM = 8.0, 6.5, 18.0, 22.0
-_OVER_TITLE = 57.0
+_OVER_TITLE = 65.0
 """Height on the sheet above which there is room beside the plan [mm]."""
 _LINE = 4.6
 """Height of its lines [mm]."""
@@ -167,6 +167,7 @@ def _words(
     sheet.title_block(
         kind.replace("_", " "),
         [
+            to_fill_in("Approved", "Number", "Revision", "Date"),
             [Field("Made by", f"tvimdesign {__version__}", 0.5), Field("Size, projection", "A3, first angle", 0.3),
              Field("Sheet", "1 of 1", 0.2)],
             [Field("General tolerances", asked.tolerances, 0.65), Field("Surface, Ra in µm", asked.surface, 0.35)],

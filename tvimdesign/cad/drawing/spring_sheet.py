@@ -10,9 +10,10 @@ from math import atan2, cos, degrees, radians, sin, tan
 
 from tvimdesign import __version__
 from tvimdesign.base.whole_files import TABLE_ENCODING
-from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio
+from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio, to_fill_in
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
+from tvimdesign.device.fixtures.tang import BONDED
 from tvimdesign.study.design import Design
 
 _N_MM = 1e3
@@ -51,7 +52,8 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
         SpringLine("coils that bend", _figure(design.value("active_coils"), 3), "", "", "with the share of the leg"),
         SpringLine("gap between coils", _figure(coil.pitch - d), "mm", "", "coils must not rub"),
         SpringLine("body length, free", _figure(coil.pitch * coil.turns + d), "mm"),
-        SpringLine("hand", f"{half} right, {half} left", "", "", "right: coils leave the eye clockwise"),
+        SpringLine("quantity for one module", f"{half} wound right, {half} wound left", "", "",
+             "right: coils leave the eye clockwise"),
         SpringLine("leg, tangential", _figure(coil.leg_length / cos(coil.rise)), "mm", "± 0.5", "straight; assumed"),
         SpringLine("tang, parallel to the axis", _figure(coil.tang_length), "mm", "+ 0 / - 0.3", "assumed"),
         SpringLine("bend between coils and tang", _figure(d), "mm", "", "radius at the wire's centre"),
@@ -68,9 +70,17 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
         SpringLine("mandrel, at most", _figure(2.0 * dims.post_radius), "mm", "", "the post the spring stands on"),
         SpringLine("stress at M2, inner fibre", _figure(1e-6 * design.value("spring_stress"), 0), "MPa"),
         SpringLine("tensile strength taken", _figure(1e-6 * design.value("spring_tensile_strength"), 0), "MPa"),
+        SpringLine("heat treatment", "stress relieved after coiling", "", "", "the free angle is that after it"),
+        SpringLine("finish", "bright, oiled", "", "", _finish(design)),
+        SpringLine("to be measured", "free angle, torque at M1 and M2", "", "", "of each, on such a mandrel"),
         SpringLine("wire length", _figure(coil.wire_length, 1), "mm"),
         SpringLine("mass of one", _figure(1e3 * design.value("spring_volume") * design.value("spring_density")), "g"),
     ]  # fmt: skip
+
+
+def _finish(design: Design) -> str:
+    """What the surface is for."""
+    return "tang degreased: it is bonded" if design.choices.get("tang_hold") == BONDED else "no plating on the tang"
 
 
 def _free_angle(coil: Coil) -> float:
@@ -108,6 +118,7 @@ def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) 
     sheet.title_block(
         "torsion spring",
         [
+            to_fill_in("Ordered by", "Number", "Revision", "Date"),
             [Field("Made by", f"tvimdesign {__version__}"), Field("Size, projection", "A3, first angle")],
             [Field("Module", design.name, 0.6), Field("Scale", ratio(scale), 0.4)],
         ],

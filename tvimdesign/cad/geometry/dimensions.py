@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.device import Input, Output, table_for
+from tvimdesign.physics.bodies.shapes import HoleCircle
 from tvimdesign.study.design import Design
 
 _SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
 """From SI to what CAD uses, by the unit a row is written in; rows in other units are no dimensions."""
 
+
+HOLES = "_hole_circles"
+"""End of the name of a row that lists all round holes of a part, to be drawn as they are."""
 
 _MOST = 64
 """Parts of one kind beyond which a design is a mistake."""
@@ -58,6 +62,17 @@ class Dimensions:
         count = self.count(name)
         return [2.0 * math.pi * index / count for index in range(count)]
 
+    def holes(self, name: str) -> list[tuple[float, list[tuple[float, float]]]]:
+        """Round holes that a row of the table lists: of each circle of them that is not empty, radius and places."""
+        found = []
+        for index in range(round(self._values.get(f"{name}.length", 0.0))):
+            count, radius, circle, azimuth = (getattr(self, f"{name}.{index}.{of}") for of in HoleCircle._fields)
+            if count and radius:
+                pitch = 2.0 * math.pi / count
+                places = [azimuth + pitch * each for each in range(round(count))]
+                found.append((radius, [(circle * math.cos(at), circle * math.sin(at)) for at in places]))
+        return found
+
 
 def dimensions(design: Design) -> Dimensions:
     """Convert a design's values to the units of CAD; dimensions that only other rows use are worked out first."""
@@ -66,7 +81,20 @@ def dimensions(design: Design) -> Dimensions:
     units = {row.name: row.unit for row in rows if row.unit in _SCALE}
     values = design.values | table.evaluate(design.values, [row.name for row in table.outputs if _unprinted(row)])
     lengths = {name: value * _SCALE[units[name]] for name, value in values.items() if name in units}
+    for row in table.outputs:
+        if row.name.endswith(HOLES):
+            lengths |= _circles(row.name, table.evaluate(design.values | design.choices, [row.name])[row.name])
     return Dimensions(design.mode, lengths)
+
+
+def _circles(name: str, circles: Iterable[HoleCircle]) -> dict[str, float]:
+    """Numbers of circles of holes as plain dimensions, so that a part is known by those it reads."""
+    numbers: dict[str, float] = {}
+    for index, circle in enumerate(circles):
+        numbers[f"{name}.length"] = index + 1
+        scaled = circle._replace(radius=1e3 * circle.radius, circle_radius=1e3 * circle.circle_radius)
+        numbers |= {f"{name}.{index}.{of}": value for of, value in scaled._asdict().items()}
+    return numbers
 
 
 def _unprinted(row: Output) -> bool:

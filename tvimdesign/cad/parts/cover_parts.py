@@ -8,15 +8,14 @@ import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import cylinder, join, ring
-from tvimdesign.cad.parts.common_parts import between_springs, mounts
+from tvimdesign.cad.parts.common_parts import between_springs
 
 
 def cover(dims: Dimensions) -> cq.Shape:
-    """Ring around the core, with holes for its screws and above those that fix the housing."""
+    """Ring around the core with every hole that the device's `cover_hole_circles` lists."""
     bottom, top = dims.rim_level, dims.rim_level + dims.cover_height
-    screws = [cylinder(0.5 * dims.cover_screw_clearance, bottom, top, at) for at in _axes(dims)]
-    feet = [cylinder(dims.mount_boss_radius, bottom, top, at) for at in mounts(dims)]
-    return ring(dims.cover_hole_radius, dims.housing_outer_radius, bottom, top).cut(*screws, *feet)
+    holes = [cylinder(radius, bottom, top, at) for radius, places in dims.holes("cover_hole_circles") for at in places]
+    return ring(dims.cover_hole_radius, dims.housing_outer_radius, bottom, top).cut(*holes)
 
 
 def cover_screw(dims: Dimensions) -> cq.Shape:

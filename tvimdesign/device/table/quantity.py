@@ -79,10 +79,17 @@ class Input:
     """(choice, field) of the chosen record's value that the quantity is a factor of: its range is the factor's."""
     record: tuple[str, str] | None = None
     """(choice, field): where the default comes from when the study does not set it."""
+    stock: tuple[str, str, str] | None = None
+    """(category, table, column) of the records that list the sizes one can buy; the sizes of wires where not told."""
     mode: str | None = None
     """The one mode that has it, where not all have."""
     requires: tuple[Feature, ...] = ()
     """What a module must have for it to be of any effect."""
+
+    @property
+    def sizes_in(self) -> tuple[str, str, str]:
+        """Category, table and column where a record lists sizes of it."""
+        return self.stock or ("wires", "sizes", self.name)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -71,6 +71,7 @@ class QuantityGroup:
                     range_of=(str(entry["range_of"][0]), str(entry["range_of"][1])) if "range_of" in entry else None,
                     source=_of_record(record) if record else f"{entry['status']}: {entry['source']}",
                     record=record,
+                    stock=_listed_in(*entry["stock"]) if "stock" in entry else None,
                     mode=entry.get("mode"),
                     requires=(Feature(*entry["feature"]),) if "feature" in entry else (),
                 )
@@ -298,6 +299,11 @@ def gather(groups: Iterable[QuantityGroup], mode: str) -> tuple[Quantity, ...]:
 def _of_record(record: tuple[str, str]) -> str:
     """Source of an input whose value a chosen record gives."""
     return f"record: {record[1]} of the chosen {record[0]}"
+
+
+def _listed_in(category: str, table: str, column: str) -> tuple[str, str, str]:
+    """Where a record lists the sizes of an input that one can buy."""
+    return category, table, column
 
 
 def _summary(function: Callable[..., Any]) -> str:

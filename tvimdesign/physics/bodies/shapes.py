@@ -29,6 +29,23 @@ class Section(NamedTuple):
 NOTHING = Section(0.0, 0.0)
 
 
+class HoleCircle(NamedTuple):
+    """Equal round holes, evenly spread on a circle about the axis; a count or a radius of zero means none.
+
+    Radius of a hole and of the circle [m], azimuth of the first hole [rad].
+    """
+
+    count: Any
+    radius: Any
+    circle_radius: Any
+    azimuth: Any
+
+    @property
+    def section(self) -> Section:
+        """What the holes take from a plate."""
+        return disc_at(self.radius, self.circle_radius).times(self.count)
+
+
 def stacked(*prisms: tuple[Section, Any]) -> Section:
     """Volume [m^3] and polar moment of volume about the axis [m^5] of flat shapes, each with its height [m].
 

@@ -97,14 +97,16 @@ def is_constant(limit: Constraint, table: Table, free: Iterable[str]) -> bool:
     return not on_cycle(table, limit.output) and not set(free) & table.ancestors(limit.output)
 
 
-def unchangeable(limit: Constraint, table: Table) -> str:
-    """Say of a limit that is broken and stands on nothing free what could be freed."""
-    above = table.ancestors(limit.output)
-    behind = [row.name for row in table.inputs if row.variable and row.name in above] or ["(nothing can)"]
-    return (
-        f"{in_words(limit, table)} does not hold, and nothing under `vary` can change it; "
-        f"vary one of: {', '.join(behind)}"
-    )
+def unchangeable(limit: Constraint, table: Table, value: float) -> str:
+    """Say of a limit that is broken by a value and stands on nothing free what could be freed."""
+    is_now = format_quantity(value, table.output(limit.output).unit)
+    behind = [row for row in table.inputs if row.name in table.ancestors(limit.output)]
+    variable = [row.name for row in behind if row.variable]
+    ways = f"vary one of: {', '.join(variable)}"
+    if not variable:
+        fixed = [row.name for row in behind if row.record is None][:_INPUTS_NAMED] or ["the records it stands on"]
+        ways = f"change under `module`: {', '.join(fixed)}"
+    return f"{in_words(limit, table)} does not hold (it is {is_now}), and nothing under `vary` can change it; {ways}"
 
 
 def refuse_impossible(study: Study) -> None:

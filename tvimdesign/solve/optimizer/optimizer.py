@@ -131,10 +131,10 @@ class Optimizer:
         constant = self._constant(limits)
         without_switch = dict.fromkeys(self.model.switch_names, np.inf)
         values = self.model.some_values([limit.output for limit in constant], self.model.start, without_switch)
-        for limit in constant:
-            value = values[limit.output]
-            if not limit.residual(value) <= ALGEBRAIC_TOLERANCE:
-                raise InfeasibleError(unchangeable(limit, self.table))
+        broken = [one for one in constant if not one.residual(values[one.output]) <= ALGEBRAIC_TOLERANCE]
+        if broken:
+            told = [unchangeable(limit, self.table, values[limit.output]) for limit in broken]
+            raise InfeasibleError("\n  ".join(told))
         return [limit for limit in limits if limit not in constant]
 
     def _constant(self, limits: list[Constraint]) -> list[Constraint]:

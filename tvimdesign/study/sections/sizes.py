@@ -9,15 +9,12 @@ from tvimdesign.study.study import Options
 from tvimdesign.study.text.values import Reading, below, quantity, record, text
 from tvimdesign.study.text.yaml_text import Node
 
-SIZES_CATEGORY = "wires"
-SIZES_TABLE = "sizes"
-
 
 def read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> Options | None:
     """Return the sizes a catalogue record lists for an input, within `from` and `to` where they are given."""
     node = parts["catalog"]
     ends = {key: quantity(reading.problems, parts[key], f"{path}.{key}", row) for key in ("from", "to") if key in parts}
-    name = text(reading.problems, node, f"{path}.catalog", f"the name of a record in the category {SIZES_CATEGORY}")
+    name = text(reading.problems, node, f"{path}.catalog", f"the name of a record in the category {row.sizes_in[0]}")
     sizes = [] if name is None else _sizes(reading, node, f"{path}.catalog", name, row)
     if not sizes or None in ends.values():
         return None
@@ -38,17 +35,18 @@ def read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input) 
 
 def _sizes(reading: Reading, node: Node, path: str, name: str, row: Input) -> list[float]:
     """Return every size the record lists, smallest first; none (and a problem) where it lists none."""
-    found = record(reading, node, path, SIZES_CATEGORY, name)
+    category, of, column = row.sizes_in
+    found = record(reading, node, path, category, name)
     if found is None:
         return []
     try:
-        table = found.table(SIZES_TABLE)
+        table = found.table(of)
     except CatalogError as error:
         reading.problems.add(node, path, str(error))
         return []
-    sizes = sorted({float(line[row.name]) for line in table if row.name in line})
+    sizes = sorted({float(line[column]) for line in table if column in line})
     if not sizes:
-        columns = ", ".join(sorted({column for line in table for column in line}))
-        message = f"{name} lists no {row.name}, only {columns or 'nothing'}"
+        columns = ", ".join(sorted({listed for line in table for listed in line}))
+        message = f"{name} lists no {column}, only {columns or 'nothing'}"
         reading.problems.add(node, path, message, "a record that lists it")
     return sizes
