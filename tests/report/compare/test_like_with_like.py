@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from comparable import COMPRESSION, SHEAR, entrants, written
+from comparable import COARSE, COMPRESSION, entrants, written
 
 from tvimdesign.report.compare.comparison import Outcome
 from tvimdesign.report.compare.comparison_job import ComparisonJob
@@ -20,7 +20,7 @@ REQUIRED = 'require: {spring_stiffness: ">= 5 N.m/rad", holding_torque: ">= 5 N.
 def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
     """A study with an optimum, and one that only says what a module is."""
     folder = tmp_path_factory.mktemp("unlike")
-    first, second = SHEAR, FIXED + REQUIRED
+    first, second = COARSE, FIXED + REQUIRED
     paths = written(folder, shear=first, compression=second)
     jobs = {name: ComparisonJob(path, 0, [], [], lambda _: None) for name, path in zip(("s", "c"), paths, strict=True)}
     return Outcome(

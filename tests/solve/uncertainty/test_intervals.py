@@ -239,3 +239,9 @@ def test_the_fewest_that_halve_an_interval_leave_a_quarter_of_its_variance() -> 
     assert of(0.75, 0.2) == ("a",)  # half the width is a quarter of the variance
     assert of(0.5, 0.24, 0.02) == ("a", "b", "c")
     assert of(0.5, 0.2) == ()
+
+
+def test_of_sixteen_even_steps_eight_groups_leave_what_is_within_them() -> None:
+    # Variance (16^2 - 1)/12 = 21.25, between groups 21; as many groups of noise would have 7/15 of it.
+    steps = np.arange(16.0)
+    assert share_of_variance(steps, steps) == pytest.approx(1.0 - 0.25 / 21.25 * 15.0 / 8.0, rel=1e-12)
