@@ -47,14 +47,12 @@ def structure_compliances(
     rotor_thickness: Scalar,
     pcl_inner_radius: Scalar,
     pcl_mean_radius: Scalar,
-    peltier_shear_modulus: Scalar,
-    peltier_thickness: Scalar,
-    layer_polar_moment: Scalar,
+    pad_compliance: Scalar,
 ) -> Compliances:
     """What is in series with the layer: core, rotor plate inside the arcs and above them, floor, and pads."""
     above = 1.0 / structure.ring_stiffness(structure_shear_modulus, rotor_thickness, pcl_inner_radius, pcl_mean_radius)
-    pads = peltier_thickness / (peltier_shear_modulus * layer_polar_moment)
-    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, 1.0 / floor_stiffness, pads)
+    below = 1.0 / floor_stiffness
+    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, below, pad_compliance)
 
 
 @quantities.output("N*m/rad")
