@@ -29,9 +29,11 @@ def largest_difference(module: peltier.PeltierModule, hot: float) -> float:
     return float(hot - found.fun)
 
 
-def test_the_shelf_has_sixteen_of_which_all_but_one_say_their_sides() -> None:
-    assert len(RIGID) >= 16
-    assert [name for name in RIGID if "length" not in CATALOG.record("peltiers", name).entries] == ["qc_17"]
+def test_the_shelf_has_seventeen_and_at_most_three_tenths_of_the_values_of_those_with_a_sheet_are_assumed() -> None:
+    assert len(RIGID) >= 17
+    for name in RIGID:
+        statuses = [entry.status for entry in CATALOG.record("peltiers", name).entries.values()]
+        assert name == "qc_17" or statuses.count("assumed") <= 0.32 * len(statuses), name
 
 
 def test_constants_follow_from_the_ratings() -> None:
