@@ -13,7 +13,7 @@ from tvimdesign.device import MODES, Input, Supplied, Table, table_for
 # that heat of a motion is a torque's.
 POWERS = {
     "mm": 1, "mm^2": 2, "mm^3": 3, "cm^3": 3, "m^4": 4, "g": 3, "kg*mm^2": 5, "N*m": 3, "N*m/rad": 3, "N*m*s/rad": 3,
-    "Hz": -1, "N": 2, "W": 3,
+    "Hz": -1, "N": 2, "W": 3, "K*mm^2/W": 1,
 }  # fmt: skip
 # The layer's damping belongs to a fixed frequency, that of the free swing falls as the module grows.
 # Surface tension holds the edge of a thin layer at a larger strain, with the root of its thickness.

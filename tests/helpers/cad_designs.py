@@ -74,6 +74,9 @@ SPRUNG_BEARINGS = BEARINGS | {
     "foot_height": 14.0 * MM,
 }
 SPRUNG_BLOCKS = BLOCKS | {"axial_preload": "wave_17x21"}
+# Two rectangular Peltier modules of 20 by 10 mm below each of three arcs, and a spreader on them.
+TILES = {"peltier_module": "ma10_063_05_1", "tiles_per_arc": 2, "arc_count": 3, "arc_span": 1.7,
+         "floor_thickness": 6.5 * MM}  # fmt: skip
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
@@ -82,7 +85,7 @@ CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "flange": ("shear", FLANGE), "flange among blocks": ("compression", FLANGE_BLOCKS),
     "sprung": ("shear", SPRUNG), "sprung bearings": ("shear", SPRUNG_BEARINGS),
     "sprung blocks": ("compression", SPRUNG_BLOCKS), "driven": ("shear", DRIVEN),
-    "driven blocks": ("compression", DRIVEN_BLOCKS),
+    "driven blocks": ("compression", DRIVEN_BLOCKS), "tiles": ("shear", TILES),
 }  # fmt: skip
 
 

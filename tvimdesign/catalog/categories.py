@@ -49,7 +49,7 @@ class Category:
     The rows of `paired` tables belong together, first to first: there must be as many in each. A table of `instead` may
     stand in place of values or they in its place: each is the sum over the rows of the product of some columns, and
     where a record has both they must agree to `AGREEMENT`. A value of `follows` may be left out where its law has what
-    it needs.
+    it needs. `values_of` are further values that a record needs if it has a word.
     """
 
     values: Mapping[str, str] = field(default_factory=dict)
@@ -60,11 +60,12 @@ class Category:
     may_be_zero: tuple[str, ...] = ()
     instead: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
     follows: Mapping[str, PowerLaw] = field(default_factory=dict)
+    values_of: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
     @property
     def units(self) -> dict[str, str]:
         """A unit of the kind each number needs: what a record must have, and what values of `follows` follow from."""
-        found = dict(self.values)
+        found = {**self.values, **{name: unit for needed in self.values_of.values() for name, unit in needed.items()}}
         for name, law in self.follows.items():
             found |= {law.known_value: self.values[name], law.exponent: "1"}
             found |= dict.fromkeys((law.size, law.known_size), law.size_unit)
@@ -311,6 +312,17 @@ CATEGORIES: Mapping[str, Category] = {
             "max_temperature": "degC",
         },
         words={"form": ("flexible", "rigid")},
+        may_be_zero=("seebeck",),  # a foil heater
+        values_of={"rigid": {"length": "mm", "width": "mm"}},
+    ),
+    "spreaders": Category(
+        values={
+            "density": "kg/m^3",
+            "thermal_conductivity": "W/m/K",
+            "specific_heat": "J/kg/K",
+            "shear_modulus": "GPa",
+            "youngs_modulus": "GPa",
+        },
     ),
     "wires": Category(tables={"sizes": Columns({"wire_diameter": "mm"})}),
 }

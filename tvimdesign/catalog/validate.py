@@ -245,6 +245,9 @@ class _Check:
         for name, law in self.category.follows.items():
             if {*law.names} <= entries.keys():
                 wanted["values"].pop(name, None)
+        words = tree.get("words")
+        for word in words.values() if isinstance(words, dict) else ():
+            wanted["values"] |= self.category.values_of.get(word, {}) if isinstance(word, str) else {}
         for section, names in wanted.items():
             part = tree.get(section)
             present = part if isinstance(part, dict) else {}

@@ -17,7 +17,7 @@ from support import ROOT
 
 sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
 
-from compare import STUDIES, compared, model_of, product_times
+from compare import STUDIES, compared, model_of, product_times, studies
 
 from tvimdesign.study import read_study
 
@@ -46,8 +46,8 @@ def test_the_table_has_the_times_of_today_s_product(name: str) -> None:
 
 
 def test_every_study_was_held_against_the_plane_at_its_start_and_its_optimum() -> None:
-    wanted = {(path.stem, "start") for path in STUDIES.glob("*.yaml")}
-    wanted |= {(path.stem, "optimum") for path in STUDIES.glob("*.yaml") if read_study(path).vary}
+    wanted = {(path.stem, "start") for path in studies()}
+    wanted |= {(path.stem, "optimum") for path in studies() if read_study(path).vary}
     assert {(row["study"], row["design"]) for row in rows()} == wanted
 
 

@@ -47,6 +47,20 @@ def test_disc_off_the_axis_is_its_strips(distance: float) -> None:
     assert shapes.disc_at(radius, distance) == pytest.approx(strips, rel=1e-8)
 
 
+@pytest.mark.parametrize("corner", [0.0, 1.5e-3])
+def test_rectangle_off_the_axis_is_its_strips(corner: float) -> None:
+    radial, along, distance = 10e-3, 20e-3, 33e-3
+
+    def height(x: float) -> float:
+        into_corner = max(corner - min(x - (distance - 0.5 * radial), distance + 0.5 * radial - x), 0.0)
+        return 0.5 * along - corner + np.sqrt(corner**2 - into_corner**2)
+
+    strips = by_strips(height, distance - 0.5 * radial, distance + 0.5 * radial)
+    found = shapes.rectangle_at(radial, along, distance, corner)
+    assert found.area == pytest.approx(strips.area, rel=1e-7)
+    assert found.polar == pytest.approx(strips.polar, rel=1e-3 if corner else 1e-8)  # fillets count at the corners
+
+
 @pytest.mark.parametrize(("half_width", "length"), [(12e-3, 62.6e-3), (5e-3, 3e-3)])
 def test_slot_is_its_strips(half_width: float, length: float) -> None:
     near = by_strips(lambda x: np.sqrt(max(half_width**2 - x**2, 0.0)), -half_width, 0.0)

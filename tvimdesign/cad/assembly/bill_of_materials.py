@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import cadquery as cq
 
+from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.product_data import product
@@ -21,6 +22,12 @@ from tvimdesign.study.design import Design
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
 """Rows of the switch that a supply is bought by: volts, amperes."""
 _ROUNDING = 1e-6
+_WIRED = {
+    "series": "all pads in series",
+    "arcs_parallel": "arcs in parallel, the pads of each in series",
+    "all_parallel": "all pads in parallel",
+}
+"""By the word of `heater_wiring`."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
 
 
@@ -69,12 +76,25 @@ def _titled(design: Design, kind: str, title: str) -> str:
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """What is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the pads."""
     grease = "Thermal grease, a film under each pad, and above it where the PCL is not cast on"
-    items = [Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_supply(design)]
+    items = [Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_with_spreaders(design), *_supply(design)]
     if design.choices.get("tang_hold") == BONDED:
         mass = 1e3 * design.value("tang_adhesive_mass")
         record = str(design.choices["tang_adhesive"])
         items.append(Item("tang_adhesive", 1, False, record, titles.get("tang_adhesive", record), mass, ()))
     return items
+
+
+def _with_spreaders(design: Design) -> list[Item]:
+    """What rigid Peltier modules below spreaders take beside: adhesive, and a thermistor on each spreader."""
+    if design.choices.get("heater_form", "flexible") == "flexible":
+        return []
+    hole = f"{1e3 * design.value('lead_hole_diameter'):.3g} mm"
+    hottest = f"{_up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
+    return [
+        Item("heat_conducting_adhesive", 1, False, "", f"Adhesive of modules and spreaders, for {hottest}", 0.0, ()),
+        Item("thermistor", round(design.value("arc_count")), False, "",
+             f"Thermistor, for {hottest}, with wires through a hole of {hole}", 0.0, ()),
+    ]  # fmt: skip
 
 
 def _supply(design: Design) -> list[Item]:
@@ -89,7 +109,8 @@ def _supply(design: Design) -> list[Item]:
     if not volts or not amperes:
         return []
     both = " both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else ""
-    asked = f"at least {_up(volts)} V and {_up(amperes)} A over all pads in series"
+    wired = _WIRED[design.choices.get("heater_wiring", "series")]
+    asked = f"at least {_up(volts)} V and {_up(amperes)} A over {wired}"
     return [Item("supply", 1, False, "", f"DC supply with a controlled current{both}, {asked}", 0.0, ())]
 
 

@@ -18,6 +18,7 @@ from tvimdesign.cad.parts import (
     motor_parts,
     purchased_parts,
     shear_parts,
+    tile_parts,
 )
 
 
@@ -37,6 +38,7 @@ class ModuleParts:
         adjusters = {"adjuster": adjuster_parts.adjuster, "adjuster_screw": adjuster_parts.adjuster_screw}
         return {
             **self.made,
+            **(tile_parts.DRAWN if dims.spreader_depth else {}),
             **purchased_parts.drawn(dims),
             **(adjusters if dims.adjuster_radius else {}),
             **(cover_parts.DRAWN if dims.cover_height else {}),

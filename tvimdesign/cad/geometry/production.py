@@ -33,7 +33,10 @@ PRODUCTION = {
     "retainer": Production(down="bottom", drawn=True, why="flat: no support"),
     "pcl_arc": Production(down="bottom", why="flat, keys upwards; print it of PCL, or without keys cut it from sheet"),
     "pcl_block": Production(down="bottom", why="flat; print it of PCL, or cut it from sheet"),
-    "peltier_pad": Production(down="bought", why="a Peltier module of the catalogue, cut or chosen to this size"),
+    "peltier_pad": Production(
+        down="bought", why="a Peltier module of the catalogue, cut to this outline or of this size as it is sold",
+    ),
+    "spreader": Production(down="bought", why="cut from sheet of its material to the outline in its STEP file"),
     "adjuster": Production(
         down="bottom", drawn=True, why="flange on the bed: post and slot grow upwards, the screw's hole stands upright",
     ),

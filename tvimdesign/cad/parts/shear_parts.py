@@ -9,26 +9,38 @@ import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import cylinder, join, polar, ring, rounded, sector, turned
+from tvimdesign.cad.parts import tile_parts
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "pcl_arc", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw",
+    "housing", "peltier_pad", "spreader", "pcl_arc", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw",
     "adjuster_insert", "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 
 
 def housing(dims: Dimensions) -> cq.Shape:
     """Housing with pockets for the pads and windows below them."""
+    through = tile_parts.openings(dims) if dims.spreader_depth else [_window(dims)]
+    openings = [turned(shape, azimuth) for azimuth in _azimuths(dims) for shape in (_pocket(dims), *through)]
+    return bare_housing(dims, (), openings)
+
+
+def _pocket(dims: Dimensions) -> cq.Solid:
+    """The pocket under an arc, for a pad of its outline or for tiles and a spreader, centred on the x axis."""
+    sharp = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.pad_depth, 0)
+    return rounded(sharp, dims.corner_radius)
+
+
+def _window(dims: Dimensions) -> cq.Solid:
+    """The window below a pad of an arc's outline, centred on the x axis."""
     sharp = sector(
         dims.pcl_inner_radius + dims.window_ledge,
         dims.pcl_outer_radius - dims.window_ledge,
         dims.arc_span - 2.0 * dims.window_ledge / dims.pcl_inner_radius,
         -dims.floor_thickness,
-        -dims.peltier_thickness,
+        -dims.pad_depth,
     )
-    pocket, window = peltier_pad(dims), rounded(sharp, dims.corner_radius)
-    openings = [turned(shape, azimuth) for azimuth in _azimuths(dims) for shape in (pocket, window)]
-    return bare_housing(dims, (), openings)
+    return rounded(sharp, dims.corner_radius)
 
 
 def rotor(dims: Dimensions) -> cq.Shape:
@@ -65,9 +77,8 @@ def _keys(dims: Dimensions) -> list[cq.Shape]:
 
 
 def peltier_pad(dims: Dimensions) -> cq.Shape:
-    """One Peltier pad in its pocket under an arc, centred on the x axis."""
-    sharp = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.peltier_thickness, 0)
-    return rounded(sharp, dims.corner_radius)
+    """One Peltier module under an arc: a pad that fills its pocket, or a tile, on the x axis."""
+    return tile_parts.tile(dims) if dims.spreader_depth else _pocket(dims)
 
 
 DRAWN = {
@@ -81,16 +92,20 @@ DRAWN = {
 
 
 def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
-    """Place pads and arcs, the keys of these with the rotor at an angle [rad], by name.
+    """Place Peltier modules, spreaders and arcs, the keys of these with the rotor at an angle [rad], by name.
 
     The arcs are drawn unsheared: the floor holds their lower face, the keys go with the rotor.
     """
     keyed = rotor_angle != 0.0 and dims.key_count > 0.0
-    shapes = {"peltier_pad": drawn["peltier_pad"], "pcl_arc": pcl_arc(dims, rotor_angle) if keyed else drawn["pcl_arc"]}
+    arc = pcl_arc(dims, rotor_angle) if keyed else drawn["pcl_arc"]
+    beside = tile_parts.azimuths(dims) if dims.spreader_depth else [0.0]
+    pads = [azimuth + of_tile for azimuth in _azimuths(dims) for of_tile in beside]
+    places = {"peltier_pad": pads, "pcl_arc": _azimuths(dims), "spreader": _azimuths(dims)}
+    shapes = {kind: drawn[kind] for kind in places if kind in drawn} | {"pcl_arc": arc}
     return {
         f"{kind}_{index + 1}": turned(shape, azimuth)
         for kind, shape in shapes.items()
-        for index, azimuth in enumerate(_azimuths(dims))
+        for index, azimuth in enumerate(places[kind])
     }
 
 

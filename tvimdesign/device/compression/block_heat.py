@@ -26,6 +26,30 @@ def cold_area(vane_count: Scalar, slot_width: Scalar, slot_height: Scalar) -> Sc
     return 2.0 * vane_count * slot_width * slot_height
 
 
+@quantities.output("mm^2")
+def heated_area(pcl_area: Scalar) -> Scalar:
+    """Area of all Peltier modules towards the layer."""
+    return pcl_area
+
+
+@quantities.output("1")
+def heater_strings() -> Scalar:
+    """Strings of Peltier modules in parallel, which share the current."""
+    return 1.0
+
+
+@quantities.helper()
+def pad_contact(hot_contact: Scalar) -> Scalar:
+    """Conductance from the pads' hot side to the blocks [W/m^2 K]: that of their contact."""
+    return hot_contact
+
+
+@quantities.helper()
+def spreader_capacity() -> Scalar:
+    """Heat capacity of spreaders [J/K]: none, the blocks lie on their pads."""
+    return 0.0
+
+
 @quantities.helper(instant=True)
 def moment_now(
     slice_moduli: tuple[Scalar, Scalar],

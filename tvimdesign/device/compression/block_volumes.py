@@ -34,6 +34,12 @@ def peltier_volume(pcl_area: Scalar, peltier_thickness: Scalar) -> Scalar:
     return pcl_area * peltier_thickness
 
 
+@quantities.output("g")
+def spreader_mass() -> Scalar:
+    """Mass of all spreaders together; zero without."""
+    return 0.0
+
+
 @quantities.helper()
 def slot_section(
     vane_count: Scalar,

@@ -11,6 +11,12 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 quantities = QuantityGroup(shared.group)
 
 
+@quantities.output("mm")
+def spreader_depth() -> Scalar:
+    """Depth the spreader takes of the pocket below the PCL; zero without one."""
+    return 0.0
+
+
 @quantities.output("mm", hidden=True)
 def rotor_bottom_level(block_height: Scalar, running_clearance: Scalar) -> Scalar:
     """Lower face of the rotor plate: a running clearance below and above the blocks."""

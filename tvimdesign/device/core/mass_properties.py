@@ -253,6 +253,7 @@ def module_mass(
     springs_mass: Scalar,
     pcl_mass: Scalar,
     peltier_mass: Scalar,
+    spreader_mass: Scalar,
     screws_mass: Scalar,
     bearings_mass: Scalar,
     adjusters_mass: Scalar,
@@ -265,7 +266,7 @@ def module_mass(
     """Mass of the module with its motor, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + cover_mass + pcl_mass
     fasteners = screws_mass + inserts_mass + dowels_mass
-    bought = springs_mass + peltier_mass + fasteners + bearings_mass + preload_spring_mass
+    bought = springs_mass + peltier_mass + spreader_mass + fasteners + bearings_mass + preload_spring_mass
     return made + bought + adjusters_mass + drive_mass
 
 

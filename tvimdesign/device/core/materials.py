@@ -21,6 +21,7 @@ quantities.record(
     "flexible_1600",
     "Peltier module under the layer",
     only=("form", "flexible", "the pads have the outline of the PCL, which a rigid module cannot be cut to"),
+    unless="heater_form",
 )
 
 for name, unit, field, description in (

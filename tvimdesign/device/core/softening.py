@@ -142,7 +142,7 @@ def peak_power(electrical_power: Scalar) -> Scalar:
 
 @quantities.path(SOFTENING, "V", "maximum")
 def peak_voltage(supply_voltage: Scalar) -> Scalar:
-    """Highest voltage over all pads in series during the switch."""
+    """Highest voltage over all pads, as they are wired, during the switch."""
     return supply_voltage
 
 
@@ -153,9 +153,9 @@ def peak_current(drive_current: Scalar) -> Scalar:
 
 
 @quantities.output("A", ratings=(Rule(sense=">=", value=0.0, reason="above the Peltier module's rated current"),))
-def current_margin(peltier_max_current: Scalar, peak_current: Scalar) -> Scalar:
-    """Rated current of the Peltier module less the highest current of the switch."""
-    return peltier_max_current - peak_current
+def current_margin(peltier_max_current: Scalar, heater_strings: Scalar, peak_current: Scalar) -> Scalar:
+    """Rated current of the Peltier module less the highest one of them takes in the switch."""
+    return peltier_max_current - peak_current / heater_strings
 
 
 @quantities.path(SOFTENING, "degC", "maximum")

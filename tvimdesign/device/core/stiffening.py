@@ -127,7 +127,7 @@ def stiffening_peak_power(electrical_power: Scalar) -> Scalar:
 
 @quantities.path(STIFFENING, "V", "maximum")
 def stiffening_peak_voltage(supply_voltage: Scalar) -> Scalar:
-    """Highest voltage over all pads in series while the joint stiffens."""
+    """Highest voltage over all pads, as they are wired, while the joint stiffens."""
     return supply_voltage
 
 
@@ -146,9 +146,11 @@ def stiffening_peak_current(drive_current: Scalar) -> Scalar:
 @quantities.output(
     "A", ratings=(Rule(sense=">=", value=0.0, reason="cooling is above the Peltier module's rated current"),)
 )
-def cooling_current_margin(peltier_max_current: Scalar, stiffening_peak_current: Scalar) -> Scalar:
-    """Rated current of the Peltier module less the highest current while the joint stiffens."""
-    return peltier_max_current - stiffening_peak_current
+def cooling_current_margin(
+    peltier_max_current: Scalar, heater_strings: Scalar, stiffening_peak_current: Scalar
+) -> Scalar:
+    """Rated current of the Peltier module less the highest one of them takes while the joint stiffens."""
+    return peltier_max_current - stiffening_peak_current / heater_strings
 
 
 @quantities.output(

@@ -3,7 +3,9 @@
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`; what takes heat
 from the edges of pads and layer (`around_pads`, `free_sides`, `upper_sides`), and where that faces the rotor
-(`air_gaps`); and by `moment_now` what a partly molten layer is to the joint.
+(`air_gaps`); what of the layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from
+them to the layer (`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `moment_now` what a
+partly molten layer is to the joint.
 """
 
 from __future__ import annotations
@@ -35,19 +37,22 @@ quantities.option(
 
 
 @quantities.output("1")
-def peltier_scale(pcl_area: Scalar, peltier_area: Scalar) -> Scalar:
-    """Area of the pads over the area of the catalogue module they are cut from."""
-    return pcl_area / peltier_area
+def peltier_scale(heated_area: Scalar, peltier_area: Scalar) -> Scalar:
+    """Area of the pads over the area of the catalogue module they are cut from, or the count of modules."""
+    return heated_area / peltier_area
 
 
 @quantities.helper()
 def pads(
-    peltier_scale: Scalar, peltier_seebeck: Scalar, peltier_resistance: Scalar, peltier_conductance: Scalar
+    peltier_scale: Scalar,
+    heater_strings: Scalar,
+    peltier_seebeck: Scalar,
+    peltier_resistance: Scalar,
+    peltier_conductance: Scalar,
 ) -> peltier.PeltierModule:
-    """All pads in series; Seebeck coefficient, resistance and conductance grow with the count of couples."""
-    return peltier.PeltierModule(
-        peltier_scale * peltier_seebeck, peltier_scale * peltier_resistance, peltier_scale * peltier_conductance
-    )
+    """All pads as one module: S, R and K grow with the count of couples, strings in parallel share the current."""
+    one = peltier.PeltierModule(peltier_seebeck, peltier_resistance, peltier_conductance)
+    return peltier.wired(one, peltier_scale, heater_strings)
 
 
 @quantities.helper()
@@ -101,7 +106,8 @@ def stack(
     cold_side_coefficient: Scalar,
     surface_emissivity: Scalar,
     cold_area: Scalar,
-    hot_contact: Scalar,
+    pad_contact: Scalar,
+    spreader_capacity: Scalar,
     rotor_contact: Scalar,
     plate_depth: Scalar,
     plate_outside: lumps.Surface,
@@ -129,10 +135,10 @@ def stack(
         melting=pcl_melting,
         peltier=pads,
         cold_capacity=half,
-        hot_capacity=half,
+        hot_capacity=half + spreader_capacity,
         # The pads' cold sides meet the air in the windows; the ledges are plastic.
         cold_surface=lumps.Surface(cold_area, cold_side_coefficient, surface_emissivity),
-        hot_contact=hot_contact,
+        hot_contact=pad_contact,
         plate_contact=rotor_contact,
         plate_thickness=plate_depth,
         plate_conductivity=structure_conductivity,
@@ -184,7 +190,7 @@ def electrical_power(terminal_power: Scalar) -> Scalar:
 
 @quantities.output("V", instant=True)
 def supply_voltage(stack_profile: heat.Profile, pads: peltier.PeltierModule, drive_current: Scalar) -> Scalar:
-    """Voltage over all pads in series, in size."""
+    """Voltage over all pads as they are wired, in size."""
     return np.fabs(peltier.voltage(pads, drive_current, stack_profile.hot, stack_profile.cold))
 
 

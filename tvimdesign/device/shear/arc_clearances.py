@@ -6,6 +6,7 @@ import numpy as np
 
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.clearances import quantities as shared
+from tvimdesign.device.shear.tiles import CUT
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
@@ -34,15 +35,15 @@ def arc_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
 
 
 @quantities.output("mm", at_least(0.0, "a Peltier pad needs a window behind its ledges for its cold side", 0.0))
-def window_depth(arc_width: Scalar, window_ledge: Scalar) -> Scalar:
-    """Radial width of the windows below the Peltier pads."""
-    return arc_width - 2.0 * window_ledge
+def window_depth(heater_form: str, peltier_width: Scalar, arc_width: Scalar, window_ledge: Scalar) -> Scalar:
+    """Radial width of the windows below the Peltier modules."""
+    return (arc_width if heater_form == CUT else peltier_width) - 2.0 * window_ledge
 
 
 @quantities.output("mm", at_least(0.0, "there must be a floor below a Peltier pad", 0.0))
-def floor_web(floor_thickness: Scalar, peltier_thickness: Scalar) -> Scalar:
+def floor_web(floor_thickness: Scalar, pad_depth: Scalar) -> Scalar:
     """Thickness of the floor below the Peltier pads."""
-    return floor_thickness - peltier_thickness
+    return floor_thickness - pad_depth
 
 
 @quantities.output("mm", at_least(0.0, "the floor below a Peltier pad is thinner than the process can make it"))
@@ -67,9 +68,11 @@ quantities.after("retainer_gap")
 
 
 @quantities.output("mm", at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))
-def window_width(arc_span: Scalar, pcl_inner_radius: Scalar, window_ledge: Scalar) -> Scalar:
-    """Width of the windows below the Peltier pads at their inner radius."""
-    return arc_span * pcl_inner_radius - 2.0 * window_ledge
+def window_width(
+    heater_form: str, peltier_length: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, window_ledge: Scalar
+) -> Scalar:
+    """Width of the windows below the Peltier modules, along the arc: of an arc's at its inner radius."""
+    return (arc_span * pcl_inner_radius if heater_form == CUT else peltier_length) - 2.0 * window_ledge
 
 
 quantities.after("mount_wall_gap")
@@ -87,9 +90,9 @@ _CORNER = "the cutter cannot reach into its corners so deep: choose a larger cor
 
 
 @quantities.output("mm", at_least(0.0, f"a pad's pocket is too deep, {_CORNER}"))
-def pad_pocket_margin(corner_radius: Scalar, corner_depth_ratio: Scalar, peltier_thickness: Scalar) -> Scalar:
+def pad_pocket_margin(corner_radius: Scalar, corner_depth_ratio: Scalar, pad_depth: Scalar) -> Scalar:
     """Depth the corners of the pads' pockets may have beyond the one they have."""
-    return corner_depth_ratio * corner_radius - peltier_thickness
+    return corner_depth_ratio * corner_radius - pad_depth
 
 
 @quantities.output("mm", at_least(0.0, f"the floor below a pad is too thick, {_CORNER}"))

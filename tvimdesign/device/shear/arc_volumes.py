@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from tvimdesign.device.core.mass_properties import quantities as shared
+from tvimdesign.device.shear.tiles import CUT
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, corners, sector, stacked
+from tvimdesign.physics.bodies.shapes import Section, corners, rectangle_at, sector, stacked
 
 quantities = QuantityGroup(shared.group)
 
@@ -44,13 +45,18 @@ def pad_section(
 
 
 @quantities.output("mm^3")
-def peltier_volume(pad_section: Section, peltier_thickness: Scalar) -> Scalar:
-    """Volume of all Peltier pads together: the outline of the PCL, its corners as round as those of the pockets."""
-    return pad_section.area * peltier_thickness
+def peltier_volume(heater_form: str, pad_section: Section, tile_section: Section, peltier_thickness: Scalar) -> Scalar:
+    """Volume of all Peltier modules together: cut to the pockets' outline, or rectangular tiles."""
+    return (pad_section if heater_form == CUT else tile_section).area * peltier_thickness
 
 
 @quantities.helper()
 def window_section(
+    heater_form: str,
+    heater_count: Scalar,
+    peltier_length: Scalar,
+    peltier_width: Scalar,
+    tile_radius: Scalar,
     arc_count: Scalar,
     arc_span: Scalar,
     pcl_inner_radius: Scalar,
@@ -58,7 +64,10 @@ def window_section(
     window_ledge: Scalar,
     corner_radius: Scalar,
 ) -> Section:
-    """Plan view of the windows below the Peltier pads: the arcs, smaller by the ledge on every side, and rounded."""
+    """Plan view of the windows below the Peltier modules: arcs or tiles, less a ledge on every side, rounded."""
+    if heater_form != CUT:
+        sides = (peltier_width - 2.0 * window_ledge, peltier_length - 2.0 * window_ledge)
+        return rectangle_at(*sides, tile_radius, corner_radius).times(heater_count)
     span = arc_span - 2.0 * window_ledge / pcl_inner_radius
     inner, outer = pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge
     return _rounded_sector(span, inner, outer, corner_radius).times(arc_count)
@@ -66,10 +75,10 @@ def window_section(
 
 @quantities.helper()
 def floor_openings(
-    pad_section: Section, peltier_thickness: Scalar, window_section: Section, floor_web: Scalar
+    pad_section: Section, pad_depth: Scalar, window_section: Section, lead_hole_section: Section, floor_web: Scalar
 ) -> Section:
-    """What the floor has not got, volume and its polar moment: pockets of the pads, and the windows below them."""
-    return stacked((pad_section, peltier_thickness), (window_section, floor_web))
+    """What the floor has not got, volume and its polar moment: pockets, windows below them, holes for leads."""
+    return stacked((pad_section, pad_depth), (window_section, floor_web), (lead_hole_section, floor_web))
 
 
 @quantities.output("mm^3")

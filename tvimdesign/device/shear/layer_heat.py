@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.thermal_stack import quantities as shared
+from tvimdesign.device.shear.tiles import CUT
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
@@ -110,9 +111,23 @@ def floor_beside(
 
 @quantities.helper()
 def pad_edge(
-    pad_edge_contact: Scalar, pad_conductivity: Scalar, peltier_thickness: Scalar, edge_length: Scalar, to_edge: Scalar
+    heater_form: str,
+    pad_edge_contact: Scalar,
+    pad_conductivity: Scalar,
+    peltier_thickness: Scalar,
+    spreader_conductivity: Scalar,
+    spreader_depth: Scalar,
+    edge_length: Scalar,
+    to_edge: Scalar,
 ) -> Scalar:
-    """Conductance from one side of the pads to the walls of their pockets [W/K]: along the pads, and into the wall."""
+    """Conductance from one side of the pads to the walls of their pockets [W/K]: along the pads, and into the wall.
+
+    Tiles stand in air there; the spreader on them touches the wall, and their cold sides are taken to give the ledges
+    below them as much.
+    """
+    if heater_form != CUT:
+        along = spreader_conductivity * spreader_depth * to_edge
+        return lumps.in_series(along, pad_edge_contact * spreader_depth * edge_length)
     half = 0.5 * peltier_thickness
     return lumps.in_series(pad_conductivity * half * to_edge, pad_edge_contact * half * edge_length)
 

@@ -9,6 +9,7 @@ from tvimdesign.device.core.joint_impedance import quantities as shared
 from tvimdesign.device.core.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.fixtures.dowels import LINK_PARTS
+from tvimdesign.device.shear.tiles import CUT
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
@@ -46,6 +47,7 @@ def frozen_shear_modulus(pcl_flexural_modulus: Scalar, pcl_poissons_ratio: Scala
 
 @quantities.helper()
 def held_polar_moment(
+    heater_form: str,
     layer_polar_moment: Scalar,
     window_section: Section,
     frozen_shear_modulus: Scalar,
@@ -57,7 +59,10 @@ def held_polar_moment(
     """Polar moment of the frozen layer [m^4] less what it does not bear above the windows, which do not hold the pads.
 
     Under the layer a pad gives over a third of its own thickness, as a sheet that is sheared along its upper face.
+    A spreader bridges the windows, so it holds all of the layer.
     """
+    if heater_form != CUT:
+        return layer_polar_moment
     per_area = 1.0 / (pcl_thickness / frozen_shear_modulus + peltier_thickness / (3.0 * peltier_shear_modulus))
     sheet = 1.0 / (peltier_shear_modulus * peltier_thickness)
     borne = shear_lag.borne_over_window(per_area, sheet, 0.5 * window_depth)
@@ -79,17 +84,15 @@ def structure_compliances(
     rotor_thickness: Scalar,
     pcl_inner_radius: Scalar,
     pcl_mean_radius: Scalar,
-    peltier_shear_modulus: Scalar,
-    peltier_thickness: Scalar,
-    held_polar_moment: Scalar,
     driven_share: Scalar,
+    pad_compliance: Scalar,
 ) -> Compliances:
     """What is in series with the layer: core, rotor plate inside the arcs and above them, floor, and pads."""
     above = 1.0 / structure.covered_ring_stiffness(
         structure_shear_modulus, rotor_thickness, pcl_inner_radius, pcl_mean_radius, driven_share
     )
-    pads = peltier_thickness / (peltier_shear_modulus * held_polar_moment)
-    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, 1.0 / floor_stiffness, pads)
+    below = 1.0 / floor_stiffness
+    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, below, pad_compliance)
 
 
 @quantities.output("N*m/rad")

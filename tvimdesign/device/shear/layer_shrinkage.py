@@ -34,16 +34,15 @@ def layer_foundation(
     pcl_flexural_modulus: Scalar,
     pcl_poissons_ratio: Scalar,
     pcl_thickness: Scalar,
-    peltier_shear_modulus: Scalar,
-    peltier_thickness: Scalar,
+    pad_foundation: Scalar,
     structure_youngs_modulus: Scalar,
     rotor_thickness: Scalar,
     floor_thickness: Scalar,
 ) -> Scalar:
-    """Tension of the frozen layer over how far the middles of plate and floor part [Pa/m]; a pad has E = 3 G."""
+    """Tension of the frozen layer over how far the middles of plate and floor part [Pa/m]."""
     layer = shrinkage.confined_modulus(pcl_flexural_modulus, pcl_poissons_ratio) / pcl_thickness
     halves = 2.0 * structure_youngs_modulus / (rotor_thickness + floor_thickness)
-    return structure.series(layer, 3.0 * peltier_shear_modulus / peltier_thickness, halves)
+    return structure.series(layer, pad_foundation, halves)
 
 
 @quantities.helper()

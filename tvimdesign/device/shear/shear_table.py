@@ -13,11 +13,13 @@ from tvimdesign.device.shear import (
     melt_lip,
     melt_retention,
     rotor_level,
+    tile_heat,
+    tiles,
 )
 from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (rotor_level, layer_impedance, layer_heat, arc_volumes, arc_clearances, melt_retention)
-GROUPS = (*keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
+ROOMS = (rotor_level, layer_impedance, layer_heat, arc_volumes, arc_clearances, melt_retention, tile_heat)
+GROUPS = (*tiles.groups, *keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)

@@ -78,12 +78,21 @@ class QuantityGroup:
             )
 
     def property(
-        self, name: str, unit: str, record: tuple[str, str], description: str, mode: str | None = None
+        self,
+        name: str,
+        unit: str,
+        record: tuple[str, str],
+        description: str,
+        mode: str | None = None,
+        default: float | None = None,
     ) -> None:
-        """Add a number that comes from a chosen record, (choice, field), unless the study sets it."""
+        """Add a number that comes from a chosen record, (choice, field), unless the study sets it.
+
+        `default` (SI) is for records that lack it; without one they are refused.
+        """
         quantity = Input(
             name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record,
-            source=_of_record(record), mode=mode,
+            source=_of_record(record), mode=mode, default=default,
         )  # fmt: skip
         self.quantities.append(quantity)
 
@@ -94,10 +103,12 @@ class QuantityGroup:
         default: str | tuple[str, str],
         description: str,
         only: tuple[str, str, str] | None = None,
+        unless: str = "",
         others: tuple[str, ...] = (),
         requires: tuple[Feature, ...] = (),
     ) -> None:
-        """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit.
+        """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit,
+        in modes that do not have the choice `unless`.
 
         `default` is the name of one, or (choice, word) of the chosen record that names it. `others` are words that may
         stand for no record at all.
@@ -111,6 +122,7 @@ class QuantityGroup:
             record=record,
             category=category,
             only=only,
+            unless=unless,
             options=others,
             requires=requires,
         )

@@ -73,6 +73,17 @@ def disc_at(radius: Any, distance: Any) -> Section:
     return Section(area, area * (0.5 * radius**2 + distance**2))
 
 
+def rectangle_at(radial: Any, along: Any, distance: Any, corner: Any = 0.0) -> Section:
+    """Rectangle whose middle lies `distance` from the axis, one side along the ray there, its corners rounded.
+
+    Polar moment by the parallel-axis theorem; what the fillets take counts at the corners.
+    """
+    whole, taken = radial * along, (4.0 - np.pi) * corner**2
+    about_middle = (radial**2 + along**2) / 12.0
+    at_corners = 0.25 * (radial**2 + along**2)
+    return Section(whole - taken, whole * (about_middle + distance**2) - taken * (at_corners + distance**2))
+
+
 def lens(radius: Any, circle_radius: Any) -> Any:
     """Area [m^2] that a disc whose centre lies on a circle has inside that circle.
 

@@ -16,6 +16,15 @@ class PeltierModule(NamedTuple):
     conductance: Any
 
 
+def wired(one: PeltierModule, count: Any, strings: Any) -> PeltierModule:
+    """`count` alike modules in `strings` parallel strings, as one module that takes the whole current.
+
+    Each takes I/p: S I T sums to (n/p) S I T, I^2 R to (n/p^2) R I^2, and heat is conducted through all n of them.
+    """
+    in_series = count / strings
+    return PeltierModule(in_series * one.seebeck, in_series * one.resistance / strings, count * one.conductance)
+
+
 def max_cooling_power(module: PeltierModule, cold_temperature: Any) -> Any:
     """Heat that can be drawn from the cold side without a temperature difference, S^2 T_c^2/(2 R) [W].
 

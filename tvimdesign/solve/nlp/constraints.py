@@ -129,7 +129,8 @@ def _refuse_idle(study: Study, table: Table, start: Mapping[str, Any]) -> None:
     for choice in table.choices:
         lacking = Feature(choice.name, start[choice.name])
         idle = [row.name for row in said if lacking in row.requires]
-        if not idle or choice.name in study.vary:
+        source = choice.record[0] if choice.record else choice.name
+        if not idle or {choice.name, source} & study.vary.keys():
             continue
         others = [word for word in choice.options if word != lacking.without]
         way = "name one of its records" if choice.category else f"add `{choice.name}: {others[0]}`"

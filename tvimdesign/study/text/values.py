@@ -162,7 +162,7 @@ def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
 
 def _fits(reading: Reading, node: Node, path: str, row: Choice, found: Record) -> bool:
     """Whether a record is of the kind the row takes; a problem where it is not."""
-    if row.only is None:
+    if row.only is None or row.unless in reading.table.by_name:
         return True
     key, wanted, reason = row.only
     value = found.words.get(key, "not said")

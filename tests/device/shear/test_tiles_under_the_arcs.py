@@ -1,0 +1,186 @@
+"""Rectangular Peltier modules under the arcs: where they fit, what they cover and weigh, how they are wired."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from math import cos, hypot, sin
+from typing import Any
+
+import casadi as ca
+import numpy as np
+import pytest
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.record import Record
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.study import given, read_study_text
+
+MM = 1e-3
+TABLE = table_for("shear")
+TILES = {
+    "peltier_module": "ma10_063_05_1", "tiles_per_arc": 2.0, "arc_count": 3.0, "arc_span": 1.7,
+    "floor_thickness": 6.5 * MM,
+}  # fmt: skip
+
+
+def inputs_of(**module: Any) -> dict[str, Any]:
+    """Inputs of the shear module of that many tiles but for what is said (SI, records by name)."""
+    study = read_study_text("mode: shear\n", "a test").model_copy(update={"module": {**TILES, **module}})
+    return given(study)
+
+
+def values_of(rows: str, **module: Any) -> dict[str, Any]:
+    return TABLE.evaluate(inputs_of(**module), rows.split())
+
+
+def corners(values: dict[str, Any], known: dict[str, Any], index: int) -> np.ndarray:
+    """Corners of a tile of an arc in plan view [m], the arc's middle on the x axis; drawn without the table's rules."""
+    along, across = known["peltier_length"], known["peltier_width"]
+    turn = values["tile_pitch"] * (index - 0.5 * (known["tiles_per_arc"] - 1.0))
+    points = [
+        (values["tile_radius"] + 0.5 * x * across, 0.5 * y * along) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    ]
+    return np.array([(x * cos(turn) - y * sin(turn), x * sin(turn) + y * cos(turn)) for x, y in points])
+
+
+def apart(one: np.ndarray, other: np.ndarray) -> float:
+    """Distance of two rectangles [m], by points along their outlines; the corners are nearest."""
+
+    def outline(points: np.ndarray) -> np.ndarray:
+        return np.concatenate(
+            [a + np.linspace(0, 1, 400)[:, None] * (b - a) for a, b in zip(points, np.roll(points, -1, 0), strict=True)]
+        )
+
+    a, b = outline(one), outline(other)
+    return float(min(np.min(np.hypot(*(b - point).T)) for point in a))
+
+
+@pytest.mark.parametrize("tiles", [1.0, 2.0, 3.0])
+def test_margins_are_the_gaps_of_the_rectangles_beyond_the_clearance(tiles: float) -> None:
+    known = inputs_of(tiles_per_arc=tiles, arc_span=0.9 * tiles)
+    values = TABLE.evaluate(known, ["tile_pitch", "tile_radius", "tile_radial_margin", "tile_side_margin"])
+    drawn = [corners(values, known, index) for index in range(int(tiles))]
+    inner = min(min(hypot(*(0.5 * (a + b))) for a, b in combinations(points, 2)) for points in drawn)
+    outer = max(hypot(*point) for points in drawn for point in points)
+    gaps = (inner - known["pcl_inner_radius"], known["pcl_outer_radius"] - outer)
+    assert gaps[0] - known["tile_clearance"] == pytest.approx(values["tile_radial_margin"], rel=1e-6)
+    assert gaps[1] == pytest.approx(gaps[0], rel=0.05)  # the same along x; at the corner slightly less
+    if tiles > 1:
+        assert apart(drawn[0], drawn[1]) - known["tile_clearance"] == pytest.approx(
+            values["tile_side_margin"], abs=2e-6
+        )
+
+
+@pytest.mark.parametrize(
+    ("rule", "module"),
+    [
+        ("tile_radial_margin", {"pcl_outer_radius": 36 * MM}),
+        ("tile_side_margin", {"tiles_per_arc": 3.0}),
+        ("window_depth", {"window_ledge": 5.5 * MM}),
+        ("floor_web_margin", {"spreader_thickness": 2.5 * MM}),
+    ],
+)
+def test_a_module_without_room_breaks_its_rule(rule: str, module: dict[str, float]) -> None:
+    assert values_of(rule)[rule] >= 0.0
+    assert values_of(rule, **module)[rule] < 0.0
+
+
+def test_they_cover_weigh_and_cost_height_as_the_sheet_says() -> None:
+    rows = "heater_count heater_coverage pcl_area peltier_mass pad_depth spreader_mass spreader_volume peltier_scale"
+    values = values_of(rows)
+    record = Catalog().record("peltiers", "ma10_063_05_1")
+    assert values["heater_count"] == values["peltier_scale"] == 6.0
+    assert values["heater_coverage"] * values["pcl_area"] == pytest.approx(6 * 20 * 10 * MM**2)
+    assert values["peltier_mass"] == pytest.approx(6 * record.value("mass"))
+    assert values["pad_depth"] == pytest.approx(4.2 * MM)
+    assert values["spreader_mass"] == pytest.approx(2700.0 * values["spreader_volume"])
+    assert values_of("module_mass", spreader_material="copper")["module_mass"] > values_of("module_mass")["module_mass"]
+
+
+@pytest.mark.parametrize(("wiring", "strings"), [("series", 1), ("arcs_parallel", 3), ("all_parallel", 6)])
+def test_as_wired_they_are_six_modules_that_share_current_and_voltage(wiring: str, strings: int) -> None:
+    # Heats, voltage and power of six modules one by one, against the one the stack is given.
+    values = values_of("pads heater_strings", heater_wiring=wiring)
+    record = Catalog().record("peltiers", "ma10_063_05_1")
+    one = peltier.PeltierModule(*(record.value(name) for name in ("seebeck", "resistance", "conductance")))
+    current, hot, cold = 2.4, 370.0, 320.0
+    assert values["heater_strings"] == strings
+    for heat_of in (peltier.hot_side_heat, peltier.cold_side_heat):
+        assert heat_of(values["pads"], current, hot, cold) == pytest.approx(
+            6 * heat_of(one, current / strings, hot, cold)
+        )
+    in_series = 6 / strings * peltier.voltage(one, current / strings, hot, cold)
+    assert peltier.voltage(values["pads"], current, hot, cold) == pytest.approx(in_series)
+
+
+def test_a_module_takes_its_part_of_the_current() -> None:
+    known = {**inputs_of(heater_wiring="arcs_parallel"), "peak_current": 9.0, "stiffening_peak_current": 6.0}
+    values = TABLE.evaluate(known, ["current_margin", "cooling_current_margin"])
+    assert values["current_margin"] == pytest.approx(8.6 - 3.0)
+    assert values["cooling_current_margin"] == pytest.approx(8.6 - 2.0)
+
+
+def test_the_stack_has_the_spreader_between_modules_and_layer() -> None:
+    stack: heat.Stack = values_of("stack")["stack"]
+    values = values_of("pcl_area spreader_mass peltier_mass spreader_resistance")
+    # 1/h + t/k + 1/(f h_m) + the fin's, by hand
+    covered = 6 * 200 * MM**2 / values["pcl_area"]
+    expected = 1e-4 + 1e-3 / 167.0 + 1e-4 / covered + values["spreader_resistance"]
+    assert 1.0 / stack.hot_contact == pytest.approx(expected, rel=1e-9)
+    assert stack.hot_capacity - stack.cold_capacity == pytest.approx(896.0 * values["spreader_mass"])
+    assert values["spreader_resistance"] < 0.1 * expected
+
+
+def test_compliance_is_that_of_what_the_tiles_have_about_the_axis_and_of_the_spreader() -> None:
+    known = inputs_of()
+    values = TABLE.evaluate(known, ["pad_compliance", "layer_polar_moment", "tile_radius"])
+    # The tiles' polar moment by counting points.
+    x, y = np.meshgrid(*((np.arange(400) + 0.5) / 400 - 0.5,) * 2)
+    squares = (values["tile_radius"] + x * known["peltier_width"]) ** 2 + (y * known["peltier_length"]) ** 2
+    polar = 6 * known["peltier_length"] * known["peltier_width"] * float(np.mean(squares))
+    expected = known["peltier_thickness"] / (1e9 * polar) + 1e-3 / (26.9e9 * values["layer_polar_moment"])
+    assert values["pad_compliance"] == pytest.approx(expected, rel=1e-4)
+
+
+def foil(resistance: float = 5.0) -> Record:
+    """A foil heater of the shelf's form: a rigid module's record without Seebeck coefficient."""
+    known = Catalog().record("peltiers", "ma10_063_05_1")
+    entries = dict(known.entries)
+    entries["seebeck"] = type(entries["seebeck"])(0.0, "V/K", "a test", "measured")
+    entries["resistance"] = type(entries["resistance"])(resistance, "ohm", "a test", "measured")
+    return Record("peltiers", "foil", "A foil heater", entries, {}, known.words)
+
+
+def test_a_foil_heater_goes_through_the_same_equations() -> None:
+    known = {**inputs_of(), "peltier_module": foil(), "peltier_seebeck": 0.0, "peltier_resistance": 5.0}
+    pads = TABLE.evaluate(known, ["pads"])["pads"]
+    both = [heat_of(pads, current, 350.0, 350.0) for current in (1.0, -1.0) for heat_of in (peltier.hot_side_heat,)]
+    assert both == pytest.approx([15.0, 15.0])  # half of I^2 R to either side, whichever way the current flows
+    assert peltier.cold_side_heat(pads, 1.0, 350.0, 350.0) == pytest.approx(-15.0)
+
+
+def test_a_rigid_module_is_not_cut() -> None:
+    with pytest.raises(InputError, match="ma10_063_05_1 is rigid"):
+        values_of("module_mass", heater_form="flexible")
+
+
+def test_symbols_give_what_floats_give() -> None:
+    rows = ["tile_radial_margin", "tile_side_margin", "heater_coverage", "spreader_resistance", "module_mass"]
+    known = inputs_of()
+    names = ["pcl_inner_radius", "pcl_outer_radius", "arc_span", "tiles_per_arc", "arc_count", "spreader_thickness"]
+    symbols = ca.SX.sym("x", len(names))
+    found = TABLE.evaluate({**known, **{name: symbols[i] for i, name in enumerate(names)}}, rows)
+    function = ca.Function("f", [symbols], [ca.vertcat(*(found[row] for row in rows))])
+    expected = TABLE.evaluate(known, rows)
+    assert np.array(function([known[name] for name in names])).ravel() == pytest.approx([expected[row] for row in rows])
+
+
+def test_a_sheet_is_as_it_was() -> None:
+    # The cut pad has no spreader, no tiles and no holes, and its numbers are those of the area it has.
+    flat = given(read_study_text("mode: shear\n", "a test"))
+    values = TABLE.evaluate(
+        flat, ["heater_count", "heater_coverage", "spreader_mass", "spreader_depth", "tile_side_margin", "pad_depth"]
+    )
+    assert list(values.values()) == [4.0, 1.0, 0.0, 0.0, 0.0, flat["peltier_thickness"]]
