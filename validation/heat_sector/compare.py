@@ -160,7 +160,11 @@ def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> d
 
 def studies() -> list[Path]:
     """The shipped studies but those with modules below a spreader: the plane has pads alike all over."""
-    return [path for path in sorted(STUDIES.glob("*.yaml")) if given(read_study(path))["heater_form"] == "flexible"]
+    return [
+        path
+        for path in sorted(STUDIES.glob("*.yaml"))
+        if given(read_study(path)).get("heater_form", "flexible") == "flexible"
+    ]
 
 
 def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunctions]]:
