@@ -20,7 +20,7 @@ MOVING = ["current", "ambient_temperature", "peltier_seebeck", "peltier_resistan
 SOFTENING = ["near_face_time", "far_face_time", "softening_time", "response_time", "switch_energy", "peak_power"]
 AT_THE_END = ["response_time", "switch_energy", "peak_power"]
 """What is wanted of most modules: it takes longer steps than what comes earlier."""
-# As drawn these stall short of 100 degC in the far face: aluminium draws the heat out. With more current it comes about.
+# As drawn the far face stalls: aluminium draws the heat out. With more current it reaches 100 degC.
 CURRENT = {"driven_joint": 3.0, "machined_compression": 2.5, "machined_shear": 3.0}
 BACK = ["stiffening_time", "frozen_time", "stiffening_energy", "peak_cold_side_temperature", "hold_power"]
 
