@@ -53,7 +53,7 @@ def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("row", "most"), [("backlash@cold", "<= 0.000002 rad"), ("relaxation_loss@cold", "<= 0.001")])
+@pytest.mark.parametrize(("row", "most"), [("backlash@cold", "<= 0.000008 rad"), ("relaxation_loss@cold", "<= 0.003")])
 def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most: str) -> None:
     def solved(more: str) -> Solution:
         text = SMALL.replace("accept:", f"{more}accept:").replace("starts: 7", "starts: 2")

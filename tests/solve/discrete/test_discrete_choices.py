@@ -48,7 +48,8 @@ vary:
 require:
   spring_stiffness: ">= 5 N.m/rad"
   holding_torque: ">= 5 N.m"
-  peltier_temperature_margin: ">= 0 K"
+  peak_power: "<= 9 W"
+accept: [peltier_temperature_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 solver: {starts: 3, cells: 6, elements: 2}
 """
