@@ -37,7 +37,7 @@ module: {response_criterion: mean, core_radius: 8 mm, link_dowel: iso_8734_2, ro
          block_height: 11 mm}
 vary:
   wire_diameter: {catalog: metric, from: 2.1 mm, to: 2.6 mm}
-  coil_count: {choose: [6.5, 6.75, 7]}
+  coil_count: {choose: [4, 4.5, 5]}
   vane_count: {from: 5, to: 6}
   coil_diameter: [10 mm, 16 mm]
   pcl_outer_radius: [18 mm, 30 mm]
