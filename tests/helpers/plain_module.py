@@ -57,6 +57,10 @@ BEND_INDEX, BEND_ACROSS = 2.0, 1.3  # the bend's mean radius is the wire; calibr
 DOWN, ACROSS = np.array([0.0, 0.0, -1.0]), np.array([0.0, 1.0, 0.0])
 
 
+DRAWN = ("coil_pitch", "coil_end_level", "rotor_top_level", "tang_length")
+"""Lengths of the drawn module that are read beside its inputs."""
+
+
 class Wire(NamedTuple):
     """A spring's wire in its own axes, its coil around z, with the pin that pushes on the leg's end along `ACROSS`."""
 
@@ -144,10 +148,29 @@ def rate(module: Numbers) -> float:
     return float(module["spring_youngs_modulus"] * np.pi * module["wire_diameter"] ** 4 / (64.0 * length))
 
 
+def held_rate(module: Numbers) -> float:
+    """Torque of a spring per winding [N*m/rad] of the spring, its pin and its tang's hole, one behind the other.
+
+    The pin is a Timoshenko beam on a foot that rocks as a rigid disc on a half-space; the hole is twisted in a plate
+    without end. `leg_model: ignored` holds the spring rigidly.
+    """
+    if module["leg_model"] == "ignored":
+        return rate(module)
+    modulus, poisson = module["structure_youngs_modulus"], module["structure_poissons_ratio"]
+    shear, pin, arm = modulus / 2.0 / (1.0 + poisson), 0.5 * module["pin_diameter"], leg(module, 0.0)[1]
+    climb = module["coil_pitch"] / (np.pi * module["coil_diameter"])
+    above = max(module["coil_end_level"] + climb * arm - module["rotor_top_level"], 0.5 * module["wire_diameter"])
+    beam = above**3 / (3.0 * modulus * np.pi / 4.0 * pin**4) + above / (0.9 * shear * np.pi * pin**2)
+    foot = above**2 * 3.0 * (1.0 - poisson**2) / (4.0 * modulus * pin**3)
+    on_tang = (arm + np.hypot(0.5 * module["coil_diameter"], module["wire_diameter"])) / arm
+    hole = on_tang**2 / (4.0 * np.pi * shear * (0.5 * module["wire_diameter"]) ** 2 * module["tang_length"])
+    return 1.0 / (1.0 / rate(module) + (beam + foot) / arm**2 + hole)
+
+
 def energy(module: Numbers, angle: float) -> float:
-    """Elastic energy of all springs [J] with the rotor turned."""
+    """Elastic energy of all springs and what holds them [J] with the rotor turned."""
     wound = [module["preload_angle"] + winding(module, sense * angle) for sense in (1.0, -1.0)]
-    return float(module["spring_pairs"] * 0.5 * rate(module) * sum(angle**2 for angle in wound))
+    return float(module["spring_pairs"] * 0.5 * held_rate(module) * sum(angle**2 for angle in wound))
 
 
 def torque(module: Numbers, angle: float) -> float:
@@ -172,7 +195,7 @@ def statics(module: Numbers) -> dict[str, float]:
     over = np.linspace(-stroke, stroke, 2 * ANGLES - 1)
     wound = module["preload_angle"] + np.array([winding(module, angle) for angle in over])
     stiff = np.array([stiffness(module, angle) for angle in over[ANGLES - 1 :]])
-    per_angle = max(stress_factors(module)) * 32.0 * rate(module) / (np.pi * wire**3)
+    per_angle = max(stress_factors(module)) * 32.0 * held_rate(module) / (np.pi * wire**3)
     highest, lowest = per_angle * wound.max(), per_angle * max(wound.min(), 0.0)
     strength = module["tensile_strength"]
     fatigue = module["fatigue_ratio"] * strength
@@ -183,6 +206,7 @@ def statics(module: Numbers) -> dict[str, float]:
     reach = np.hypot(0.5 * coil, wire) + 0.5 * wire
     return {
         "spring_rate": rate(module),
+        "held_spring_rate": held_rate(module),
         "spring_stiffness": stiff[0],
         "spring_stiffness_full_stroke": stiff[-1],
         "least_spring_stiffness": stiff.min(),
@@ -224,8 +248,9 @@ def block_strain(module: Numbers) -> float:
 
 
 COMPARED = (
-    "spring_rate", "spring_stiffness", "spring_stiffness_full_stroke", "spring_torque_full_stroke", "preload_margin",
-    "spring_winding", "spring_stress", "spring_static_safety", "spring_fatigue_safety", "envelope_diameter",
+    "spring_rate", "held_spring_rate", "spring_stiffness", "spring_stiffness_full_stroke", "spring_torque_full_stroke",
+    "preload_margin", "spring_winding", "spring_stress", "spring_static_safety", "spring_fatigue_safety",
+    "envelope_diameter",
 )  # fmt: skip
 """The product's outputs that stand in `statics`, but those that follow from two others."""
 

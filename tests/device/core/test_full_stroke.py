@@ -11,7 +11,7 @@ from tvimdesign.device import table_for
 
 TABLE = table_for("shear")
 ROWS = [
-    "spring_rate", "spring_torque_full_stroke", "spring_stiffness_full_stroke", "stiffness_over_stroke",
+    "held_spring_rate", "spring_torque_full_stroke", "spring_stiffness_full_stroke", "stiffness_over_stroke",
     "spring_stiffness", "leg_offset", "leg_arm", "leg_length", "leg_core_gap", "leg_overhang_margin", "tang_margin",
     "pin_radius", "pin_safety", "spring_assembly_safety", "spring_tensile_strength", "coil_end_level", "helix_slope",
     "rotor_top_level", "spring_winding", "spring_unwinding", "free_angle_over_preload", "free_angle_tolerance",
@@ -40,7 +40,7 @@ def energy(module: dict[str, Any], angle: float) -> float:
     """Energy [J] of the springs: right-hand ones wind as their leg turns on, left-hand ones are their mirror image."""
     rest = direction(module, 0.0)
     pair = sum((module["preload_angle"] + direction(module, sign * angle) - rest) ** 2 for sign in (1.0, -1.0))
-    return float(module["spring_pairs"] * 0.5 * module["spring_rate"] * pair)
+    return float(module["spring_pairs"] * 0.5 * module["held_spring_rate"] * pair)
 
 
 def test_torque_and_stiffness_are_the_slopes_of_the_energy(bent: dict[str, Any]) -> None:
@@ -57,7 +57,7 @@ def test_torque_and_stiffness_are_the_slopes_of_the_energy(bent: dict[str, Any])
 
 def test_with_unity_the_springs_are_linear(inputs: dict[str, Any]) -> None:
     found = TABLE.evaluate({**inputs, "transmission": "unity"}, ROWS)
-    assert found["spring_torque_full_stroke"] == pytest.approx(4 * found["spring_rate"] * 0.104, rel=1e-12)
+    assert found["spring_torque_full_stroke"] == pytest.approx(4 * found["held_spring_rate"] * 0.104, rel=1e-12)
     assert found["stiffness_over_stroke"] == pytest.approx(1.0, rel=1e-12)
 
 
@@ -95,7 +95,7 @@ def test_tang_keeps_the_play_that_the_growing_coil_leaves(bent: dict[str, Any]) 
 
 
 def test_pins_bend_under_the_leg_like_a_round_cantilever(bent: dict[str, Any]) -> None:
-    force = bent["spring_rate"] * bent["spring_winding"] / bent["leg_arm"]
+    force = bent["held_spring_rate"] * bent["spring_winding"] / bent["leg_arm"]
     lever = bent["coil_end_level"] + bent["helix_slope"] * bent["leg_arm"] - bent["rotor_top_level"]
     section = np.pi * bent["pin_diameter"] ** 4 / 64.0 / (0.5 * bent["pin_diameter"])  # I over c
     # 31 MPa across the layers of printed PETG, as the catalogue assumes.
@@ -107,7 +107,7 @@ def test_fitting_the_second_hand_winds_the_first_by_twice_the_preload(inputs: di
     bent = {**given, **TABLE.evaluate(given, ROWS)}
     index = bent["coil_diameter"] / bent["wire_diameter"]
     factor = (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
-    torque = bent["spring_rate"] * 2.0 * bent["preload_angle"]
+    torque = bent["held_spring_rate"] * 2.0 * bent["preload_angle"]
     # Beyond the handbook's: lever a + R, and the force's height above the coil's start, at a right angle to it.
     wound = 2.0 * np.pi * bent["coil_count"] + bent["preload_angle"]
     radius = np.pi * bent["coil_count"] * bent["coil_diameter"] / wound

@@ -58,9 +58,9 @@ def test_every_number_of_the_springs_is_that_of_the_second_implementation(
               "coil_diameter": index * wire, "placement_radius": placement, "stroke": stroke}  # fmt: skip
     offset = 0.5 * (index * wire + wire + module["pin_diameter"])
     assume((1.0 - ratio) * placement > 1.05 * offset)  # the leg reaches its pin
-    found = TABLE.evaluate(module, ["spring_tensile_strength", "coil_pitch", *plain_module.COMPARED])
+    found = TABLE.evaluate(module, ["spring_tensile_strength", *plain_module.DRAWN, *plain_module.COMPARED])
     assume(found["preload_margin"] > 0.0)
-    module["coil_pitch"] = found["coil_pitch"]
+    module |= {name: found[name] for name in plain_module.DRAWN}
     plain = plain_module.statics(plain_module.with_strength(module, found))
     # Geometry can take the stiffness through zero: digits are those of the stiffness that the springs' rates give.
     of_rates = plain_module.stiffness({**module, "transmission": "unity"}, 0.0)
@@ -85,7 +85,8 @@ def test_a_limit_on_the_stiffness_is_one_at_every_angle_of_the_stroke() -> None:
 def test_the_least_over_the_stroke_is_no_more_than_at_any_angle(inputs: dict[str, Any]) -> None:
     for ratio in (0.35, 0.5, 0.65):
         module = {**inputs, "pin_radius_ratio": ratio, "preload_angle": 0.2}
-        found = TABLE.evaluate(module, ["least_spring_stiffness", "coil_pitch"])
-        least, module["coil_pitch"] = found["least_spring_stiffness"], found["coil_pitch"]
+        found = TABLE.evaluate(module, ["least_spring_stiffness", *plain_module.DRAWN])
+        least = found.pop("least_spring_stiffness")
+        module |= found
         all_angles = [plain_module.stiffness(module, angle) for angle in np.linspace(0.0, module["stroke"], 21)]
         assert least == pytest.approx(min(all_angles), rel=1e-4)

@@ -13,9 +13,9 @@ from tvimdesign.device import table_for
 from tvimdesign.physics.springs import drawn_spring
 
 TABLE = table_for("shear")
-WANTED = ("spring_stiffness", "spring_winding", "spring_unwinding", "preload_margin", "spring_rate", "spring_stress",
-          "spring_fatigue_safety", "spring_static_safety", "pin_radius", "leg_offset", "leg_arm", "spring_count",
-          "spring_tensile_strength")  # fmt: skip
+WANTED = ("spring_stiffness", "spring_winding", "spring_unwinding", "preload_margin", "spring_rate", "held_spring_rate",
+          "spring_stress", "spring_fatigue_safety", "spring_static_safety", "pin_radius", "leg_offset", "leg_arm",
+          "spring_count", "spring_tensile_strength")  # fmt: skip
 PAPER = {"spring_youngs_modulus": 210e9, "leg_model": "ignored", "transmission": "unity"}
 
 
@@ -71,7 +71,7 @@ def test_stiffness_of_the_geometry_is_the_curvature_of_the_springs_energy(
     def energy(angle: float) -> float:
         # Right-hand springs, and left-hand ones that are their mirror images.
         windings = (winding_of(angle, placement, found), winding_of(-angle, placement, found))
-        return sum(0.25 * found["spring_count"] * found["spring_rate"] * (preload + w) ** 2 for w in windings)
+        return sum(0.25 * found["spring_count"] * found["held_spring_rate"] * (preload + w) ** 2 for w in windings)
 
     step = 0.02
     weights = zip((-3, -2, -1, 0, 1, 2, 3), (2, -27, 270, -490, 270, -27, 2), strict=True)
@@ -98,7 +98,7 @@ def test_margins_are_those_of_the_stress_between_the_extremes(transmission: str,
     wire, coil = base["wire_diameter"], base["coil_diameter"]
     index = coil / wire
     factor = (4 * index**2 - index - 1) / (4 * index * (index - 1))
-    per_angle = factor * 32.0 * found["spring_rate"] / (np.pi * wire**3)
+    per_angle = factor * 32.0 * found["held_spring_rate"] / (np.pi * wire**3)
     turns = [0.104, -0.104] if transmission == "unity" else [
         winding_of(a, base["placement_radius"], found) for a in (-0.104, 0.104)
     ]  # fmt: skip

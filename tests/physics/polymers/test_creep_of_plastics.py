@@ -1,13 +1,17 @@
 """Creep under preload: against a data sheet, Volterra's equation stepped in time, and elasticity by quadrature."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+import yaml
 from scipy.integrate import quad
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.polymers import creep
 
 HOURS = 3600.0
+FE = yaml.safe_load((Path(__file__).parents[3] / "validation/fe_spring_holds/results.yaml").read_text())
 
 
 def law(material: str) -> creep.Creep:
@@ -67,3 +71,13 @@ def test_tall_peg_is_a_cantilever_and_a_short_one_gives_at_its_foot() -> None:
     foot = 3.0 * (1.0 - poisson) * 4e-3**2 / (8.0 * shear * radius**3)
     whole = 4e-3**3 / (3.0 * modulus * 0.25 * np.pi * radius**4) + foot + 4e-3 / (0.9 * shear * np.pi * radius**2)
     assert creep.peg_give(modulus, poisson, 2.0 * radius, 4e-3) == pytest.approx(whole, rel=1e-9)
+
+
+@pytest.mark.parametrize("study", FE["pins"])
+def test_pins_and_holes_give_as_fe_of_the_exported_parts_does(study: str) -> None:
+    modulus, poisson = FE["modulus"], FE["poissons_ratio"]  # N/mm^2
+    pin, hole = FE["pins"][study], FE["holes"][study]
+    peg = creep.peg_give(modulus, poisson, pin["diameter"], pin["height"])
+    twisted = creep.twisted_hole_give(modulus / (2.0 * (1.0 + poisson)), hole["diameter"], hole["length"])
+    assert peg == pytest.approx(pin["give"], rel=0.05)
+    assert twisted == pytest.approx(hole["give"], rel=0.05)

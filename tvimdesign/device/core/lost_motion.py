@@ -26,9 +26,9 @@ quantities.inputs()
 
 
 @quantities.output("N")
-def pin_force(spring_rate: Scalar, preload_angle: Scalar, leg_arm: Scalar) -> Scalar:
+def pin_force(held_spring_rate: Scalar, preload_angle: Scalar, leg_arm: Scalar) -> Scalar:
     """Force of a spring's leg on its pin at rest."""
-    return spring_rate * preload_angle / leg_arm
+    return held_spring_rate * preload_angle / leg_arm
 
 
 @quantities.output("N*m")

@@ -1,13 +1,9 @@
-"""What the springs' preload loses as the plastic that holds it gives: at once, and by creep over months and hot hours.
+"""What the springs' preload loses as the plastic that holds it creeps, over months and hot hours.
 
-A spring's leg bears on a pin of the rotor, its tang turns in the floor. Both give, and creep on under a load that
-never goes. The pin is as warm as the plate beside the PCL, the floor as the air; the adhesive of a bonded tang counts
-as stiff as the structure.
+What gives at once is in `held_spring_rate`. The pin is as warm as the plate beside the PCL, the floor as the air.
 """
 
 from __future__ import annotations
-
-import numpy as np
 
 from tvimdesign.device.core.torsion_springs import quantities as shared
 from tvimdesign.device.core.warm_structure import PartTemperatures
@@ -24,35 +20,6 @@ def structure_creep(
 ) -> creep.Creep:
     """How the structure creeps."""
     return creep.Creep(structure_creep_share, structure_creep_exponent, structure_creep_energy)
-
-
-@quantities.helper()
-def pin_give(
-    structure_youngs_modulus: Scalar,
-    structure_poissons_ratio: Scalar,
-    pin_diameter: Scalar,
-    coil_end_level: Scalar,
-    helix_slope: Scalar,
-    leg_arm: Scalar,
-    rotor_top_level: Scalar,
-    wire_diameter: Scalar,
-) -> Scalar:
-    """Winding that a spring loses for each moment on its coil as its pin gives [rad/(N*m)]."""
-    # As low as in `pin_safety`, for the same reason.
-    height = np.fmax(coil_end_level + helix_slope * leg_arm - rotor_top_level, 0.5 * wire_diameter)
-    return creep.peg_give(structure_youngs_modulus, structure_poissons_ratio, pin_diameter, height) / leg_arm**2
-
-
-@quantities.helper()
-def tang_give(
-    structure_shear_modulus: Scalar, wire_diameter: Scalar, tang_length: Scalar, tang_lever: Scalar, leg_arm: Scalar
-) -> Scalar:
-    """Winding that a spring loses for each moment on its coil as its tang turns in the floor [rad/(N*m)].
-
-    The force on the pin acts at the leg's arm and the tang's lever, at most.
-    """
-    lever = 1.0 + tang_lever / leg_arm
-    return creep.twisted_hole_give(structure_shear_modulus, wire_diameter, tang_length) * lever**2
 
 
 Holds = tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]]
@@ -75,13 +42,6 @@ def spring_holds(
     times = (rested + creep.aged(hot_time, temperature, structure_creep) for temperature in warm)
     on_pin, in_floor = (creep.growth(time, structure_creep) for time in times)
     return (pin_give, on_pin), (tang_give, in_floor)
-
-
-@quantities.output("rad")
-def preload_give(preload_angle: Scalar, spring_rate: Scalar, spring_holds: Holds) -> Scalar:
-    """Winding that a spring loses at once at rest as pin and floor give; not in `spring_rate`, nor in the margin."""
-    at_once = creep.winding_left(spring_rate, *((compliance, 0.0) for compliance, _ in spring_holds))
-    return preload_angle * (1.0 - at_once)
 
 
 @quantities.output("rad")

@@ -48,7 +48,7 @@ def active_coils(
 
 @quantities.helper()
 def coil_stress_per_angle(
-    spring_rate: Scalar,
+    held_spring_rate: Scalar,
     wire_diameter: Scalar,
     spring_index: Scalar,
     drawn_spring: drawn.DrawnSpring,
@@ -60,12 +60,12 @@ def coil_stress_per_angle(
     factor = curvature(spring_index)
     if leg_model != "ignored":
         factor = drawn.coil_stress_factor(drawn_spring, factor)
-    return spring.bending_stress(spring_rate, wire_diameter, factor)
+    return spring.bending_stress(held_spring_rate, wire_diameter, factor)
 
 
 @quantities.helper()
 def tang_stress_per_angle(
-    spring_rate: Scalar,
+    held_spring_rate: Scalar,
     wire_diameter: Scalar,
     drawn_spring: drawn.DrawnSpring,
     coil_stress_per_angle: Scalar,
@@ -74,4 +74,4 @@ def tang_stress_per_angle(
     """Largest stress in the bend of the tang per radian of winding [Pa]; the coil's where leg and bend are ignored."""
     if leg_model == "ignored":
         return coil_stress_per_angle
-    return spring.bending_stress(spring_rate, wire_diameter, drawn.bend_stress_factor(drawn_spring))
+    return spring.bending_stress(held_spring_rate, wire_diameter, drawn.bend_stress_factor(drawn_spring))

@@ -81,13 +81,13 @@ def transmission_curvature(
 @quantities.output("N*m/rad", headline=True, also_limited=_OVER_STROKE[1:], parts_differ_with=_AS_DRAWN)
 def spring_stiffness(
     spring_count: Scalar,
-    spring_rate: Scalar,
+    held_spring_rate: Scalar,
     preload_angle: Scalar,
     transmission_ratio: Scalar,
     transmission_curvature: Scalar,
 ) -> Scalar:
     """Stiffness of all springs about the axis at rest, K_s; a limit on it holds over the whole stroke."""
-    return output_stiffness(spring_count, spring_rate, preload_angle, transmission_ratio, transmission_curvature)
+    return output_stiffness(spring_count, held_spring_rate, preload_angle, transmission_ratio, transmission_curvature)
 
 
 Wound = tuple[Scalar, Scalar]
@@ -111,35 +111,35 @@ def over_stroke(
 
 
 @quantities.output("N*m")
-def spring_torque_full_stroke(spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+def spring_torque_full_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
     """Torque of all springs about the axis at full stroke."""
-    return spring_pairs * spring_rate * over_stroke[3][0]
+    return spring_pairs * held_spring_rate * over_stroke[3][0]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_quarter_stroke(spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+def spring_stiffness_quarter_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
     """Stiffness of all springs about the axis at a quarter of the stroke, the slope of torque over angle."""
-    return spring_pairs * spring_rate * over_stroke[0][1]
+    return spring_pairs * held_spring_rate * over_stroke[0][1]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_half_stroke(spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+def spring_stiffness_half_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
     """Stiffness of all springs about the axis at half the stroke, the slope of torque over angle."""
-    return spring_pairs * spring_rate * over_stroke[1][1]
+    return spring_pairs * held_spring_rate * over_stroke[1][1]
 
 
 @quantities.output("N*m/rad")
 def spring_stiffness_three_quarter_stroke(
-    spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]
+    spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]
 ) -> Scalar:
     """Stiffness of all springs about the axis at three quarters of the stroke, the slope of torque over angle."""
-    return spring_pairs * spring_rate * over_stroke[2][1]
+    return spring_pairs * held_spring_rate * over_stroke[2][1]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_full_stroke(spring_pairs: Scalar, spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+def spring_stiffness_full_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
     """Stiffness of all springs about the axis at full stroke, the slope of torque over angle."""
-    return spring_pairs * spring_rate * over_stroke[3][1]
+    return spring_pairs * held_spring_rate * over_stroke[3][1]
 
 
 @quantities.output("N*m/rad", headline=True, least_of=_OVER_STROKE, parts_differ_with=_AS_DRAWN)
@@ -267,7 +267,7 @@ def free_angle_over_stroke(free_angle_tolerance: Scalar, stroke: Scalar) -> Scal
     "1", Rule(sense=">=", value=1.0, reason="the rotor's pins would break off between two layers of the print")
 )
 def pin_safety(
-    spring_rate: Scalar,
+    held_spring_rate: Scalar,
     spring_winding: Scalar,
     leg_arm: Scalar,
     coil_end_level: Scalar,
@@ -278,7 +278,7 @@ def pin_safety(
     structure_layer_strength: Scalar,
 ) -> Scalar:
     """Bending strength of the rotor's pins, cold, over the stress under the leg at full winding."""
-    force = spring_rate * spring_winding / leg_arm
+    force = held_spring_rate * spring_winding / leg_arm
     # No leg lies lower than on the plate; without that, the search is lost beyond the pole at height zero.
     height = np.fmax(coil_end_level + helix_slope * leg_arm - rotor_top_level, 0.5 * wire_diameter)
     return structure_layer_strength / spring.bending_stress(force * height, pin_diameter, 1.0)
