@@ -81,6 +81,8 @@ class Judge:
         self.quantity = model.table.evaluate(self.known, names if self.sheared else [*names, "shape_factor"])
         layers = shear.columns if self.sheared else compression.rows
         self.layers, self.shares = layers(found, "layer")
+        depths = (found.dy if self.sheared else found.dx)[self.layers[0]]
+        self.slices = depths / np.sum(depths)
         self.omega = 2.0 * np.pi * self.known["frequency@hot"]
 
     def _mean(self, state: Array, name: str) -> float:
@@ -117,16 +119,17 @@ class Judge:
             soft = np.array([film.soft_share(*pair) for pair in zip(storage, loss, strict=True)])
             shape = q["shape_factor"]
             moments = moments * (1.0 + 2.0 * (shape / soft) ** 2) / (1.0 + 2.0 * shape**2)
-        layer = np.sum(self.shares * moments / np.mean(1.0 / (storage + 1j * loss), axis=1)) / q["pcl_depth"]
+        layer = np.sum(self.shares * moments / ((1.0 / (storage + 1j * loss)) @ self.slices)) / q["pcl_depth"]
         law = (q["structure_softening"], self.known["clamped_loss_factor"], q["lossless_compliance"])
         support = complex(*in_series(q["structure_compliances"], self.parts(state), *law))
         return float(abs(q["spring_stiffness"] + 1.0 / (1.0 / layer + 1.0 / support)))
 
     def far_face(self, state: Array) -> float:
         """Mean temperature of the polymer's face away from the pads [degC], from its last two cells."""
-        last = -1 if self.sheared else 0
-        cells = self.layers[:, [last, -2 if self.sheared else 1]]
-        return float(self.shares @ (1.5 * state[cells[:, 0]] - 0.5 * state[cells[:, 1]]))
+        last, before = (-1, -2) if self.sheared else (0, 1)
+        way = self.slices[last] / (self.slices[last] + self.slices[before])
+        ends, inner = state[self.layers[:, last]], state[self.layers[:, before]]
+        return float(self.shares @ (ends + way * (ends - inner)))
 
     def times(self, seconds: float, steps: int = STEPS) -> dict[str, float]:
         """Times of the switch by the plane: soft, mean of the polymer and mean of its far face at their targets."""

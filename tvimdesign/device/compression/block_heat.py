@@ -19,6 +19,8 @@ from tvimdesign.physics.layers import film
 
 quantities = QuantityGroup(shared.group)
 
+WALL, RIM, HOUSING = 3, 4, 5
+
 
 @quantities.helper()
 def cold_area(vane_count: Scalar, slot_width: Scalar, slot_height: Scalar) -> Scalar:
@@ -73,14 +75,13 @@ def plate_depth(vane_thickness: Scalar) -> Scalar:
 def plate_outside(
     pcl_area: Scalar,
     block_area: Scalar,
-    block_width: Scalar,
     block_height: Scalar,
     plate_depth: Scalar,
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> lumps.Surface:
-    """Rims of the rotor's vanes, inner, outer and lower, which lose heat; as a share of the blocks' faces."""
-    share = (2.0 * block_height + block_width) * plate_depth / block_area
+    """Inner and outer rims of the rotor's vanes, which lose heat; as a share of the blocks' faces."""
+    share = 2.0 * block_height * plate_depth / block_area
     return lumps.Surface(pcl_area, share * rotor_coefficient, share * surface_emissivity)
 
 
@@ -93,11 +94,17 @@ def plate_mass(
 
 
 @quantities.helper()
+def faced_area(
+    block_width: Scalar, vane_count: Scalar, plate_depth: Scalar, block_depth: Scalar, peltier_thickness: Scalar
+) -> Scalar:
+    """Plan area of rotor's vanes, blocks and pads [m^2]: what of floor and rotor plate they heat."""
+    return 2.0 * vane_count * block_width * (plate_depth + block_depth + peltier_thickness)
+
+
+@quantities.helper()
 def rotor_beside(
-    plate_mass: Scalar,
-    pcl_area: Scalar,
-    plate_depth: Scalar,
-    rotor_radius: Scalar,
+    faced_area: Scalar,
+    rotor_thickness: Scalar,
     rotor_vanes: Section,
     vane_height: Scalar,
     structure_conductivity: Scalar,
@@ -106,17 +113,18 @@ def rotor_beside(
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> tuple[lumps.Lump, ...]:
-    """Rotor plate above the vanes, heated through their roots.
+    """Rotor plate above vanes, blocks and pads, in three bodies from its lower face on, heated by the vanes' roots.
 
     A fin heated evenly over its faces: its mean temperature is a third of its height away from the root (Incropera,
     Fundamentals of Heat and Mass Transfer, ch. 3, even generation).
     """
-    above = lumps.Lump(
-        conductance=3.0 * structure_conductivity * rotor_vanes.area / vane_height,
-        capacity=(plate_mass - pcl_area * plate_depth * structure_density) * structure_specific_heat,
-        surface=lumps.Surface(np.pi * rotor_radius**2, rotor_coefficient, surface_emissivity),
-    )
-    return (above,)
+    capacity = rotor_thickness * structure_density * structure_specific_heat
+    across = structure_conductivity * faced_area / rotor_thickness
+    first, *others = lumps.strip(faced_area, capacity, across, lumps.NOWHERE)
+    root = 3.0 * structure_conductivity * rotor_vanes.area / vane_height
+    above = lumps.Surface(faced_area, rotor_coefficient, surface_emissivity)
+    others[-1] = others[-1]._replace(surface=above)
+    return (first._replace(conductance=lumps.in_series(root, first.conductance)), *others)
 
 
 @quantities.helper()
@@ -136,83 +144,161 @@ def open_sides(
 
 
 @quantities.helper()
-def narrow_sides(
-    vane_count: Scalar, block_width: Scalar, air_conductivity: Scalar, running_clearance: Scalar
-) -> Scalar:
-    """What the lower sides of all blocks give through the air of a running clearance [W/m K]; the upper ones as much.
-
-    For a metre of their depth, or of the pads'.
-    """
-    return 2.0 * vane_count * block_width * air_conductivity / running_clearance
+def uneven_sideways(rotor_beside: tuple[lumps.Lump, ...]) -> Scalar:
+    """Conductance to the plate above for what a vane's temperature differs over its depth from its mean [W/K]."""
+    return rotor_beside[0].conductance
 
 
 @quantities.helper()
-def free_sides(open_sides: Scalar, narrow_sides: Scalar, block_depth: Scalar) -> Scalar:
-    """Conductance from the blocks' inner, outer and lower sides to the housing [W/K]."""
-    return (open_sides + narrow_sides) * block_depth
-
-
-@quantities.helper()
-def upper_sides(
-    narrow_sides: Scalar,
-    block_depth: Scalar,
-    block_width: Scalar,
-    vane_count: Scalar,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-) -> Scalar:
-    """Conductance from the blocks' upper sides to the rotor plate [W/K], through a running clearance and half of it."""
-    above = 2.0 * vane_count * block_width * block_depth
-    return lumps.in_series(narrow_sides * block_depth, 2.0 * structure_conductivity * above / rotor_thickness)
+def wall_depth(pcl_mean_radius: Scalar, vane_count: Scalar, plate_depth: Scalar, block_depth: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Thickness of half a housing vane at the mean radius [m], which a pad leans against."""
+    return np.pi * pcl_mean_radius / vane_count - plate_depth - block_depth - peltier_thickness
 
 
 @quantities.helper()
 def around_pads(
-    open_sides: Scalar,
-    narrow_sides: Scalar,
-    peltier_thickness: Scalar,
-    block_depth: Scalar,
+    pcl_area: Scalar,
+    cold_area: Scalar,
+    wall_depth: Scalar,
+    faced_area: Scalar,
     block_width: Scalar,
     vane_count: Scalar,
+    plate_mass: Scalar,
+    rotor_vanes: Section,
+    vane_height: Scalar,
+    rotor_thickness: Scalar,
     housing_inner_radius: Scalar,
     housing_outer_radius: Scalar,
     rim_level: Scalar,
     foot_height: Scalar,
     floor_thickness: Scalar,
     housing_mass: Scalar,
-    structure_conductivity: Scalar,
+    rotor_coefficient: Scalar,
     structure_density: Scalar,
     structure_specific_heat: Scalar,
     housing_coefficient: Scalar,
     surface_emissivity: Scalar,
-) -> tuple[lumps.Lump, ...]:
-    """What the free sides of blocks and pads face: the floor below them, and the housing.
-
-    In plastic the first tenths of a millimetre warm up and then keep the heat in; metal is one body with the rest.
-    """
-    facing = 2.0 * vane_count * block_width * (block_depth + peltier_thickness)
-    capacity = floor_thickness * structure_density * structure_specific_heat
-    through = structure_conductivity * facing / floor_thickness
-    first, *others = lumps.strip(facing, capacity, through, lumps.NOWHERE)
+) -> tuple[lumps.Body, ...]:
+    """Floor below vanes, blocks and pads in three bodies from its upper face on, the housing's vanes with the floor
+    below them, the rotor plate beside the ring, the rest of the housing."""
+    volumetric = structure_density * structure_specific_heat
+    open_air = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
+    floor = [lumps.Body(share * faced_area * floor_thickness * volumetric, lumps.NOWHERE) for share in lumps.STRIP]
+    floor[-1] = floor[-1]._replace(surface=open_air._replace(area=faced_area))
+    foot = 2.0 * vane_count * block_width * wall_depth
+    wall = lumps.Body(((pcl_area - cold_area) * wall_depth + foot * floor_thickness) * volumetric,
+                      open_air._replace(area=foot))  # fmt: skip
+    rim_volume = plate_mass / structure_density - rotor_vanes.area * vane_height - faced_area * rotor_thickness
+    rim = lumps.Body(rim_volume * volumetric,
+                     lumps.Surface(rim_volume / rotor_thickness, rotor_coefficient, surface_emissivity))  # fmt: skip
     outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
-    outside = outside + np.pi * housing_inner_radius**2
-    housing = lumps.Lump(
-        conductance=through,
-        capacity=housing_mass * structure_specific_heat - capacity * facing,
-        surface=lumps.Surface(outside, housing_coefficient, surface_emissivity),
-    )
-    edges = 0.5 * peltier_thickness * (open_sides + 2.0 * narrow_sides)
-    return (first._replace(conductance=lumps.in_series(edges, first.conductance)), *others, housing)
+    outside = outside + np.pi * housing_inner_radius**2 - faced_area - foot
+    rest = housing_mass * structure_specific_heat - wall.capacity - sum(body.capacity for body in floor)
+    return (*floor, wall, rim, lumps.Body(rest, open_air._replace(area=outside)))
+
+
+@quantities.helper()
+def floor_links(
+    faced_area: Scalar,
+    wall_depth: Scalar,
+    floor_thickness: Scalar,
+    pcl_outer_radius: Scalar,
+    pcl_mean_radius: Scalar,
+    block_width: Scalar,
+    vane_count: Scalar,
+    housing_inner_radius: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[lumps.Link, ...]:
+    """Within the floor and out to the housing."""
+    k = structure_conductivity
+    found = []
+    for i in range(2):
+        way = 0.5 * (lumps.STRIP[i] + lumps.STRIP[i + 1]) * floor_thickness
+        found.append(lumps.Link(("around", i), ("around", i + 1), k * faced_area / way))
+    out = 2.0 * np.pi * k * floor_thickness / np.log(housing_inner_radius / pcl_outer_radius)
+    ring = 2.0 * np.pi * pcl_mean_radius * block_width
+    share = faced_area / ring
+    found += [lumps.Link(("around", i), ("around", HOUSING), part * share * out) for i, part in enumerate(lumps.STRIP)]
+    return (*found, lumps.Link(("around", WALL), ("around", HOUSING), (1.0 - share) * out))
+
+
+@quantities.helper()
+def air_links(
+    vane_count: Scalar,
+    block_width: Scalar,
+    block_depth: Scalar,
+    peltier_thickness: Scalar,
+    plate_depth: Scalar,
+    wall_depth: Scalar,
+    running_clearance: Scalar,
+    air_conductivity: Scalar,
+    surface_emissivity: Scalar,
+    floor_thickness: Scalar,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+    ambient_temperature: Scalar,
+) -> tuple[lumps.Link, ...]:
+    """Through the air of the running clearances below and above blocks, pads and vanes."""
+    floor, above = ("around", 0), ("beside", 0)
+    below_face = 0.5 * lumps.STRIP[0] * floor_thickness / structure_conductivity
+    above_face = 0.5 * lumps.STRIP[0] * rotor_thickness / structure_conductivity
+    half = 0.5 * peltier_thickness
+    found = []
+    for place, depth, faces in (
+        (("layer", 0), block_depth, (floor, above)), (("hot", 0), half, (floor, above)),
+        (("cold", 0), half, (floor, above)), (("plate", 0), plate_depth, (floor,)),
+        (("around", WALL), wall_depth, (above,)),
+    ):
+        for face in faces:
+            area = 2.0 * vane_count * block_width * depth
+            gap = lumps.air_gap(area, running_clearance, air_conductivity, surface_emissivity, place, face)
+            behind = (below_face if face == floor else above_face) / area
+            share = 1.0 / (1.0 + behind * lumps.link_conductance(gap, ambient_temperature, ambient_temperature))
+            found.append(gap._replace(conductance=share * gap.conductance, radiating_area=share * gap.radiating_area))
+    return tuple(found)
+
+
+@quantities.helper()
+def side_links(
+    open_sides: Scalar,
+    block_depth: Scalar,
+    peltier_thickness: Scalar,
+    pcl_area: Scalar,
+    cold_area: Scalar,
+    wall_depth: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[lumps.Link, ...]:
+    """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes."""
+    housing = ("around", HOUSING)
+    half = 0.5 * peltier_thickness * open_sides
+    into_wall = 3.0 * structure_conductivity * (pcl_area - cold_area) / wall_depth
+    return (lumps.Link(("layer", 0), housing, open_sides * block_depth), lumps.Link(("hot", 0), housing, half),
+            lumps.Link(("cold", 0), housing, half), lumps.Link(("cold", 0), ("around", WALL), into_wall))  # fmt: skip
 
 
 @quantities.helper()
 def air_gaps(
+    around_pads: tuple[lumps.Body, ...],
+    pcl_outer_radius: Scalar,
     rotor_radius: Scalar,
-    rotor_vanes: Section,
-    vane_height: Scalar,
-    air_conductivity: Scalar,
-    surface_emissivity: Scalar,
-) -> tuple[lumps.Gap, ...]:
-    """Air of the chamber between the rotor plate beside its vanes and the floor."""
-    area = np.pi * rotor_radius**2 - rotor_vanes.area
-    return (lumps.air_gap(area, vane_height, air_conductivity, surface_emissivity, (0, len(lumps.STRIP))),)
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+    ambient_temperature: Scalar,
+) -> tuple[tuple[lumps.Link, Scalar], ...]:
+    """From the rotor plate above the ring out to its rim; and what that loses [W/K]."""
+    out = pcl_outer_radius + (rotor_radius - pcl_outer_radius) / 3.0
+    conductance = 2.0 * np.pi * structure_conductivity * rotor_thickness / np.log(out / pcl_outer_radius)
+    rim = around_pads[RIM].surface
+    onward = rim.area * lumps.surface_coefficient(rim, ambient_temperature, ambient_temperature)
+    return ((lumps.Link(("beside", 2), ("around", RIM), conductance), onward),)
+
+
+@quantities.helper()
+def heat_links(
+    floor_links: tuple[lumps.Link, ...],
+    air_links: tuple[lumps.Link, ...],
+    side_links: tuple[lumps.Link, ...],
+    air_gaps: tuple[tuple[lumps.Link, Scalar], ...],
+) -> tuple[lumps.Link, ...]:
+    """What passes heat between the stack and the bodies beside and around it, and among these."""
+    return (*floor_links, *air_links, *side_links, *(gap for gap, _ in air_gaps))

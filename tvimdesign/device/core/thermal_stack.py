@@ -117,12 +117,11 @@ def stack(
     ambient_temperature: Scalar,
     rotor_cells: float,
     rotor_beside: tuple[lumps.Lump, ...],
+    uneven_sideways: Scalar,
     core_and_link: lumps.Lump,
     sink: lumps.Lump | None,
-    around_pads: tuple[lumps.Lump, ...],
-    free_sides: Scalar,
-    upper_sides: Scalar | None,
-    air_gaps: tuple[lumps.Gap, ...],
+    around_pads: tuple[lumps.Body, ...],
+    heat_links: tuple[lumps.Link, ...],
 ) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
     half = 0.5 * peltier_mass * peltier_specific_heat
@@ -147,11 +146,10 @@ def stack(
         ambient=ambient_temperature,
         plate_cells=int(rotor_cells),
         beside=(*rotor_beside, core_and_link),
+        uneven_conductance=uneven_sideways,
         sink=sink,
         around=around_pads,
-        free_sides=free_sides,
-        upper_sides=upper_sides,
-        gaps=air_gaps,
+        links=heat_links,
     )
 
 

@@ -96,8 +96,7 @@ def behind_pcl(
     ambient_temperature: Scalar,
     rotor_beside: tuple[lumps.Lump, ...],
     core_and_link: lumps.Lump,
-    around_pads: tuple[lumps.Lump, ...],
-    air_gaps: tuple[lumps.Gap, ...],
+    air_gaps: tuple[tuple[lumps.Link, Scalar], ...],
     link_length: Scalar,
     link_half_width: Scalar,
     rotor_coefficient: Scalar,
@@ -109,9 +108,9 @@ def behind_pcl(
     """
     faces = lumps.Surface(4.0 * link_length * link_half_width, rotor_coefficient, surface_emissivity)
     cooled = list(rotor_beside)
-    for gap in air_gaps:
-        below = around_pads[gap.below].surface
-        cooled[gap.above] = lumps.cooled_through(gap, cooled[gap.above], below, ambient_temperature)
+    for gap, below in air_gaps:
+        _, above = gap.first
+        cooled[above] = lumps.cooled_through(gap, cooled[above], below, ambient_temperature)
     return BehindPolymer(pcl_area, plate_depth, structure_conductivity, plate_outside, ambient_temperature,
                          (*cooled, core_and_link._replace(surface=faces)))  # fmt: skip
 
