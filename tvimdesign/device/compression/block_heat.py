@@ -19,7 +19,7 @@ from tvimdesign.physics.layers import film
 
 quantities = QuantityGroup(shared.group)
 
-WALL, RIM, HOUSING = 3, 4, 5
+WALL, RIM, BELOW_VANE, HOUSING = 3, 4, 5, 6
 
 
 @quantities.helper()
@@ -102,6 +102,12 @@ def faced_area(
 
 
 @quantities.helper()
+def vane_share(plate_depth: Scalar, block_depth: Scalar, peltier_thickness: Scalar) -> Scalar:
+    """Share of that area that is the rotor's vanes [1]."""
+    return plate_depth / (plate_depth + block_depth + peltier_thickness)
+
+
+@quantities.helper()
 def rotor_beside(
     faced_area: Scalar,
     rotor_thickness: Scalar,
@@ -161,6 +167,7 @@ def around_pads(
     cold_area: Scalar,
     wall_depth: Scalar,
     faced_area: Scalar,
+    vane_share: Scalar,
     block_width: Scalar,
     vane_count: Scalar,
     plate_mass: Scalar,
@@ -183,8 +190,9 @@ def around_pads(
     below them, the rotor plate beside the ring, the rest of the housing."""
     volumetric = structure_density * structure_specific_heat
     open_air = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
-    floor = [lumps.Body(share * faced_area * floor_thickness * volumetric, lumps.NOWHERE) for share in lumps.STRIP]
-    floor[-1] = floor[-1]._replace(surface=open_air._replace(area=faced_area))
+    heated = (1.0 - vane_share) * faced_area
+    floor = [lumps.Body(share * heated * floor_thickness * volumetric, lumps.NOWHERE) for share in lumps.STRIP]
+    floor[-1] = floor[-1]._replace(surface=open_air._replace(area=heated))
     foot = 2.0 * vane_count * block_width * wall_depth
     wall = lumps.Body(((pcl_area - cold_area) * wall_depth + foot * floor_thickness) * volumetric,
                       open_air._replace(area=foot))  # fmt: skip
@@ -193,13 +201,16 @@ def around_pads(
                      lumps.Surface(rim_volume / rotor_thickness, rotor_coefficient, surface_emissivity))  # fmt: skip
     outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
     outside = outside + np.pi * housing_inner_radius**2 - faced_area - foot
-    rest = housing_mass * structure_specific_heat - wall.capacity - sum(body.capacity for body in floor)
-    return (*floor, wall, rim, lumps.Body(rest, open_air._replace(area=outside)))
+    vane = lumps.Body(vane_share * faced_area * floor_thickness * volumetric,
+                      open_air._replace(area=vane_share * faced_area))  # fmt: skip
+    rest = housing_mass * structure_specific_heat - wall.capacity - sum(body.capacity for body in (*floor, vane))
+    return (*floor, wall, rim, vane, lumps.Body(rest, open_air._replace(area=outside)))
 
 
 @quantities.helper()
 def floor_links(
     faced_area: Scalar,
+    vane_share: Scalar,
     wall_depth: Scalar,
     floor_thickness: Scalar,
     pcl_outer_radius: Scalar,
@@ -211,15 +222,23 @@ def floor_links(
 ) -> tuple[lumps.Link, ...]:
     """Within the floor and out to the housing."""
     k = structure_conductivity
+    heated = (1.0 - vane_share) * faced_area
     found = []
     for i in range(2):
         way = 0.5 * (lumps.STRIP[i] + lumps.STRIP[i + 1]) * floor_thickness
-        found.append(lumps.Link(("around", i), ("around", i + 1), k * faced_area / way))
+        found.append(lumps.Link(("around", i), ("around", i + 1), k * heated / way))
     out = 2.0 * np.pi * k * floor_thickness / np.log(housing_inner_radius / pcl_outer_radius)
     ring = 2.0 * np.pi * pcl_mean_radius * block_width
-    share = faced_area / ring
+    share = heated / ring
+    vane = vane_share * faced_area / ring
     found += [lumps.Link(("around", i), ("around", HOUSING), part * share * out) for i, part in enumerate(lumps.STRIP)]
-    return (*found, lumps.Link(("around", WALL), ("around", HOUSING), (1.0 - share) * out))
+    # Walls through which the floor below blocks meets that below vanes and housing's vanes, a block's depth away.
+    return (
+        *found,
+        lumps.Link(("around", WALL), ("around", HOUSING), (1.0 - share - vane) * out),
+        lumps.Link(("around", BELOW_VANE), ("around", HOUSING), vane * out),
+        *(lumps.Link(("around", i), ("around", BELOW_VANE), 4.0 * vane_count * part * k * floor_thickness * block_width / (heated+vane_share*faced_area) * (2.0*vane_count*block_width)) for i, part in enumerate(lumps.STRIP)),
+    )
 
 
 @quantities.helper()
@@ -246,13 +265,13 @@ def air_links(
     found = []
     for place, depth, faces in (
         (("layer", 0), block_depth, (floor, above)), (("hot", 0), half, (floor, above)),
-        (("cold", 0), half, (floor, above)), (("plate", 0), plate_depth, (floor,)),
+        (("cold", 0), half, (floor, above)), (("plate", 0), plate_depth, (("around", BELOW_VANE),)),
         (("around", WALL), wall_depth, (above,)),
     ):
         for face in faces:
             area = 2.0 * vane_count * block_width * depth
             gap = lumps.air_gap(area, running_clearance, air_conductivity, surface_emissivity, place, face)
-            behind = (below_face if face == floor else above_face) / area
+            behind = {floor: below_face, above: above_face}.get(face, floor_thickness / 3.0 / structure_conductivity) / area
             share = 1.0 / (1.0 + behind * lumps.link_conductance(gap, ambient_temperature, ambient_temperature))
             found.append(gap._replace(conductance=share * gap.conductance, radiating_area=share * gap.radiating_area))
     return tuple(found)
