@@ -16,6 +16,7 @@ from plane import Array, Body, Border, Material, Plane, Polymer, Pump, drawn, li
 
 from tvimdesign.device import Table
 
+
 @dataclass(frozen=True)
 class Case:
     """What a strip is made of and what it meets; SI and degC."""

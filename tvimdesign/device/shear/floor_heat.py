@@ -1,13 +1,14 @@
 """The floor the pads are set in as bodies of one temperature, and what passes heat between it, pads, layer and plate.
 
-Beside the pockets the floor is two strips, as high as the pads and below them, of three bodies each; the ledges the
-pads lie on are a body, and what is left of the housing is one. A body that is heated over a face has its mean
-temperature a third of its depth behind that face, one that heat passes through half of it.
+Beside the pockets the floor is two strips, as high as the pads and below them, of three bodies each; the upper half of
+the upper strip's first body, next to the pads' hot sides, is a body of its own. So are the ledges the pads lie on, and
+what is left of the housing. A body that is heated over a face has its mean temperature a third of its depth behind that
+face (even heating, Incropera, Fundamentals of Heat and Mass Transfer, ch. 3); one that heat passes through, half of it.
 """
 
 from __future__ import annotations
 
-import os
+import itertools
 
 import numpy as np
 
@@ -15,14 +16,13 @@ from tvimdesign.device.core.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link
 
 quantities = QuantityGroup(shared.group)
 
-T = {k: float(os.environ.get(k, v)) for k, v in dict(AIRF=6.0, AIRP=0.0, LEDGE=3.0, TOP=2.0, LOW=3.0, PLATE=3.0, EDGEOFF=1, AIROFF=1, LEDGEOFF=1, PLATEOFF=1, WALL=1).items()}
-STRIP = lumps.STRIP
-N = len(STRIP)
-HALF_HEATED = 0.2714 * float(os.environ.get("HH", 1))
-UPPER, LOWER, LEDGE, CORNER, HOUSING = range(N), range(N, 2 * N), 2 * N, 2 * N + 1, 2 * N + 2
+UPPER, LOWER = (0, 1, 2), (3, 4, 5)
+"""Places of the strips' bodies, from the pockets' walls on."""
+LEDGES, CORNER, HOUSING = 6, 7, 8
 
 
 @quantities.helper()
@@ -50,28 +50,25 @@ def around_pads(
     structure_specific_heat: Scalar,
     housing_coefficient: Scalar,
     surface_emissivity: Scalar,
-) -> tuple[lumps.Body, ...]:
-    """What the pads are set in: floor beside them, upper and lower strip; the ledges below; the rest of the housing."""
+) -> tuple[Body, ...]:
+    """What the pads are set in: upper and lower strip of the floor, ledges, corner, and the rest of the housing."""
     volumetric = structure_density * structure_specific_heat
     open_below = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
-    first = STRIP[0] / 2.0
-    upper = [lumps.Body(share * beside_area * pad_depth * volumetric, lumps.NOWHERE) for share in (first, *STRIP[1:])]
+    areas = [share * beside_area for share in STRIP]
+    corner = Body(0.5 * areas[0] * pad_depth * volumetric, lumps.NOWHERE)
+    upper = [corner, *(Body(area * pad_depth * volumetric, lumps.NOWHERE) for area in areas[1:])]
     lower = [
-        lumps.Body(area * floor_web * volumetric, open_below._replace(area=area))
-        for area in (*(share * beside_area for share in STRIP), pcl_area - cold_area)
+        Body(area * floor_web * volumetric, open_below._replace(area=area)) for area in (*areas, pcl_area - cold_area)
     ]
+    floor = (*upper, *lower, corner)
     outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
     outside = outside + np.pi * (housing_outer_radius**2 - rotor_radius**2)
-    lower.append(upper[0])
-    drawn = sum(body.capacity for body in (*upper, *lower))
-    rest = lumps.Body(housing_mass * structure_specific_heat - drawn, open_below._replace(area=outside))
-    return (*upper, *lower, rest)
+    rest = housing_mass * structure_specific_heat - sum(body.capacity for body in floor)
+    return (*floor, Body(rest, open_below._replace(area=outside)))
 
 
 @quantities.helper()
 def floor_links(
-    pcl_area: Scalar,
-    cold_area: Scalar,
     beside_area: Scalar,
     edge_length: Scalar,
     pad_depth: Scalar,
@@ -79,33 +76,29 @@ def floor_links(
     floor_thickness: Scalar,
     housing_ring: Scalar,
     structure_conductivity: Scalar,
-) -> tuple[lumps.Link, ...]:
-    """What conducts within the floor."""
+) -> tuple[Link, ...]:
+    """What conducts within the floor, along the strips to the housing's wall and from the upper to the lower one."""
+    per_depth = structure_conductivity * edge_length**2 / beside_area
+    ways = [0.5 * (before + after) for before, after in itertools.pairwise(STRIP)]
     found = []
     for row, depth in ((UPPER, pad_depth), (LOWER, floor_web)):
-        across = structure_conductivity * depth * edge_length**2 / beside_area
-        for i in range(N - 1):
-            way = 0.5 * (STRIP[i] + STRIP[i + 1])
-            if row is UPPER and i == 0:
-                found.append(lumps.Link(("around", row[i]), ("around", row[i + 1]), across / way / 2.0))
-                found.append(lumps.Link(("around", CORNER), ("around", row[i + 1]), across / way / 2.0))
-            else:
-                found.append(lumps.Link(("around", row[i]), ("around", row[i + 1]), across / way))
-        to_wall = housing_ring * depth / floor_thickness
-        last = lumps.in_series(across / (0.5 * STRIP[-1]), to_wall)
-        found.append(lumps.Link(("around", row[-1]), ("around", HOUSING), last))
-    way = pad_depth / 2.0 + floor_web / T["LOW"]
-    down = structure_conductivity * STRIP[0] * beside_area / (0.5 * pad_depth)
-    found.append(lumps.Link(("around", CORNER), ("around", UPPER[0]), down))
-    for i, share in enumerate(STRIP):
-        way = pad_depth / (2.0 if i else 4.0) + floor_web / T["LOW"]
-        down = structure_conductivity * share * beside_area / way
-        found.append(lumps.Link(("around", UPPER[i]), ("around", LOWER[i]), down))
-    half_ledge = 0.5 * (pcl_area - cold_area) / edge_length
-    half_first = 0.5 * STRIP[0] * beside_area / edge_length
-    sideways = structure_conductivity * floor_web * edge_length / (half_ledge + half_first)
-    found.append(lumps.Link(("around", LEDGE), ("around", LOWER[0]), T["LEDGEOFF"] * sideways))
+        first, *others = (per_depth * depth / way for way in ways)
+        if row is UPPER:
+            found.append(_link(CORNER, row[1], 0.5 * first))
+            first = 0.5 * first
+        found += [_link(row[i], row[i + 1], along) for i, along in enumerate((first, *others))]
+        to_wall = lumps.in_series(per_depth * depth / (0.5 * STRIP[-1]), housing_ring * depth / floor_thickness)
+        found.append(_link(row[-1], HOUSING, to_wall))
+    down = [structure_conductivity * share * beside_area for share in STRIP]
+    found.append(_link(CORNER, UPPER[0], down[0] / (0.5 * pad_depth)))
+    for i, area in enumerate(down):
+        height = pad_depth if i else 0.5 * pad_depth
+        found.append(_link(UPPER[i], LOWER[i], area / (0.5 * height + floor_web / 3.0)))
     return tuple(found)
+
+
+def _link(first: int, second: int, conductance: Scalar) -> Link:
+    return Link(("around", first), ("around", second), conductance)
 
 
 @quantities.helper()
@@ -118,46 +111,18 @@ def pad_links(
     pad_depth: Scalar,
     floor_web: Scalar,
     structure_conductivity: Scalar,
-) -> tuple[lumps.Link, ...]:
-    """From the pads' edges into the walls of their pockets, and from their cold sides into the ledges."""
-    half_first = 0.5 * STRIP[0] * beside_area / edge_length
-    into = structure_conductivity * edge_length
-    wall = T["EDGEOFF"] * lumps.in_series(pad_edge, into * pad_depth / 2.0 / half_first * T["WALL"])
-    ledge = T["LEDGEOFF"] * T["LEDGE"] * structure_conductivity * (pcl_area - cold_area) / floor_web
-    return (lumps.Link(("hot", 0), ("around", CORNER), wall), lumps.Link(("cold", 0), ("around", UPPER[0]), wall), lumps.Link(("cold", 0), ("around", LEDGE), ledge))
-
-
-@quantities.helper()
-def air_gaps(
-    beside_area: Scalar,
-    pcl_thickness: Scalar,
-    air_conductivity: Scalar,
-    housing_coefficient: Scalar,
-    surface_emissivity: Scalar,
-    ambient_temperature: Scalar,
-    pad_depth: Scalar,
-    floor_thickness: Scalar,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-) -> tuple[tuple[lumps.Link, Scalar], ...]:
-    """Air between plate and floor beside the arcs, as thick as the layer; and what passes heat from there on [W/K].
-
-    Before it lies a third of the plate's depth, behind it half of the upper strip's.
-    """
-    before = (pad_depth / T["TOP"]  + rotor_thickness / T["PLATE"]) / structure_conductivity
-    open_below = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
-    below = lumps.surface_coefficient(open_below, ambient_temperature, ambient_temperature)
-    onward = lumps.in_series(below, structure_conductivity / (floor_thickness - pad_depth / T["TOP"]))
-    found = []
-    for i, share in enumerate(STRIP):
-        area = share * beside_area
-        gap = lumps.air_gap(area, pcl_thickness, air_conductivity, surface_emissivity,
-                            ("beside", i), ("around", UPPER[i] if i else CORNER))  # fmt: skip
-        through = lumps.link_conductance(gap, ambient_temperature, ambient_temperature) * before / area
-        k = T["AIROFF"] / (1.0 + through)
-        gap = gap._replace(conductance=k * gap.conductance, radiating_area=k * gap.radiating_area)
-        found.append((gap, onward * area))
-    return tuple(found)
+) -> tuple[Link, ...]:
+    """From the pads' edges into the walls of their pockets, and by their cold sides through the ledges."""
+    first, ledge = 0.5 * STRIP[0] * beside_area / edge_length, 0.5 * (pcl_area - cold_area) / edge_length
+    wall = lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / first)
+    onto = 3.0 * structure_conductivity * (pcl_area - cold_area) / floor_web
+    onward = structure_conductivity * floor_web * edge_length / (ledge + first)
+    return (
+        Link(("hot", 0), ("around", CORNER), wall),
+        Link(("cold", 0), ("around", UPPER[0]), wall),
+        Link(("cold", 0), ("around", LEDGES), onto),
+        _link(LEDGES, LOWER[0], onward),
+    )
 
 
 @quantities.helper()
@@ -168,29 +133,57 @@ def side_links(
     hot_contact: Scalar,
     air_conductivity: Scalar,
     structure_conductivity: Scalar,
-) -> tuple[lumps.Link, ...]:
+) -> tuple[Link, ...]:
     """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
 
-    The layer's side is as hot as the pads below and falls to the plate's temperature above. In a gap between walls of
-    one temperature each that is a sum of sines; they bring 2/pi (1 + 1/2 + ... + 1/n) to the wall at the hot end and
-    2/pi ln 2 to the other (Carslaw and Jaeger, Conduction of Heat in Solids, sec. 5.2), of which the finest is as fine
-    as the contact that keeps pad and layer apart. Layer, air and wall share the way.
+    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner.
     """
-    finest = np.log(pcl_thickness * hot_contact / pcl_conductivity_melt * T["AIRF"] / np.pi) + 0.5772
-    before = 1.0 / air_conductivity + 1.0 / pcl_conductivity_melt
-    floor = lumps.in_series(2.0 / np.pi * edge_length * finest / before,
-                            1.5 * np.pi * edge_length * structure_conductivity / finest)
-    plate = 2.0 / np.pi * edge_length * np.log(2.0) / before
-    return (lumps.Link(("hot", 0), ("around", CORNER), T["AIROFF"] * floor),
-            lumps.Link(("hot", 0), ("beside", 0), T["AIROFF"] * plate))  # fmt: skip
+    finest = lumps.CORNER * pcl_thickness * hot_contact / (np.pi * pcl_conductivity_melt)
+    near, far = lumps.gap_end(finest)
+    through = edge_length / (1.0 / air_conductivity + 1.0 / pcl_conductivity_melt)
+    corner = structure_conductivity * edge_length * lumps.corner_shape(near)
+    return (
+        Link(("hot", 0), ("around", CORNER), lumps.in_series(near * through, corner)),
+        Link(("hot", 0), ("beside", 0), far * through),
+    )
+
+
+@quantities.helper()
+def plate_losses(
+    beside_area: Scalar,
+    pcl_thickness: Scalar,
+    air_conductivity: Scalar,
+    housing_coefficient: Scalar,
+    surface_emissivity: Scalar,
+    ambient_temperature: Scalar,
+    pad_depth: Scalar,
+    floor_thickness: Scalar,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[lumps.Loss, ...]:
+    """Air between plate and floor beside the arcs, as thick as the layer, and what is below it.
+
+    On the way lie a third of the plate's depth and half of the upper strip's.
+    """
+    faces = (rotor_thickness / 3.0 + 0.5 * pad_depth) / structure_conductivity
+    open_below = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
+    below = lumps.surface_coefficient(open_below, ambient_temperature, ambient_temperature)
+    onward = lumps.in_series(below, structure_conductivity / (floor_thickness - 0.5 * pad_depth))
+    found = []
+    for share, above, floor in zip(STRIP, range(len(STRIP)), (CORNER, *UPPER[1:]), strict=True):
+        area = share * beside_area
+        gap = lumps.air_gap(area, pcl_thickness, air_conductivity, surface_emissivity,
+                            ("beside", above), ("around", floor))  # fmt: skip
+        found.append(lumps.Loss(lumps.behind(gap, area / faces, ambient_temperature), onward * area))
+    return tuple(found)
 
 
 @quantities.helper()
 def heat_links(
-    floor_links: tuple[lumps.Link, ...],
-    pad_links: tuple[lumps.Link, ...],
-    side_links: tuple[lumps.Link, ...],
-    air_gaps: tuple[tuple[lumps.Link, Scalar], ...],
-) -> tuple[lumps.Link, ...]:
+    floor_links: tuple[Link, ...],
+    pad_links: tuple[Link, ...],
+    side_links: tuple[Link, ...],
+    plate_losses: tuple[lumps.Loss, ...],
+) -> tuple[Link, ...]:
     """What passes heat between the stack and the bodies beside and around it, and among these."""
-    return (*floor_links, *pad_links, *side_links, *(gap for gap, _ in air_gaps))
+    return (*floor_links, *pad_links, *side_links, *(loss.link for loss in plate_losses))

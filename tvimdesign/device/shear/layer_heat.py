@@ -1,7 +1,7 @@
 """What the heat passes in the shear module: arcs of the rotor plate behind the layer; plate and floor beside them.
 
-Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area;
-floor and plate beside it are strips that this heats. Two figures of these strips are calibrated (`lumps`).
+Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area.
+The plate beside it is a strip that this heats; the floor is in `floor_heat`. `lumps` has what is calibrated.
 """
 
 from __future__ import annotations
@@ -86,22 +86,19 @@ def rotor_beside(
         sheet * edge_length**2 / beside_area,
         lumps.Surface(1.0, rotor_coefficient, surface_emissivity),
     )
-    import os
-    off = float(os.environ.get("PLATEOFF", 1))
-    return (first._replace(conductance=off * lumps.in_series(sheet * to_edge, first.conductance)), *others)
+    return (first._replace(conductance=lumps.in_series(sheet * to_edge, first.conductance)), *others)
 
 
 @quantities.helper()
 def uneven_sideways(
-    pcl_area: Scalar, edge_length: Scalar, rotor_thickness: Scalar, structure_conductivity: Scalar
+    to_edge: Scalar, edge_length: Scalar, rotor_thickness: Scalar, structure_conductivity: Scalar
 ) -> Scalar:
     """Conductance sideways for what the plate's temperature differs over its depth from its mean [W/K].
 
     Its slowest mode, a cosine over the depth, dies down within that over pi beside the arc.
     """
-    import os
-    way = pcl_area / edge_length * lumps.TO_EDGE + rotor_thickness / np.pi * float(os.environ.get("UNE",1))
-    return structure_conductivity * rotor_thickness * edge_length / way * float(os.environ.get("PLATEOFF", 1))
+    sheet = structure_conductivity * rotor_thickness
+    return lumps.in_series(sheet * to_edge, sheet * edge_length * np.pi / rotor_thickness)
 
 
 @quantities.helper()
@@ -125,5 +122,3 @@ def pad_edge(
         return lumps.in_series(along, pad_edge_contact * spreader_depth * edge_length)
     half = 0.5 * peltier_thickness
     return lumps.in_series(pad_conductivity * half * to_edge, pad_edge_contact * half * edge_length)
-
-

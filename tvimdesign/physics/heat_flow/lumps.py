@@ -16,16 +16,18 @@ STEFAN_BOLTZMANN = 5.670374419e-8  # W/(m^2 K^4), CODATA
 STRIP = (0.1, 0.25, 0.65)
 """Widths of the three bodies a strip that is heated at its edge is divided into, from that edge on, as shares.
 
-Each is several times as wide as the one before, so that the first seconds are seen as well as the rest. Calibrated,
-with `TO_EDGE`, to a strip whose floor had one temperature through its depth; `docs/theory/heat.md` tells how far times
-are off the module as drawn.
+Each is more than twice as wide as the one before, so that the first seconds are seen as well as the rest.
 """
 TO_EDGE = 0.18
 """Way from where a heated strip has its mean temperature to its edge, as a share of its half width; calibrated.
 
 A strip that loses heat at its edge has its mean a third of its half width away once its profile is a parabola; before
-that the loss comes from nearer to the edge.
+that the loss comes from nearer to the edge. Calibrated, with `CORNER`, to times of the shear modules in two dimensions
+(`docs/theory/heat.md`); 0.16 to 0.20 do about as well.
 """
+CORNER = 6.0
+"""How fine the finest sine of `gap_end` is, over the contact's own thickness; calibrated, 5 to 7 do about as well."""
+EULER = 0.5772156649
 
 
 class Surface(NamedTuple):
@@ -100,10 +102,45 @@ def link_heat(link: Link, warm: Any, cool: Any) -> Any:
     return link_conductance(link, warm, cool) * (warm - cool)
 
 
-def cooled_through(link: Link, lump: Lump, below: Any, ambient: Any) -> Lump:
-    """A lump that also loses heat to ambient across a gap and then by `below` [W/K], near ambient temperature."""
-    more = in_series(link_conductance(link, ambient, ambient), below) / lump.surface.area
+class Loss(NamedTuple):
+    """A link by which what is beside the plate loses heat in the end."""
+
+    link: Link
+    """From a body beside the plate."""
+    onward: Any
+    """From the link's other end to the air [W/K]."""
+
+
+def behind(link: Link, conductance: Any, ambient: Any) -> Link:
+    """A link with a `conductance` [W/K] in series, which takes the share it has near ambient temperature."""
+    share = 1.0 / (1.0 + link_conductance(link, ambient, ambient) / conductance)
+    return link._replace(conductance=share * link.conductance, radiating_area=share * link.radiating_area)
+
+
+def cooled_through(loss: Loss, lump: Lump, ambient: Any) -> Lump:
+    """A lump that also loses heat to ambient by a loss that begins at it, as near ambient temperature."""
+    more = in_series(link_conductance(loss.link, ambient, ambient), loss.onward) / lump.surface.area
     return lump._replace(surface=lump.surface._replace(coefficient=lump.surface.coefficient + more))
+
+
+def gap_end(finest: Any) -> tuple[Any, Any]:
+    """Shape factors [1] from the end of a gap to its two walls, heat per length over k and the end's excess.
+
+    The end of a gap between walls of one temperature is warmer than they are by 1 at the one wall, falling evenly to 0
+    at the other. Its series of sines, 2/(n pi) sin(n pi y/t), brings 2/pi (1 + 1/2 + 1/3 + ...) to the first wall and
+    2/pi (1 - 1/2 + 1/3 - ...) = 2/pi ln 2 to the second (by separation of variables, Carslaw and Jaeger, Conduction of
+    Heat in Solids, ch. V). The first sum has no end: it is cut at the `finest` sine, ln n + 0.5772.
+    """
+    return 2.0 / np.pi * (np.log(finest) + EULER), 2.0 / np.pi * np.log(2.0)
+
+
+def corner_shape(shape: Any) -> Any:
+    """Shape factor [1] of a corner of a solid, over its conductivity, that takes heat along one face as `gap_end` does.
+
+    The flux goes as 1/r from the corner on over a range of ln(R/r) = L = pi/2 of the `shape`. What comes in within r
+    passes the quarter circle at r: the flux's mean of the temperature is 2 L/(3 pi k) per heat and length.
+    """
+    return 3.0 / shape
 
 
 def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple[Lump, ...]:
