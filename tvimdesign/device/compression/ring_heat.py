@@ -21,6 +21,11 @@ quantities = QuantityGroup(shared.group)
 FLOOR = (0, 1, 2)
 """Places of the floor's bodies below blocks and pads, from its upper face on."""
 WALLS, RIM, BELOW_VANES, HOUSING = 3, 4, 5, 6
+TO_RIM = 0.1
+"""Way from where a block has its mean temperature to its lower and upper side, as a share of half its height.
+
+Calibrated to times of the compression modules in two dimensions (`docs/theory/heat.md`); 0.05 to 0.15 do about as well.
+"""
 
 
 @quantities.helper()
@@ -128,6 +133,8 @@ def air_links(
     plate_depth: Scalar,
     wall_depth: Scalar,
     running_clearance: Scalar,
+    block_height: Scalar,
+    pcl_conductivity_melt: Scalar,
     air_conductivity: Scalar,
     surface_emissivity: Scalar,
     floor_thickness: Scalar,
@@ -135,7 +142,7 @@ def air_links(
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
 ) -> tuple[Link, ...]:
-    """Through the air of the running clearances below and above blocks, pads and vanes, and half a body behind it."""
+    """Through the air of the running clearances below and above blocks, pads and vanes, with what lies on either side of it."""
     floor, vanes, above = ("around", FLOOR[0]), ("around", BELOW_VANES), ("beside", 0)
     faces = {floor: 0.5 * STRIP[0] * floor_thickness, vanes: floor_thickness / 3.0,
              above: 0.5 * STRIP[0] * rotor_thickness}  # fmt: skip
@@ -151,7 +158,10 @@ def air_links(
         area = ring_width * depth
         for face in faced:
             gap = lumps.air_gap(area, running_clearance, air_conductivity, surface_emissivity, place, face)
-            found.append(lumps.behind(gap, structure_conductivity * area / faces[face], ambient_temperature))
+            walls = structure_conductivity * area / faces[face]
+            if place == ("layer", 0):
+                walls = lumps.in_series(walls, pcl_conductivity_melt * area / (TO_RIM * 0.5 * block_height))
+            found.append(lumps.behind(gap, walls, ambient_temperature))
     return tuple(found)
 
 

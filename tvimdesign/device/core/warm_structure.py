@@ -95,6 +95,7 @@ def behind_pcl(
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
     rotor_beside: tuple[lumps.Lump, ...],
+    uneven_sideways: Scalar,
     core_and_link: lumps.Lump,
     plate_losses: tuple[lumps.Loss, ...],
     link_length: Scalar,
@@ -112,7 +113,7 @@ def behind_pcl(
         _, above = loss.link.first
         cooled[above] = lumps.cooled_through(loss, cooled[above], ambient_temperature)
     return BehindPolymer(pcl_area, plate_depth, structure_conductivity, plate_outside, ambient_temperature,
-                         (*cooled, core_and_link._replace(surface=faces)))  # fmt: skip
+                         (*cooled, core_and_link._replace(surface=faces)), uneven_sideways)  # fmt: skip
 
 
 @quantities.helper(per_point=True)
