@@ -76,7 +76,8 @@ def around_pads(
     floor = (first, second, third._replace(surface=in_air._replace(area=heated)))
     walls = Body((pcl_area - cold_area) * wall_depth * volumetric, lumps.NOWHERE)
     rim_area = (plate_mass / structure_density - rotor_vanes.area * vane_height) / rotor_thickness - faced_area
-    rim = Body(rim_area * rotor_thickness * volumetric, lumps.Surface(rim_area, rotor_coefficient, surface_emissivity))
+    rim_volume = plate_mass / structure_density - pcl_area * plate_depth - faced_area * rotor_thickness
+    rim = Body(rim_volume * volumetric, lumps.Surface(rim_area, rotor_coefficient, surface_emissivity))
     below_vanes = Body(unheated * floor_thickness * volumetric, in_air._replace(area=unheated))
     outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
     outside = outside + np.pi * housing_inner_radius**2 - heated - unheated
@@ -142,7 +143,7 @@ def air_links(
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
 ) -> tuple[Link, ...]:
-    """Through the air of the running clearances below and above blocks, pads and vanes, with what lies on either side of it."""
+    """Through the running clearances below and above blocks, pads and vanes, with what lies on either side of them."""
     floor, vanes, above = ("around", FLOOR[0]), ("around", BELOW_VANES), ("beside", 0)
     faces = {floor: 0.5 * STRIP[0] * floor_thickness, vanes: floor_thickness / 3.0,
              above: 0.5 * STRIP[0] * rotor_thickness}  # fmt: skip
