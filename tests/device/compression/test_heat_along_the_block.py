@@ -63,8 +63,8 @@ def test_twice_the_depth_takes_two_to_four_times_as_long_the_more_the_stronger_t
 
 def test_twice_the_depth_of_a_whole_module_tends_from_flux_to_diffusion_and_hardly_delays_the_soft_film() -> None:
     # Pads and vanes of both sides take heat as well, which does not double: at 1.5 A twice takes less than twice as
-    # long. The deeper it is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the block is. What the
-    # free sides lose grows with the depth and is left out.
+    # long. The deeper it is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the
+    # block is. What the free sides lose grows with the depth and is left out.
     study = read_study(ROOT / "studies" / "paper_compression.yaml")
     lossless = {"air_conductivity": 1e-6, "housing_coefficient": 0.1, "surface_emissivity": 1e-3}
     module = {**resolve(study), **STIFF_WHEN_WARM, **lossless, "horizon": 1e5}
