@@ -26,7 +26,7 @@ BEND_ACROSS, BEND_IN_PLANE = 1.3, (4.0 * 2.0**2 - 2.0 - 1.0) / (4.0 * 2.0 * (2.0
 E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
 LOSS = 0.03 + 0.01  # of PETG and of what is clamped
-SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, FLOOR_SPREAD, FOOT_SPREAD = 0.1, 0.15, 1.16, 1.54, 1.8
+SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, FLOOR_SPREAD, FOOT_SPREAD = 0.1, 0.15, 0.6, 2.7, 1.53
 WALL_LEAST, FEATURE_LEAST, CORNER, POCKET_RATIO = 1.2e-3, 2e-3, 0.2e-3, 50.0
 PIN_RATIO, PIN, CORE, WALL, FLOOR, ROTOR, LINK = 0.5, 4e-3, 10e-3, 3e-3, 4e-3, 4e-3, 4e-3
 RADIAL, AXIAL, RUNNING, RIM, HUB_WALL, FOOT, NOTCH = 1e-3, 1e-3, 0.4e-3, 1.5e-3, 3e-3, 6e-3, 12e-3
@@ -40,6 +40,7 @@ DOWELS, DOWEL, DOWEL_LONG, DOWEL_CIRCLE = 4.0, 2.5e-3, 10e-3, 7e-3
 BY_SCREWS, BY_DOWELS = 4.0 * LINK_PILOT**2 * BOLT_CIRCLE**2 / CORE**4, DOWELS * DOWEL**2 * DOWEL_CIRCLE**2 / CORE**4
 # Layer and pads
 ARCS, INNER, LEDGE, RHO_PCL, K_SOLID, K_MELT = 4.0, 26e-3, 2e-3, 1145.0, 0.225, 0.18
+G_FROZEN = 411e6 / (2.0 * (1.0 + 0.45))  # at 23 degC
 BOND, SHEAR_YIELD, MELT_STRAIN, MELT_FRACTURE = 2e6, 16e6 / math.sqrt(3.0), 6.0, 0.2e6
 PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6
 K_PAD, PAD_EDGE = 6.0, 150.0  # in their plane; into the walls of their pockets [W/m^2 K]
@@ -181,16 +182,23 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     both = min(to_screws, to_dowels)
     free += SHAFT_ENTRY * CORE + both * (BY_SCREWS + BY_DOWELS) / (1.0 - BY_SCREWS - BY_DOWELS)
     free += (to_screws - both) * BY_SCREWS / (1.0 - BY_SCREWS) + (to_dowels - both) * BY_DOWELS / (1.0 - BY_DOWELS)
+    inner, far = INNER + LEDGE, outer - LEDGE
+    opened, cut = span - 2.0 * LEDGE / INNER, 2.0 * (corner(CORNER, far, 1.0) + corner(CORNER, inner, -1.0))
+    windows = ARCS * (0.5 * opened * (far**2 - inner**2) - cut)
+    over = 0.5 * (far - inner) / math.sqrt((t / G_FROZEN + PAD / (3.0 * G_PAD)) * G_PAD * PAD)
+    held = polar - (1.0 - math.tanh(over) / over) * ARCS * (0.25 * opened * (far**4 - inner**4) - cut * middle**2)
+    driven = math.sqrt(ARCS * span / (2.0 * PI))
     hole = 0.5 * MOUNT_HOLE
     sideways = 1.0 / (
         FOOT**3 / (3.0 * PI * E_PETG * (BOSS**4 - hole**4)) + FOOT / (0.9 * PI * G_PETG * (BOSS**2 - hole**2))
     )
     support = 1.0 / (
         2.0 * free / (G_PETG * PI * CORE**4)
-        + (PLATE_ENTRY / CORE**2 - middle**-2) / (4.0 * PI * G_PETG * ROTOR)
+        + ((1.0 + PLATE_ENTRY * (ROTOR / CORE) ** 2) / CORE**2 - INNER**-2) / (4.0 * PI * G_PETG * ROTOR)
+        + (INNER**-2 - middle**-2) / driven / (4.0 * PI * G_PETG * ROTOR)
         + FLOOR_SPREAD * (outer**-2 - r**-2) / (4.0 * PI * G_PETG * FLOOR)
         + FOOT_SPREAD / (SPRINGS * sideways * r**2)
-        + PAD / (G_PAD * polar)
+        + PAD / (G_PAD * held)
     )
     cold, _ = joint(COLD_STORAGE, COLD_LOSS, polar / t, support)
     hot, damped = joint(HOT_STORAGE, HOT_LOSS, polar / t, support)
@@ -198,9 +206,6 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     # masses
     rounded = ARCS * 2.0 * (corner(CORNER, outer, 1.0) + corner(CORNER, INNER, -1.0))
     pads = (area - rounded) * PAD
-    inner, far = INNER + LEDGE, outer - LEDGE
-    windows = 0.5 * (span - 2.0 * LEDGE / INNER) * (far**2 - inner**2)
-    windows = ARCS * (windows - 2.0 * (corner(CORNER, far, 1.0) + corner(CORNER, inner, -1.0)))
     ring = PI * (outside**2 - inside**2)
     notches = SPRINGS * (segment(0.5 * NOTCH, outside) - segment(0.5 * NOTCH, inside))
     feet = SPRINGS * PI * (BOSS**2 - 0.25 * MOUNT_HOLE**2)

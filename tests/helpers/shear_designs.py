@@ -18,7 +18,7 @@ DESIGNS: dict[str, dict[str, float | str]] = {
     "as it is": {},
     "thin": {"pcl_thickness": 0.6e-3, "current": 2.2},
     "thick": {"pcl_thickness": 2e-3, "current": 1.8, "rotor_thickness": 3e-3},
-    "aluminium": {"structure_material": "aluminum_6061_t6", "current": 2.0, "cold_side_coefficient": 60.0},
+    "aluminium": {"structure_material": "aluminum_6061_t6", "current": 3.0, "cold_side_coefficient": 60.0},
     "sink": {"cold_side": "sink", "cooling_current": 0.8},
     "equilibrium": {"phase_model": "equilibrium"},
 }

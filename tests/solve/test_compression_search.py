@@ -31,7 +31,8 @@ vary:
 require:
   spring_stiffness: ">= 5 N.m/rad"
   holding_torque: ">= 5 N.m"
-  peltier_temperature_margin: ">= 0 K"
+  peak_power: "<= 9 W"
+accept: [peltier_temperature_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 solver: {starts: 7, seed: 1}
 """
@@ -52,10 +53,10 @@ def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("row", "most"), [("backlash@cold", "<= 0.000002 rad"), ("relaxation_loss@cold", "<= 0.001")])
+@pytest.mark.parametrize(("row", "most"), [("backlash@cold", "<= 0.000008 rad"), ("relaxation_loss@cold", "<= 0.003")])
 def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most: str) -> None:
     def solved(more: str) -> Solution:
-        text = SMALL.replace("minimize:", f"{more}minimize:").replace("starts: 7", "starts: 2")
+        text = SMALL.replace("accept:", f"{more}accept:").replace("starts: 7", "starts: 2")
         return optimize(read_study_text(text, "test"), lambda _: None)
 
     free, held = solved(""), solved(f'  {row}: "{most}"\n')

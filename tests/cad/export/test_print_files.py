@@ -12,7 +12,7 @@ import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
-from cad_designs import BEARINGS, DRIVEN, SPRUNG_BLOCKS, design_of
+from cad_designs import BEARINGS, DRIVEN, SPRUNG_BLOCKS, TILES, design_of
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.module_parts import MODULES
@@ -79,7 +79,7 @@ def test_a_part_lies_on_the_side_it_is_printed_on() -> None:
 
 
 def test_every_kind_says_how_it_is_come_by() -> None:
-    cases = (("all", BEARINGS | DRIVEN), ("blocks", SPRUNG_BLOCKS, "compression"))
+    cases = (("all", BEARINGS | DRIVEN), ("blocks", SPRUNG_BLOCKS, "compression"), ("tiles", TILES))
     dims = [dimensions(design_of(*case)) for case in cases]
     kinds = {kind for one in dims for kind in MODULES[one.mode].kinds(one)}
     assert kinds == set(PRODUCTION) == set(KINDS)

@@ -147,7 +147,7 @@ def test_the_table_and_the_figure_hold_every_input(tmp_path: Path) -> None:
         shear, compression, of_both = (
             float(row[f"elasticity of {what}"]) for what in ("shear time", "compression time", "ratio")
         )
-        assert of_both == pytest.approx(compression - shear, abs=1e-5)
+        assert of_both == pytest.approx(compression - shear, abs=1.6e-5)  # three numbers, each rounded to 1e-5
         assert row["status"]
         assert row["source"]
     drawn = paper_case.figure_data()

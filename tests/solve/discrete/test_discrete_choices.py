@@ -37,7 +37,7 @@ module: {response_criterion: mean, core_radius: 8 mm, link_dowel: iso_8734_2, ro
          block_height: 11 mm}
 vary:
   wire_diameter: {catalog: metric, from: 2.1 mm, to: 2.6 mm}
-  coil_count: {choose: [6.5, 6.75, 7]}
+  coil_count: {choose: [4, 4.5, 5]}
   vane_count: {from: 5, to: 6}
   coil_diameter: [10 mm, 16 mm]
   pcl_outer_radius: [18 mm, 30 mm]
@@ -48,7 +48,8 @@ vary:
 require:
   spring_stiffness: ">= 5 N.m/rad"
   holding_torque: ">= 5 N.m"
-  peltier_temperature_margin: ">= 0 K"
+  peak_power: "<= 9 W"
+accept: [peltier_temperature_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 solver: {starts: 3, cells: 6, elements: 2}
 """

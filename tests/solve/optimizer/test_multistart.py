@@ -33,7 +33,8 @@ def searches(
     def simulated(_: Any, inputs: np.ndarray) -> Cycle:
         return Cycle({"time": takes(float(inputs[0]))}, {}, {})
 
-    problem = SimpleNamespace(free=(Free("size", LOWER, UPPER, 2.0),), events=("time",), simulated=simulated)
+    free = (Free("size", LOWER, UPPER, 2.0),)
+    problem = SimpleNamespace(free=free, events=("time",), simulated=simulated, blocks=())
     options = SolverOptions(starts=starts, seed=SEED)
     return Multistart(cast(Any, problem), model, cast(Any, None), options, said.append), said
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from support import ROOT
 
+from tvimdesign.device import Input
+from tvimdesign.solve.nlp.problem import Free
+from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -71,24 +75,30 @@ def test_the_best_turn_is_not_left(optimizer: Optimizer) -> None:
     assert not run.start.by_neighbor
 
 
-def test_no_neighbor_is_tried_twice(optimizer: Optimizer, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A start two turns away is led through an optimum that another start was led on from."""
-    runs = [_run_from(optimizer, **WIDE_ARCS, **{**SOFT_SPRINGS, "coil_count": coils}) for coils in (4.36, 5.36)]
-    tried: list[np.ndarray] = []
-    solve = optimizer.solve
+def _ended_at(turns: float) -> Run:
+    """An optimum in the middle of a turn, the worse the further from the third; each turn has one."""
+    start = Start(1, "Solve_Succeeded", True, 5, 1.0 + abs(turns - 3.5), 0.0, {}, {})
+    none = np.zeros(0)
+    return Run(start, np.array([turns]), {}, {}, np.array([turns / 5.0]), none, none, none)
 
-    def watched(*asked: Any, unknowns: np.ndarray, **more: Any) -> Run:
-        tried.append(unknowns[: len(optimizer.free)])
-        return solve(*asked, unknowns=unknowns, **more)
 
-    monkeypatch.setattr(optimizer, "solve", watched)
-    first, led = NeighboringOptima(optimizer).improve(runs)
-    assert first.start.by_neighbor
-    assert led.start.by_neighbor
-    assert led.start.objective == pytest.approx(first.start.objective, rel=1e-6)
-    assert len(tried) >= 2
-    for place, begin in enumerate(tried):
-        assert not any(np.allclose(begin, other, atol=1e-3) for other in tried[:place])
+def test_no_neighbor_is_tried_twice() -> None:
+    """One start ends in the fifth turn and is led to the third; another in the sixth is led to the fifth, and on."""
+    tried: list[float] = []
+
+    def solve(*, unknowns: np.ndarray, **_: Any) -> Run:
+        tried.append(5.0 * float(unknowns[0]))
+        return _ended_at(np.floor(tried[-1]) + 0.5)
+
+    coils = Input(name="coil_count", unit="1", description="", group="", period=1.0)
+    optimizer: Any = SimpleNamespace(
+        free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(quantity=lambda _: coils), solve=solve,
+        model=SimpleNamespace(index={"coil_count": 0}), vector=SimpleNamespace(places_of_currents=list),
+    )  # fmt: skip
+    led = NeighboringOptima(optimizer).improve([_ended_at(5.5), _ended_at(6.5)])
+    assert [run.start.objective for run in led] == [1.0, 1.0]
+    assert all(run.start.by_neighbor for run in led)
+    assert tried == pytest.approx([4.5, 3.5, 2.5, 5.5])
 
 
 def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> None:

@@ -19,7 +19,7 @@ vary:
   wire_diameter: [1.5 mm, 3 mm]
   coil_diameter: [12 mm, 30 mm]
   pcl_outer_radius: [30 mm, 42 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
+  pcl_thickness: [0.5 mm, 2 mm]
   current: [0.5 A, 2 A]
 require:
   spring_stiffness: ">= 5 N.m/rad"

@@ -59,16 +59,18 @@ def _logarithmic(found: OutputSensitivities, resolved: ResolvedModule) -> dict[t
     return {(one.output, one.variable): one.logarithmic for one in entries(found, resolved)}
 
 
-def _simulated(resolved: ResolvedModule, cells: int, name: str, wanted: Sequence[str]) -> dict[str, float]:
+def _simulated(
+    resolved: ResolvedModule, cells: int, name: str, wanted: Sequence[str], share: float = STEP
+) -> dict[str, float]:
     """Exponents of outputs by an input, from two simulations of changed designs."""
     model = DeviceFunctions(resolved.table, resolved.values, resolved.points, cells)
     simulator, ends = fine(model), []
-    for factor in (1.0 - STEP, 1.0 + STEP):
+    for factor in (1.0 - share, 1.0 + share):
         inputs = model.start.copy()
         inputs[model.index[name]] *= factor
         ends.append(model.values(inputs, simulator.run(inputs).values))
     below, above = ends
-    return {one: float(np.log(above[one] / below[one]) / np.log((1.0 + STEP) / (1.0 - STEP))) for one in wanted}
+    return {one: float(np.log(above[one] / below[one]) / np.log((1.0 + share) / (1.0 - share))) for one in wanted}
 
 
 def test_powers_of_textbook_formulae_come_back(found: OutputSensitivities, resolved: ResolvedModule) -> None:
@@ -139,7 +141,8 @@ def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -
     resolved = resolve_study(study)
     elements, cells = FINER * study.solver.elements, study.solver.cells
     by = _logarithmic(output_sensitivities(resolved, elements, cells, ["frozen_time"], [name]), resolved)
-    shown = _simulated(resolved, cells, name, ["frozen_time"])
+    # By the radius 0.4 % is too far: differences go 1.367, 1.305, 1.284, 1.279 as it is halved.
+    shown = _simulated(resolved, cells, name, ["frozen_time"], STEP / 8.0)
     assert by["frozen_time", name] == pytest.approx(shown["frozen_time"], rel=3e-2)
 
 

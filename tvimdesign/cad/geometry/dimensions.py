@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.device import Input, Output, table_for
-from tvimdesign.physics.bodies.shapes import HoleCircle
 from tvimdesign.study.design import Design
 
 _SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
@@ -16,6 +16,8 @@ _SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
 
 HOLES = "_hole_circles"
 """End of the name of a row that lists all round holes of a part, to be drawn as they are."""
+_OF_A_CIRCLE = {"count": 1.0, "radius": 1e3, "circle_radius": 1e3, "azimuth": 1.0}
+"""What such a row says of each circle of holes (a `HoleCircle`), and its scale from SI."""
 
 _MOST = 64
 """Parts of one kind beyond which a design is a mistake."""
@@ -66,7 +68,7 @@ class Dimensions:
         """Round holes that a row of the table lists: of each circle of them that is not empty, radius and places."""
         found = []
         for index in range(round(self._values.get(f"{name}.length", 0.0))):
-            count, radius, circle, azimuth = (getattr(self, f"{name}.{index}.{of}") for of in HoleCircle._fields)
+            count, radius, circle, azimuth = (getattr(self, f"{name}.{index}.{of}") for of in _OF_A_CIRCLE)
             if count and radius:
                 pitch = 2.0 * math.pi / count
                 places = [azimuth + pitch * each for each in range(round(count))]
@@ -87,13 +89,12 @@ def dimensions(design: Design) -> Dimensions:
     return Dimensions(design.mode, lengths)
 
 
-def _circles(name: str, circles: Iterable[HoleCircle]) -> dict[str, float]:
+def _circles(name: str, circles: Iterable[Any]) -> dict[str, float]:
     """Numbers of circles of holes as plain dimensions, so that a part is known by those it reads."""
     numbers: dict[str, float] = {}
     for index, circle in enumerate(circles):
         numbers[f"{name}.length"] = index + 1
-        scaled = circle._replace(radius=1e3 * circle.radius, circle_radius=1e3 * circle.circle_radius)
-        numbers |= {f"{name}.{index}.{of}": value for of, value in scaled._asdict().items()}
+        numbers |= {f"{name}.{index}.{of}": scale * getattr(circle, of) for of, scale in _OF_A_CIRCLE.items()}
     return numbers
 
 

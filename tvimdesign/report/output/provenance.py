@@ -55,12 +55,14 @@ def _of_factor(row: Input, design: Design, table: Table, find_record: FindRecord
 def _of_record(
     choice: str, field: str, row: Input, design: Design, table: Table, find_record: FindRecord
 ) -> Provenance:
-    """As the chosen record has it; as the row says where the record has no such value."""
+    """As the chosen record has it; as the row says where there is no such record any more."""
     chosen = table.quantity(choice)
     assert isinstance(chosen, Choice)
     try:
         record = find_record(chosen.category or "", design.choices[choice])
-        entry = record.entry(field)
     except CatalogError:
         return Provenance("record", row.source)
+    entry = record.entries.get(field)
+    if entry is None:
+        return Provenance("chosen", f"{record.category}/{record.name} has no {field}; such a module needs none")
     return Provenance(entry.status, f"{record.category}/{record.name}: {entry.source}", entry.low, entry.high)

@@ -72,8 +72,8 @@ def ranges() -> dict[str, Entry]:
         needed = model.table.ancestors(case()["event"])
         for row in model.table.inputs:
             if row.record and row.name in needed:
-                entry = model.words[row.record[0]].entry(row.record[1])
-                if entry.low is not None:
+                entry = model.words[row.record[0]].entries.get(row.record[1])  # a pad cut to its arc has no sides
+                if entry is not None and entry.low is not None:
                     entries[row.name] = entry
     return entries
 

@@ -37,7 +37,9 @@ class Steps:
     close: int
     """Steps into which the one with an event is divided again."""
     first: float = 1.0
-    """Length of the first window's steps over the others'; each window after it doubles them."""
+    """Length of the first window's steps over the others'."""
+    growth: float = 2.0
+    """What each window makes the first one's steps longer by, until they are as long as the others."""
     newton: int = 1
     """Newton steps for each phase of the method."""
 
@@ -141,7 +143,7 @@ class PhaseKernel:
                 if event == self.ends:
                     passage.end[:, here], sums[:, here] = found.states, found.sums
             lost |= np.isnan(integrate.state[0])
-            step = step * _GROWTH if integrate.time > _LATE * pace else min(2.0 * step, usual)
+            step = step * _GROWTH if integrate.time > _LATE * pace else min(self.steps.growth * step, usual)
         # A maximum is one even of a phase that never ends, as in the simulator.
         highest = np.maximum(integrate.sums, -np.inf)
         sums = np.where(np.isinf(sums) & self.maxima[:, None], highest, sums) if self.paths else sums
