@@ -125,6 +125,5 @@ def rotor_beside(
 
 
 @quantities.helper()
-def uneven_sideways(rotor_beside: tuple[lumps.Lump, ...]) -> Scalar:
-    """Conductance to the plate above for what a vane's temperature differs over its depth from its mean [W/K]."""
-    return rotor_beside[0].conductance
+def uneven_sideways() -> None:
+    """A vane gives what its temperature differs over its depth from its mean to the plate above as it gives the mean."""

@@ -15,6 +15,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link
+from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
@@ -142,8 +143,12 @@ def air_links(
     rotor_thickness: Scalar,
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
+    pcl_melting: polymer.Melting,
 ) -> tuple[Link, ...]:
-    """Through the running clearances below and above blocks, pads and vanes, with what lies on either side of them."""
+    """Through the running clearances below and above blocks, pads and vanes, with what lies on either side of them.
+
+    Of what passes a clearance a tenth is radiation, which from blocks and vanes is taken as where the PCL is molten.
+    """
     floor, vanes, above = ("around", FLOOR[0]), ("around", BELOW_VANES), ("beside", 0)
     faces = {floor: 0.5 * STRIP[0] * floor_thickness, vanes: floor_thickness / 3.0,
              above: 0.5 * STRIP[0] * rotor_thickness}  # fmt: skip
@@ -162,7 +167,10 @@ def air_links(
             walls = structure_conductivity * area / faces[face]
             if place == ("layer", 0):
                 walls = lumps.in_series(walls, pcl_conductivity_melt * area / (TO_RIM * 0.5 * block_height))
-            found.append(lumps.behind(gap, walls, ambient_temperature))
+            through = lumps.behind(gap, walls, ambient_temperature)
+            if place[0] in ("layer", "plate"):
+                through = lumps.straightened(through, pcl_melting.end, ambient_temperature)
+            found.append(through)
     return tuple(found)
 
 

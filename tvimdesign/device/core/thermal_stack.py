@@ -117,7 +117,7 @@ def stack(
     ambient_temperature: Scalar,
     rotor_cells: float,
     rotor_beside: tuple[lumps.Lump, ...],
-    uneven_sideways: Scalar,
+    uneven_sideways: Scalar | None,
     core_and_link: lumps.Lump,
     sink: lumps.Lump | None,
     around_pads: tuple[lumps.Body, ...],

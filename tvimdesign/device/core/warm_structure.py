@@ -95,7 +95,7 @@ def behind_pcl(
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
     rotor_beside: tuple[lumps.Lump, ...],
-    uneven_sideways: Scalar,
+    uneven_sideways: Scalar | None,
     core_and_link: lumps.Lump,
     plate_losses: tuple[lumps.Loss, ...],
     link_length: Scalar,

@@ -64,8 +64,9 @@ class Stack(NamedTuple):
     plate_cells: int
     beside: tuple[Lump, ...] = ()
     """What the plate belongs to: the first takes heat from all the plate's cells, each next from the one before."""
-    uneven_conductance: Any = 0.0
-    """Conductance [W/K] sideways for what the plate's temperature differs over its depth from its mean."""
+    uneven_conductance: Any = None
+    """Conductance [W/K] sideways for what the plate's temperature differs over its depth from its mean; as for the mean
+    where not given."""
     sink: Lump | None = None
     """A body between the cold side and the air."""
     around: tuple[Body, ...] = ()
@@ -265,19 +266,29 @@ def _cold_end(now: Profile, stack: Stack) -> tuple[Any, Any]:
 
 
 def _linked(now: Profile, stack: Stack) -> dict[str, list[Any]]:
-    """Heat [W] that links bring to each place of the column and each body."""
+    """Heat [W] that links bring to each place of the column and each body; to each cell of layer and plate.
+
+    A link of layer or plate takes from each cell in turn as much as that is warmer than the link's other end, and
+    radiates as from their mean temperature.
+    """
+    divided = {"layer": now.cells, "plate": now.plate}
     places = {
-        "cold": [now.cold], "hot": [now.hot], "layer": [now.cells], "plate": [now.plate],
+        "cold": [now.cold], "hot": [now.hot], "layer": [np.mean(now.cells)], "plate": [np.mean(now.plate)],
         "beside": now.beside, "around": now.around,
     }  # fmt: skip
-    cells = {"layer": len(now.cells), "plate": stack.plate_cells}
-    found: dict[str, list[Any]] = {group: [0.0] * len(stack_at) for group, stack_at in places.items()}
+    found: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in places.items()}
+    taking: dict[str, Any] = dict.fromkeys(divided, 0.0)
     for link in stack.links:
-        (first, i), (second, j) = link.first, link.second
-        share = cells.get(first, 1) * cells.get(second, 1)
-        passed = lumps.link_heat(link, places[first][i], places[second][j]) / share
-        for (group, k), sign in ((link.first, -1.0), (link.second, 1.0)):
-            found[group][k] = found[group][k] + sign * (passed if group in cells else np.sum(passed))
+        ends = [places[group][i] for group, i in (link.first, link.second)]
+        conductance = lumps.link_conductance(link, *ends)
+        for (group, i), own, other in ((link.first, *ends), (link.second, *reversed(ends))):
+            if group in divided:
+                found[group][0] = found[group][0] + conductance * other
+                taking[group] = taking[group] + conductance
+            else:
+                found[group][i] = found[group][i] + conductance * (other - own)
+    for group, cells in divided.items():
+        found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
     return found
 
 
@@ -285,8 +296,11 @@ def _sideways(now: Profile, stack: Stack) -> Any:
     """Heat [W] each plate cell gives to the first lump beside the plate."""
     if not stack.beside:
         return 0.0
+    sideways = stack.beside[0].conductance
+    if stack.uneven_conductance is None:
+        return sideways / stack.plate_cells * (now.plate - now.beside[0])
     mean = np.mean(now.plate)
-    even = stack.beside[0].conductance * (mean - now.beside[0])
+    even = sideways * (mean - now.beside[0])
     return (even + stack.uneven_conductance * (now.plate - mean)) / stack.plate_cells
 
 

@@ -117,6 +117,11 @@ def behind(link: Link, conductance: Any, ambient: Any) -> Link:
     return link._replace(conductance=share * link.conductance, radiating_area=share * link.radiating_area)
 
 
+def straightened(link: Link, warm: Any, cool: Any) -> Link:
+    """A link that radiates as it does between these two temperatures [K] at all others as well."""
+    return link._replace(conductance=link_conductance(link, warm, cool), radiating_area=0.0)
+
+
 def cooled_through(loss: Loss, lump: Lump, ambient: Any) -> Lump:
     """A lump that also loses heat to ambient by a loss that begins at it, as near ambient temperature."""
     more = in_series(link_conductance(loss.link, ambient, ambient), loss.onward) / lump.surface.area
