@@ -136,7 +136,9 @@ class AnotherStack:
         ledge = (self.area - self.window) / edge
         join(LEDGES, LOWER[0], k * web * edge / (0.5 * (ledge + widths[0])))
         side = 0.5 * pad * edge
-        wall = way / (v("pad_conductivity") * side) + 1.0 / (v("pad_edge_contact") * side) + 0.5 * widths[0] / (k * side)
+        wall = (
+            way / (v("pad_conductivity") * side) + 1.0 / (v("pad_edge_contact") * side) + 0.5 * widths[0] / (k * side)
+        )
         self.from_cold, self.from_hot = np.zeros(9), np.zeros(9)
         self.from_cold[UPPER[0]] = self.from_hot[CORNER] = 1.0 / wall
         self.from_cold[LEDGES] = k * ledge * edge / (web / 3.0)

@@ -81,6 +81,7 @@ class Switch(NamedTuple):
     """Temperature of the polymer [degC]."""
     far: Array
     """Of its face away from the pads."""
+
     def of(self, name: str) -> Array:
         """The temperature a time is judged by [degC]."""
         return self.far if name == "far_face_time" else self.mean
