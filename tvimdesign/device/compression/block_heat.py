@@ -126,4 +126,4 @@ def rotor_beside(
 
 @quantities.helper()
 def uneven_sideways() -> None:
-    """A vane gives what its temperature differs over its depth from its mean to the plate above as it gives the mean."""
+    """A vane's cells give heat to the plate above by one conductance, their mean and what they differ from it."""
