@@ -1,6 +1,6 @@
 """The product's times against two dimensions for random designs, which no figure of the product was calibrated with.
 
-    python validation/heat_sector/fresh.py
+    PYTHONPATH=benchmarks python validation/heat_sector/fresh.py
 
 draws designs that keep all rules within the ranges of studies, seeded, heats those that soften within the simulation's
 horizon by the product and in the plane, and writes `fresh.csv`.
@@ -9,12 +9,8 @@ horizon by the product and in the plane, and writes `fresh.csv`.
 from __future__ import annotations
 
 import csv
-import sys
 from collections.abc import Iterator
 from pathlib import Path
-
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parents[1] / "benchmarks"))
 
 from compare import HEADER, STUDIES, model_of, product_times, rows_of
 from random_designs import Draws, Tally
@@ -22,7 +18,7 @@ from random_designs import Draws, Tally
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import read_study
 
-RESULTS = HERE / "fresh.csv"
+RESULTS = Path(__file__).with_name("fresh.csv")
 SEED = 2026
 COUNTS = {"paper_shear": 4, "wrist_joint": 4, "wrist_compression": 4, "compare_compression": 4}
 """How many designs of each study's ranges."""

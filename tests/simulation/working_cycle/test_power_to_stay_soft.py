@@ -1,4 +1,4 @@
-"""Current to stay soft against two dimensions: a plane heated by it for days, which shares no equation with the product.
+"""Current to stay soft against two dimensions: a plane heated by it for days, with equations of its own.
 
 An independent reading of the modules, which counted the gap but neither ledges nor what leaves the layer's free side,
 with a floor at ambient temperature, had 3.7 W and 5.0 W for these two; `docs/theory/heat.md` says what becomes of that.
