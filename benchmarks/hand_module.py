@@ -45,7 +45,7 @@ BOND, SHEAR_YIELD, MELT_STRAIN, MELT_FRACTURE = 2e6, 16e6 / math.sqrt(3.0), 6.0,
 PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6
 K_PAD, PAD_EDGE = 6.0, 150.0  # in their plane; into the walls of their pockets [W/m^2 K]
 # Strips beside the arcs, in three bodies each, and the air between them
-STRIP, TO_EDGE, K_AIR, EMISSIVITY = (0.05, 0.22, 0.73), 0.22, 0.028, 0.9
+STRIP, TO_EDGE, FINEST, K_AIR, EMISSIVITY = (0.1, 0.25, 0.65), 0.18, 6.0, 0.028, 0.9
 # Enthalpy of PCL: melts between 50 and 65 degC
 C_SOLID, C_MELT, LATENT, MELTS, MOLTEN, ROUNDING = 1850.0, 2100.0, 76750.0, 323.15, 338.15, 1000.0
 H_MELTS = C_SOLID * (MELTS - 273.15)
@@ -82,7 +82,7 @@ def _moduli(kelvin: float) -> tuple[float, float]:
 
 (COLD_STORAGE, COLD_LOSS), (HOT_STORAGE, HOT_LOSS) = _moduli(303.15), _moduli(373.15)
 
-OUTPUTS, RESIDUALS, HEAT = 3, 41, 37
+OUTPUTS, RESIDUALS, HEAT = 3, 41, 59
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
 and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
 switch.
@@ -119,6 +119,49 @@ def gerber(per_angle: float, strength: float) -> float:
     amplitude = per_angle * STROKE / (half / (1.0 - (half / strength) ** 2))
     mean = per_angle * PRELOAD / strength
     return 2.0 / (amplitude + math.sqrt(amplitude**2 + 4.0 * mean**2))
+
+
+@njit(cache=True)
+def beside(area: float, windows: float, rotor: float, inside: float, t: float, edge: float, heat: Array) -> None:
+    """Bodies beside the plate and around the pads, what joins them, and what pads and plate give them."""
+    rest, web, per_volume = PI * rotor**2 - area, FLOOR - PAD, RHO_PETG * C_PETG
+    way, ledge = TO_EDGE * area / edge, area - windows
+    own = np.array([share * rest / edge for share in STRIP])
+    between = 0.5 * (own[:-1] + own[1:])
+    half = 0.5 * own[0]
+    # heat capacities and surfaces, in the order of hand_chain
+    for i in range(3):
+        heat[6 + i], heat[19 + i] = own[i] * edge * ROTOR * per_volume, own[i] * edge
+        heat[10 + i], heat[23 + i] = own[i] * edge * PAD * per_volume * (1.0 if i else 0.5), 0.0
+        heat[13 + i], heat[26 + i] = own[i] * edge * web * per_volume, own[i] * edge
+    heat[16], heat[29], heat[17], heat[30] = ledge * web * per_volume, ledge, heat[10], 0.0
+    # plate to its edge, and what differs over its depth from its mean; pads into the floor
+    sheet = K_PETG * ROTOR * edge
+    heat[32], heat[33] = sheet / (way + half), sheet / (way + ROTOR / PI)
+    side = 0.5 * PAD * edge
+    pads = 1.0 / (way / (K_PAD * side) + 1.0 / (PAD_EDGE * side) + half / (K_PETG * side))
+    finest = FINEST * t * 1e4 / (PI * K_MELT)
+    down, through = 2.0 / PI * (math.log(finest) + 0.5772156649), edge / (1.0 / K_AIR + 1.0 / K_MELT)
+    heat[34] = pads + 1.0 / (1.0 / (down * through) + down / (3.0 * K_PETG * edge))
+    heat[35], heat[36] = pads, 3.0 * K_PETG * ledge / web
+    heat[37] = 2.0 / PI * math.log(2.0) * through
+    # links: along the plate, along the floor and down into it, ledges, the gap
+    heat[38], heat[39] = sheet / between[0], sheet / between[1]
+    ring = math.log(inside / rotor) / (2.0 * PI * K_PETG)
+    upper, lower = K_PETG * PAD * edge, K_PETG * web * edge
+    heat[41] = heat[42] = 0.5 * upper / between[0]
+    heat[43], heat[44] = upper / between[1], 1.0 / (0.5 * own[2] / upper + ring / PAD)
+    heat[45], heat[46] = lower / between[0], lower / between[1]
+    heat[47] = 1.0 / (0.5 * own[2] / lower + ring / web)
+    heat[48] = K_PETG * own[0] * edge / (0.5 * PAD)
+    for i in range(3):
+        heat[49 + i] = K_PETG * own[i] * edge / ((0.5 if i else 0.25) * PAD + web / 3.0)
+    heat[52] = lower / (0.5 * ledge / edge + half)
+    grey = EMISSIVITY / (2.0 - EMISSIVITY)
+    walls = (ROTOR / 3.0 + 0.5 * PAD) / K_PETG
+    share = 1.0 / (1.0 + walls * (K_AIR / t + 4.0 * grey * 5.670374419e-8 * 295.15**3))
+    for i in range(3):
+        heat[53 + i], heat[56 + i] = share * K_AIR / t * own[i] * edge, share * grey * own[i] * edge
 
 
 @njit(cache=True)
@@ -249,7 +292,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     # gaps
     far_pin = math.sqrt(pin_at**2 + r**2 - 2.0 * pin_at * r * math.cos(STROKE))
     along = PI - math.atan2(pin_at * math.sin(STROKE), r - pin_at * math.cos(STROKE)) + math.asin(offset / far_pin)
-    beside, ahead = r * math.sin(along) + 0.5 * coil, max(-r * math.cos(along) - leg, 0.0)
+    off_axis, ahead = r * math.sin(along) + 0.5 * coil, max(-r * math.cos(along) - leg, 0.0)
     rows[0], rows[1], rows[2] = volume, mass, 0.0
     g = rows[OUTPUTS:]
     g[0], g[1] = 1.0 - stiffness / 5.2, stiffness / 5.8 - 1.0
@@ -270,7 +313,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[19] = -(r - reach - rotor - RADIAL) / 0.01
     g[20] = -(end - 0.5 * d - plate_top - AXIAL) / 0.01
     g[21] = -(rotor - pin_at - 0.5 * PIN - RADIAL) / 0.01
-    g[22] = -(math.sqrt(beside**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
+    g[22] = -(math.sqrt(off_axis**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
     g[23] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
     g[24] = 1.0 - (r - pin_at - offset) / 1e-3
     g[25] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
@@ -289,24 +332,12 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[38] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
     g[39] = -(t + FLOOR - WALL_LEAST) / 0.01
     g[40] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
-    # what the switch needs: current, area, layer, pads, windows; beside the plate and around the pads four bodies each
-    beside_area = PI * rotor**2 - area
-    edge = ARCS * (2.0 * (outer - INNER) + span * (INNER + outer))
-    to_edge = edge**2 / (TO_EDGE * area)
+    # what the switch needs: current, area, layer, pads, windows; thirteen bodies, edges, links
     heat[0], heat[1], heat[2], heat[3] = x[7], area, t, area / PAD_AREA
     heat[4], heat[5] = 0.5 * PAD_MASS / (PAD_AREA * PAD) * pads * C_PAD, windows
-    before, floor_heat = 0.0, 0.0
-    for i in range(3):
-        part, way = STRIP[i] * beside_area, 2.0 * K_PETG * edge**2 / beside_area / (before + STRIP[i])
-        heat[6 + i], heat[10 + i], heat[14 + i] = way * ROTOR, part * ROTOR * RHO_PETG * C_PETG, part
-        heat[18 + i], heat[22 + i], heat[26 + i] = way * FLOOR, part * FLOOR * RHO_PETG * C_PETG, part
-        heat[31 + i], heat[34 + i] = K_AIR * part / t, part * EMISSIVITY / (2.0 - EMISSIVITY)
-        before, floor_heat = STRIP[i], floor_heat + heat[22 + i]
-    heat[6] = 1.0 / (1.0 / (K_PETG * ROTOR * to_edge) + 1.0 / heat[6])
-    heat[9] = 2.0 * PI * K_PETG * ROTOR / math.log(INNER / CORE)
-    heat[13], heat[17] = RHO_PETG * (turning - plate + link + retainer) * C_PETG, 0.0
-    heat[18] = 1.0 / (1.0 / heat[18] + 2.0 / (K_PAD * PAD * to_edge) + 2.0 / (PAD_EDGE * PAD * edge))
-    heat[21] = 2.0 * PI * K_PETG * FLOOR / math.log(inside / rotor)
-    heat[25] = RHO_PETG * housing * C_PETG - floor_heat
-    heat[29] = 2.0 * PI * outside * (pin_top + FLOOR + FOOT) + PI * (outside**2 - rotor**2)
-    heat[30] = 1.0 / (1.0 / (K_MELT * t * to_edge) + LEDGE / (K_AIR * t * edge))
+    tall = 2.0 * PI * outside * (pin_top + FLOOR + FOOT)
+    beside(area, windows, rotor, inside, t, ARCS * (2.0 * (outer - INNER) + span * (INNER + outer)), heat)
+    heat[9], heat[22] = RHO_PETG * (turning - plate + link + retainer) * C_PETG, 0.0
+    heat[40] = 2.0 * PI * K_PETG * ROTOR / math.log(INNER / CORE)
+    heat[18] = RHO_PETG * housing * C_PETG - np.sum(heat[10:18])
+    heat[31] = tall + PI * (outside**2 - rotor**2)

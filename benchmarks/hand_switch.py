@@ -4,8 +4,7 @@ Beside the plate and around the pads stand bodies that take heat, with air betwe
 Newton. Sensitivities to the variables go along, each step's by the factors its Newton
 ended with. The last step is as long as the far face needs to be at 100 degC, so that the time is smooth in the design.
 
-States in kelvin and J/kg: cold side, hot side, cells of the layer, cells of the plate, the plate beside the arcs in
-three bodies, core and link, the floor beside the pads in three bodies, the rest of the housing.
+States in kelvin and J/kg, in the order of `hand_chain`; the last is the mean of the plate, which takes no step.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from hand_chain import AROUND, CELLS, CHAIN, PLATE, ROWS, STATES, factor, solve
+from hand_chain import BODIES, CELLS, CHAIN, PLATE, ROWS, STATES, TOUCH, factor, solve
 from hand_module import (
     C_MELT,
     C_PETG,
@@ -35,6 +34,17 @@ from hand_module import (
 from numba import njit
 
 FREE = 8
+COLD_WALL, LEDGE, CORNER = 4, 10, 11
+"""Places among the bodies: beside the cold sides, below them, beside the hot sides."""
+JOINED = np.array([
+    (0, 1), (1, 2), (2, 3), (11, 5), (4, 5), (5, 6), (6, 12), (7, 8), (8, 9), (9, 12), (11, 4), (4, 7), (5, 8), (6, 9),
+    (10, 7), (0, 11), (1, 5), (2, 6),
+])  # fmt: skip
+"""Bodies that conduct to one another; the last three pairs radiate as well."""
+LINKS = len(JOINED)
+CAPACITIES, SURFACES, EDGES, CONDUCTS = 6, 6 + BODIES, 6 + 2 * BODIES, 12 + 2 * BODIES
+"""Where the switch's numbers have the bodies' heat capacities and surfaces; plate to its edge, and what differs from
+its mean; hot sides to the corner, cold ones to the wall and to the ledges, hot ones to the plate's edge; the links."""
 SEEBECK, RESISTANCE, CONDUCTANCE = 0.025, 3.0, 0.12
 AMBIENT, TARGET, CONTACT = 295.15, 373.15, 1e4
 OPEN_AIR, PARTS_AIR, BLACK = 10.0, 5.0, 5.670374419e-8
@@ -118,95 +128,94 @@ def loss(kelvin: float, air: float) -> tuple[float, float]:
 def rates(y: Array, q: Array, p: Array, f: Array) -> float:
     """Rates of all states; returns the temperature that the far face is below its last cell [K]."""
     current, area, thick, scale, capacity, windows = q[0], q[1], q[2], q[3], q[4], q[5]
-    warm, bodies, beside, around = p[0], f[CHAIN:], y[CHAIN:], y[CHAIN + AROUND :]
+    warm, gain, bodies = p[0], f[CHAIN:], y[CHAIN:]
+    to_edge, uneven, to_corner, to_side, to_ledge, up = q[EDGES : EDGES + 6]
     joule, carried = 0.5 * current**2 * RESISTANCE * scale, SEEBECK * current * scale
     through = CONDUCTANCE * scale * (warm[1] - warm[0])
     lost, _ = loss(warm[0], OPEN_AIR)
-    edges = q[18] * (warm[0] - around[0]), q[18] * (warm[1] - around[0])
-    f[0] = -(carried * warm[0] - joule - through + windows * lost + edges[0]) / capacity
+    gain[:] = 0.0
+    gain[COLD_WALL], gain[LEDGE] = to_side * (warm[0] - bodies[COLD_WALL]), to_ledge * (warm[0] - bodies[LEDGE])
+    gain[CORNER], gain[0] = to_corner * (warm[1] - bodies[CORNER]), up * (warm[1] - bodies[0])
+    f[0] = -(carried * warm[0] - joule - through + windows * lost + gain[COLD_WALL] + gain[LEDGE]) / capacity
     half, contact = 0.5 * thick / CELLS / area, 1.0 / (CONTACT * area)
     flow, _, _, _ = to_wall(2, warm[1], half, contact, p)
     flow = -flow
-    f[1] = (carried * warm[1] + joule - through - flow - edges[1]) / capacity
-    mass, into_floor = RHO_PCL * area * thick / CELLS, edges[0] + edges[1]
+    f[1] = (carried * warm[1] + joule - through - flow - gain[CORNER] - gain[0]) / capacity
+    mass = RHO_PCL * area * thick / CELLS
     first, plate = 2 + CELLS, WITHIN / area
     across, _, _, within = to_wall(first - 1, warm[first], half, contact + plate, p)
     for i in range(2, first):
         on = 0.5 * (p[4, i] - p[4, i + 1]) / half if i + 1 < first else across
-        side = q[30] / CELLS * (warm[i] - around[0])
-        f[i] = (flow - on - side) / mass
-        into_floor += side
+        f[i] = (flow - on) / mass
         flow = on
-    heat, taken = RHO_PETG * C_PETG * area * ROTOR / PLATE, 0.0
+    heat, mean = RHO_PETG * C_PETG * area * ROTOR / PLATE, np.mean(warm[first:CHAIN])
     for i in range(first, CHAIN):
         if i + 1 < CHAIN:
             on = (warm[i] - warm[i + 1]) / (2.0 * plate)
         else:
             grey = RADIATION * (warm[i] ** 2 + AMBIENT**2) * (warm[i] + AMBIENT)
             on = (warm[i] - AMBIENT) / (plate + 1.0 / ((PARTS_AIR + grey) * area))
-        side = q[6] / PLATE * (warm[i] - beside[0])
+        side = (to_edge * (mean - bodies[0]) + uneven * (warm[i] - mean)) / PLATE
         f[i] = (flow - on - side) / heat
-        taken += side
+        gain[0] += side
         flow = on
-    for start, came in ((0, taken), (AROUND, into_floor)):
-        inflow = came
-        for i in range(4):
-            body, n = beside[start + i], (6 if start == 0 else 18) + i
-            on = q[n + 1] * (body - beside[start + i + 1]) if i < 3 else 0.0
-            lost, _ = loss(body, PARTS_AIR)
-            bodies[start + i] = inflow - on - q[n + 8] * lost
-            inflow = on
-    for i in range(3):
-        up, down = beside[i], around[i]
-        heat = (q[31 + i] + q[34 + i] * BLACK * (up**2 + down**2) * (up + down)) * (up - down)
-        bodies[i] -= heat
-        bodies[AROUND + i] += heat
-    for i in range(4):
-        bodies[i] /= q[10 + i]
-        bodies[AROUND + i] /= q[22 + i]
+    for n in range(LINKS):
+        a, b = JOINED[n]
+        one, other = bodies[a], bodies[b]
+        passed = q[CONDUCTS + n] * (one - other)
+        if n >= LINKS - 3:
+            passed += q[CONDUCTS + n + 3] * BLACK * (one**4 - other**4)
+        gain[a] -= passed
+        gain[b] += passed
+    for k in range(BODIES):
+        lost, _ = loss(bodies[k], PARTS_AIR)
+        gain[k] = (gain[k] - q[SURFACES + k] * lost) / q[CAPACITIES + k]
     return across * within
 
 
 @njit(cache=True)
-def of_bodies(y: Array, q: Array, among: Array) -> None:
-    """Slopes of the bodies' rates by the bodies' temperatures."""
-    beside, around = y[CHAIN:], y[CHAIN + AROUND :]
-    among[0, 0], among[AROUND, AROUND] = -q[6], -2.0 * q[18] - q[30]
-    for start in (0, AROUND):
-        for i in range(4):
-            k, n = start + i, (6 if start == 0 else 18) + i
-            _, steep = loss(beside[k], PARTS_AIR)
-            among[k, k] -= q[n + 8] * steep
-            if i < 3:
-                among[k, k] -= q[n + 1]
-                among[k + 1, k + 1] -= q[n + 1]
-                among[k, k + 1] += q[n + 1]
-                among[k + 1, k] += q[n + 1]
-    for i in range(3):
-        by_up = q[31 + i] + 4.0 * q[34 + i] * BLACK * beside[i] ** 3
-        by_down = q[31 + i] + 4.0 * q[34 + i] * BLACK * around[i] ** 3
-        among[i, i] -= by_up
-        among[i, AROUND + i] += by_down
-        among[AROUND + i, i] += by_up
-        among[AROUND + i, AROUND + i] -= by_down
-    for i in range(4):
-        among[i] /= q[10 + i]
-        among[AROUND + i] /= q[22 + i]
+def of_bodies(bodies: Array, q: Array, among: Array) -> None:
+    """Slopes of the bodies' rates by the bodies' temperatures and the plate's mean."""
+    to_edge, _, to_corner, to_side, to_ledge, up = q[EDGES : EDGES + 6]
+    among[0, 0], among[0, BODIES] = -to_edge - up, to_edge
+    among[COLD_WALL, COLD_WALL], among[LEDGE, LEDGE], among[CORNER, CORNER] = -to_side, -to_ledge, -to_corner
+    for n in range(LINKS):
+        a, b = JOINED[n]
+        by_one, by_other = q[CONDUCTS + n], q[CONDUCTS + n]
+        if n >= LINKS - 3:
+            by_one += 4.0 * q[CONDUCTS + n + 3] * BLACK * bodies[a] ** 3
+            by_other += 4.0 * q[CONDUCTS + n + 3] * BLACK * bodies[b] ** 3
+        among[a, a] -= by_one
+        among[a, b] += by_other
+        among[b, a] += by_one
+        among[b, b] -= by_other
+    for k in range(BODIES):
+        _, steep = loss(bodies[k], PARTS_AIR)
+        among[k, k] -= q[SURFACES + k] * steep
+        among[k] /= q[CAPACITIES + k]
 
 
 @njit(cache=True)
 def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     """Slopes of the rates, in rows as `hand_chain.ROWS` says."""
     current, area, thick, scale, capacity, windows = q[0], q[1], q[2], q[3], q[4], q[5]
+    to_edge, uneven, to_corner, to_side, to_ledge, up = q[EDGES : EDGES + 6]
     warm = p[0]
     carried, through = SEEBECK * current * scale, CONDUCTANCE * scale
     _, steep = loss(warm[0], OPEN_AIR)
     a[:] = 0.0
-    a[1, 0] = -(carried + through + windows * steep + q[18]) / capacity
+    had, given = a[3 : 3 + TOUCH], a[3 + TOUCH : 3 + 2 * TOUCH]
+    a[1, 0] = -(carried + through + windows * steep + to_side + to_ledge) / capacity
     a[2, 0] = through / capacity
     a[0, 1] = through / capacity
-    a[1, 1] = (carried - through - q[18]) / capacity
-    a[5, :2], a[6, :2] = q[18] / capacity, q[18] / q[22]
+    a[1, 1] = (carried - through - to_corner - up) / capacity
+    had[0, 1], had[1, 0], had[2, 0], had[3, 1] = up, to_side, to_ledge, to_corner
+    given[:, :2] = had[:, :2]
+    had[:, :2] /= capacity
+    given[0] /= q[CAPACITIES]
+    given[1] /= q[CAPACITIES + COLD_WALL]
+    given[2] /= q[CAPACITIES + LEDGE]
+    given[3] /= q[CAPACITIES + CORNER]
     half, contact, mass = 0.5 * thick / CELLS / area, 1.0 / (CONTACT * area), RHO_PCL * area * thick / CELLS
     first, plate, heat = 2 + CELLS, WITHIN / area, RHO_PETG * C_PETG * area * ROTOR / PLATE
     for i in range(1, CHAIN - 1):
@@ -225,19 +234,16 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
         a[2, i] -= from_there / one
         a[0, i + 1] += from_here / other
         a[1, i + 1] += from_there / other
-    for i in range(2, first):
-        side = q[30] / CELLS
-        a[1, i] -= side * p[1, i] / mass
-        a[5, i], a[6, i] = side / mass, side * p[1, i] / q[22]
     last = warm[CHAIN - 1]
     grey = PARTS_AIR + RADIATION * (last**2 + AMBIENT**2) * (last + AMBIENT)
     steep = RADIATION * (3.0 * last**2 + 2.0 * last * AMBIENT + AMBIENT**2)
     resistance = plate + 1.0 / (grey * area)
     a[1, CHAIN - 1] -= (1.0 + (last - AMBIENT) / resistance * steep / (grey**2 * area)) / resistance / heat
     for i in range(first, CHAIN):
-        a[1, i] -= q[6] / PLATE / heat
-        a[3, i], a[4, i] = q[6] / PLATE / heat, q[6] / PLATE / q[10]
-    of_bodies(y, q, a[7:])
+        a[1, i] -= uneven / PLATE / heat
+        had[0, i], had[TOUCH - 1, i] = to_edge / PLATE / heat, (uneven - to_edge) / PLATE / heat
+        given[TOUCH - 1, i] = 1.0 / PLATE
+    of_bodies(y[CHAIN:], q, a[3 + 2 * TOUCH :])
 
 
 @njit(cache=True)
@@ -259,6 +265,7 @@ def implicit(
         far = 0.0
         for i in range(STATES):
             right[i] = base[i] + h * f[i] - y[i]
+        right[STATES - 1] = np.mean(y[2 + CELLS : CHAIN]) - y[STATES - 1]
         solve(w, right)
         for i in range(STATES):
             y[i] += right[i]
@@ -272,9 +279,11 @@ def implicit(
             rates(y, moved[k], p, other)
             for i in range(STATES):
                 s[k, i] += (lengths[k] * other[i] - h * f[i]) / STEP_OF
+            s[k, STATES - 1] = 0.0
             solve(w, s[k])
         for i in range(STATES):
             s[FREE, i] += (lengths[FREE] - h) / STEP_OF * f[i]
+        s[FREE, STATES - 1] = 0.0
         solve(w, s[FREE])
     return p[0, 1 + CELLS] - drop - TARGET
 

@@ -20,11 +20,12 @@ CELLS, PLATE_CELLS = 120, 40
 STEFAN_BOLTZMANN = 5.670374419e-8
 GAS = 8.314462618
 LAYER, PLATE = slice(2, 2 + CELLS), slice(2 + CELLS, 2 + CELLS + PLATE_CELLS)
-BESIDE, FLOOR = slice(PLATE.stop, PLATE.stop + 4), slice(PLATE.stop + 4, PLATE.stop + 8)
+BESIDE, FLOOR = slice(PLATE.stop, PLATE.stop + 4), slice(PLATE.stop + 4, PLATE.stop + 13)
 SINK = FLOOR.stop
-STRIPS = np.array([0.05, 0.22, 0.73])
-TO_EDGE = 0.22
-"""Widths of the three bodies a strip is divided into, as shares, and the way to its edge: the calibrated figures."""
+UPPER, LOWER, LEDGES, CORNER, HOUSING = np.arange(3), np.arange(3, 6), 6, 7, 8
+"""Places in the floor: beside the pads in three widths, below those, below the pads, next to their hot sides."""
+STRIPS, TO_EDGE, FINEST = np.array([0.1, 0.25, 0.65]), 0.18, 6.0
+"""Widths of the three bodies a strip is divided into, as shares, the way to its edge and where a series ends."""
 
 
 def value_of(model: DeviceFunctions) -> Callable[[str], float]:
@@ -80,28 +81,73 @@ class AnotherStack:
         """Plate and floor beside the arcs, strips heated at their edge, with the core and the housing at their ends."""
         v = self.value
         k, rho_c = v("structure_conductivity"), v("structure_density") * v("structure_specific_heat")
-        height, depth, pad = v("rotor_thickness"), v("floor_thickness"), 0.5 * v("peltier_thickness")
+        height = v("rotor_thickness")
         rotor = v("pcl_outer_radius") + v("rotor_rim")
         disc = np.pi * rotor**2
         self.rest = disc - self.area
         widths, way = STRIPS * self.rest / self.edge, TO_EDGE * self.area / self.edge
         far = (v("rotor_mass") + v("link_mass") + v("retainer_mass")) / v("structure_density") - disc * height
         near = STRIPS * self.rest
-        under = np.append(near * depth, v("housing_mass") / v("structure_density") - self.rest * depth)
-        self.lumps = np.append(near * height, far) * rho_c, under * rho_c
         apart = 0.5 * (np.append(0.0, widths[:-1]) + widths) / self.edge
-        inner, wall = v("pcl_inner_radius") / v("core_radius"), v("housing_inner_radius") / rotor
+        inner = v("pcl_inner_radius") / v("core_radius")
         along = way / self.edge
-        pads = along / (v("pad_conductivity") * pad) + 1.0 / (v("pad_edge_contact") * pad * self.edge)
         ways = np.append(apart / (k * height), np.log(inner) / (2.0 * np.pi * k * height))
         self.to_beside = 1.0 / (ways + np.array([along / (k * height), 0.0, 0.0, 0.0]))
-        ways = np.append(apart / (k * depth), np.log(wall) / (2.0 * np.pi * k * depth))
-        self.to_floor = 1.0 / (ways + np.array([pads, 0.0, 0.0, 0.0]))
-        air = v("window_ledge") / v("air_conductivity") / self.edge
-        self.to_side = v("pcl_thickness") / CELLS / (along / v("pcl_conductivity_melt") + air)
+        self.uneven = k * height * self.edge / (way + height / np.pi)
         self.strips = np.append(near, 0.0)
-        outer, tall = v("housing_outer_radius"), v("rim_level") + depth + v("foot_height")
-        self.below = np.append(near, 2.0 * np.pi * outer * tall + np.pi * (outer**2 - rotor**2))
+        pad, web = v("peltier_thickness"), v("floor_thickness") - v("peltier_thickness")
+        ledges = self.area - self.window
+        volumes = np.concatenate([near * pad, near * web, [ledges * web, 0.5 * near[0] * pad]])
+        volumes[UPPER[0]] *= 0.5
+        housing = v("housing_mass") / v("structure_density") - np.sum(volumes)
+        self.lumps = np.append(near * height, far) * rho_c, np.append(volumes, housing) * rho_c
+        outer, tall = v("housing_outer_radius"), v("rim_level") + v("floor_thickness") + v("foot_height")
+        outside = 2.0 * np.pi * outer * tall + np.pi * (outer**2 - rotor**2)
+        self.below = np.concatenate([np.zeros(3), near, [ledges, 0.0, outside]])
+        self._floor(widths, way, rotor)
+        # Between the middle of the floor's upper half and a third of the plate's depth lies the gap.
+        walls = (height / 3.0 + 0.5 * pad) / k
+        shine = v("surface_emissivity") / (2.0 - v("surface_emissivity")) * STEFAN_BOLTZMANN
+        air = v("air_conductivity") / v("pcl_thickness")
+        share = 1.0 / (1.0 + walls * (air + 4.0 * shine * v("ambient_temperature") ** 3))
+        self.gap_air, self.gap_shine = share * air * near, share * shine * near
+
+    def _floor(self, widths: Array, way: float, rotor: float) -> None:
+        """Conductances among the floor's bodies, and from the pads into them [W/K]."""
+        v, edge = self.value, self.edge
+        k, pad, web = v("structure_conductivity"), v("peltier_thickness"), v("floor_thickness") - v("peltier_thickness")
+        among = self.among = np.zeros((9, 9))
+
+        def join(a: int, b: int, conductance: float) -> None:
+            among[a, b] = among[b, a] = conductance
+
+        middle = 0.5 * (widths[:-1] + widths[1:])
+        for row, deep in ((UPPER, pad), (LOWER, web)):
+            for i in range(2):
+                join(row[i], row[i + 1], k * deep * edge / middle[i])
+            wall = np.log(v("housing_inner_radius") / rotor) / (2.0 * np.pi * k * deep)
+            join(row[2], HOUSING, 1.0 / (0.5 * widths[2] / (k * deep * edge) + wall))
+        # The first of the upper ones is two, one above the other.
+        join(UPPER[0], UPPER[1], 0.5 * among[UPPER[0], UPPER[1]])
+        join(CORNER, UPPER[1], among[UPPER[0], UPPER[1]])
+        join(CORNER, UPPER[0], k * widths[0] * edge / (0.5 * pad))
+        for i, half in enumerate((0.25 * pad, 0.5 * pad, 0.5 * pad)):
+            join(UPPER[i], LOWER[i], k * widths[i] * edge / (half + web / 3.0))
+        ledge = (self.area - self.window) / edge
+        join(LEDGES, LOWER[0], k * web * edge / (0.5 * (ledge + widths[0])))
+        side = 0.5 * pad * edge
+        wall = (
+            way / (v("pad_conductivity") * side) + 1.0 / (v("pad_edge_contact") * side) + 0.5 * widths[0] / (k * side)
+        )
+        self.from_cold, self.from_hot = np.zeros(9), np.zeros(9)
+        self.from_cold[UPPER[0]] = self.from_hot[CORNER] = 1.0 / wall
+        self.from_cold[LEDGES] = k * ledge * edge / (web / 3.0)
+        # The end of the gap, as warm as the pads below: heat to its lower and to its upper wall.
+        sines = FINEST * v("pcl_thickness") * v("hot_contact") / (np.pi * v("pcl_conductivity_melt"))
+        through = edge / (1.0 / v("air_conductivity") + 1.0 / v("pcl_conductivity_melt"))
+        down = 2.0 / np.pi * (np.log(sines) + np.euler_gamma)
+        self.from_hot[CORNER] += 1.0 / (1.0 / (down * through) + down / (3.0 * k * edge))
+        self.up = 2.0 / np.pi * np.log(2.0) * through
 
     # --- states ---
 
@@ -153,20 +199,21 @@ class AnotherStack:
         _, flows = self._flows(y)
         watts = -np.diff(np.append(flows, self._outflow(y)))  # hot side, layer, plate
         watts[0] += self.seebeck * amps * (y[1] + 273.15) + 0.5 * amps**2 * self.ohms - self.leak * (y[1] - y[0])
-        aside = self.to_beside[0] / PLATE_CELLS * (y[PLATE] - y[BESIDE.start])
-        edges = self.to_floor[0] * (y[:2] - y[FLOOR.start])
-        sides = self.to_side * (self.layer(y)[0] - y[FLOOR.start])
+        mean = np.mean(y[PLATE])
+        aside = (self.to_beside[0] * (mean - y[BESIDE.start]) + self.uneven * (y[PLATE] - mean)) / PLATE_CELLS
+        cold, hot = self.from_cold * (y[0] - y[FLOOR]), self.from_hot * (y[1] - y[FLOOR])
+        up = self.up * (y[1] - y[BESIDE.start])
         watts[1 + CELLS :] -= aside
-        watts[0] -= edges[1]
-        watts[1 : 1 + CELLS] -= sides
-        beside = self._chain(y[BESIDE], self.to_beside, np.sum(aside)) - self.strips * self._flux(
+        watts[0] -= np.sum(hot) + up
+        beside = self._chain(y[BESIDE], self.to_beside, np.sum(aside) + up) - self.strips * self._flux(
             y[BESIDE], self.value("rotor_coefficient")
         )
-        floor = self._chain(y[FLOOR], self.to_floor, np.sum(edges) + np.sum(sides)) - self.below * self._flux(
-            y[FLOOR], self.value("housing_coefficient")
-        )
+        floor = cold + hot + self.among @ y[FLOOR] - np.sum(self.among, axis=1) * y[FLOOR]
+        floor -= self.below * self._flux(y[FLOOR], self.value("housing_coefficient"))
         gap = self._gap(y)
-        everything = np.concatenate([[self._cold(y, amps) - edges[0]], watts, beside - gap, floor + gap])
+        beside[:3] -= gap
+        floor[[CORNER, *UPPER[1:]]] += gap
+        everything = np.concatenate([[self._cold(y, amps) - np.sum(cold)], watts, beside, floor])
         if self.sink:
             given = self.window * self.value("sink_contact") * (y[0] - y[SINK])
             lost = self.value("sink_area") * self._flux(y[SINK], self.value("sink_coefficient"))
@@ -181,11 +228,8 @@ class AnotherStack:
 
     def _gap(self, y: Array) -> Array:
         """Heat through the air between plate and floor, and radiated between two grey plates [W]."""
-        shine = self.value("surface_emissivity")
-        warm, cool = y[BESIDE] + 273.15, y[FLOOR] + 273.15
-        radiated = STEFAN_BOLTZMANN * (warm**4 - cool**4) / (2.0 / shine - 1.0) if shine else 0.0
-        conducted = self.value("air_conductivity") / self.value("pcl_thickness") * (warm - cool)
-        return self.strips * (conducted + radiated)
+        warm, cool = y[BESIDE][:3] + 273.15, y[FLOOR][[CORNER, *UPPER[1:]]] + 273.15
+        return np.asarray(self.gap_air * (warm - cool) + self.gap_shine * (warm**4 - cool**4))
 
     def _freezing(self, y: Array) -> Array:
         """Nakamura's rate with Hoffman and Lauritzen's growth below T_m0; melting of what is above equilibrium."""
@@ -245,15 +289,15 @@ class AnotherStack:
         return self.area * self._flux(surface, self.value("rotor_coefficient"))
 
     def neighbours(self) -> Array:
-        """Which states a rate depends on, for the Jacobian, but for the heat from every cell to the bodies at an edge.
+        """Which states a rate depends on, for the Jacobian, but for the heat from every plate cell to its edge.
 
-        That is a row and a column across the whole layer, and little heat: Newton's steps reach the same state without
-        it, and the differences take five evaluations instead of hundreds. Under aluminium, which draws most heat to the
-        edge, times with and without it are within 2e-4 of each other.
+        That is a row and a column across the whole plate, and little heat: Newton's steps reach the same state without
+        it, and the differences take few evaluations instead of hundreds.
         """
         size = self.capacities.size
         near = np.eye(size) + np.eye(size, k=1) + np.eye(size, k=-1)
-        near[BESIDE, FLOOR] = near[FLOOR, BESIDE] = 1.0
+        bodies = np.r_[0:2, BESIDE, FLOOR]
+        near[np.ix_(bodies, bodies)] = 1.0
         if self.sink:
             near[0, -1] = near[-1, 0] = 1.0
         if not self.kinetic:

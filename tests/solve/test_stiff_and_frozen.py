@@ -34,12 +34,13 @@ def test_a_joint_that_waits_until_it_is_frozen_gets_no_such_advice() -> None:
 
 
 def test_the_last_slice_of_a_layer_is_half_frozen_at_the_frozen_time() -> None:
-    # On the melting curve the middle of the window is half frozen: the far face, warmest, is the last to get there.
+    # On the melting curve, from 65 to 50 degC, the middle of the window is half frozen. The least frozen slice, taken
+    # smoothly, may be 0.03 short of that.
     found = answered("phase_model: equilibrium, stiffening_band: 1.01")
     stiffening = found.histories["stiffening"]
-    warmest = np.max([stiffening[f"cell_{i + 1}"] for i in range(12)], axis=0)
-    moment = np.interp(-57.5, -warmest, stiffening["time"])
-    assert found.design.value("frozen_time") == pytest.approx(moment, rel=0.01)
+    warmest = np.max([stiffening[name] for name in stiffening if name.startswith("cell_")], axis=0)
+    then = np.interp(found.design.value("frozen_time"), stiffening["time"], warmest)
+    assert 57.5 <= then <= 57.5 + 0.03 * 15.0
 
 
 def test_a_cold_point_hotter_than_the_hot_one_makes_the_thresholds_overlap() -> None:

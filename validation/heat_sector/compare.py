@@ -16,7 +16,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import compression
 import numpy as np
@@ -36,9 +36,11 @@ HERE = Path(__file__).parent
 RESULTS = HERE / "results.csv"
 STUDIES = HERE.parents[1] / "studies"
 TIMES = ("softening_time", "mean_time", "far_face_time")
-HEADER = ("study", "design", "time", "product [s]", "plane [s]", "difference [%]")
+HEADER = ("study", "design", "time", "product [s]", "plane [s]", "difference [%]", "warmer by [K]", "time over rise")
 LONGER = (1.3, 2.6)
 """How long the plane is heated, over the product's longest time; the second where it is not soft by the first."""
+EARLY = 0.25
+"""Share of the time heated below which a softening time is sought again in shorter steps."""
 STEPS = 250
 
 
@@ -69,6 +71,39 @@ def plane_of(model: DeviceFunctions, fine: float = 1.0) -> Plane:
     return compression.plane(model.table, values, fine)
 
 
+class Switch(NamedTuple):
+    """What a plane does while it is heated, at each of its times."""
+
+    times: Array
+    stiffness: Array
+    """Size of the joint's dynamic stiffness at the hot point's frequency [N m/rad]."""
+    mean: Array
+    """Temperature of the polymer [degC]."""
+    far: Array
+    """Of its face away from the pads."""
+
+    def of(self, name: str) -> Array:
+        """The temperature a time is judged by [degC]."""
+        return self.far if name == "far_face_time" else self.mean
+
+
+class Compared(NamedTuple):
+    """A time by the product and by the plane."""
+
+    product: float
+    plane: float
+    warmer: float
+    """How much warmer the product is at its time than the plane is then [K]: far face or mean of the polymer."""
+    over_rise: float
+    """Relative change of the plane's time that a relative change of its temperature above ambient makes: 1 where that
+    rises evenly, 2 as the square root of time, more where it stalls."""
+
+    @property
+    def difference(self) -> float:
+        """Of the product's time [%]."""
+        return 100.0 * (self.product / self.plane - 1.0)
+
+
 class Judge:
     """What the temperatures of a plane are to the joint."""
 
@@ -81,6 +116,8 @@ class Judge:
         self.quantity = model.table.evaluate(self.known, names if self.sheared else [*names, "shape_factor"])
         layers = shear.columns if self.sheared else compression.rows
         self.layers, self.shares = layers(found, "layer")
+        depths = (found.dy if self.sheared else found.dx)[self.layers[0]]
+        self.slices = depths / np.sum(depths)
         self.omega = 2.0 * np.pi * self.known["frequency@hot"]
 
     def _mean(self, state: Array, name: str) -> float:
@@ -117,29 +154,34 @@ class Judge:
             soft = np.array([film.soft_share(*pair) for pair in zip(storage, loss, strict=True)])
             shape = q["shape_factor"]
             moments = moments * (1.0 + 2.0 * (shape / soft) ** 2) / (1.0 + 2.0 * shape**2)
-        layer = np.sum(self.shares * moments / np.mean(1.0 / (storage + 1j * loss), axis=1)) / q["pcl_depth"]
+        layer = np.sum(self.shares * moments / ((1.0 / (storage + 1j * loss)) @ self.slices)) / q["pcl_depth"]
         law = (q["structure_softening"], self.known["clamped_loss_factor"], q["lossless_compliance"])
         support = complex(*in_series(q["structure_compliances"], self.parts(state), *law))
         return float(abs(q["spring_stiffness"] + 1.0 / (1.0 / layer + 1.0 / support)))
 
     def far_face(self, state: Array) -> float:
         """Mean temperature of the polymer's face away from the pads [degC], from its last two cells."""
-        last = -1 if self.sheared else 0
-        cells = self.layers[:, [last, -2 if self.sheared else 1]]
-        return float(self.shares @ (1.5 * state[cells[:, 0]] - 0.5 * state[cells[:, 1]]))
+        last, before = (-1, -2) if self.sheared else (0, 1)
+        way = self.slices[last] / (self.slices[last] + self.slices[before])
+        ends, inner = state[self.layers[:, last]], state[self.layers[:, before]]
+        return float(self.shares @ (ends + way * (ends - inner)))
 
-    def times(self, seconds: float, steps: int = STEPS) -> dict[str, float]:
-        """Times of the switch by the plane: soft, mean of the polymer and mean of its far face at their targets."""
+    def heated(self, seconds: float, steps: int = STEPS) -> Switch:
+        """What the plane does while it is heated for so long."""
         times, states = self.found.heat(seconds, steps)
-        target = self.known["target_temperature"] - 273.15
-        soft = [-np.log(self.stiffness(state)) for state in states]
         own = self.found.cells("layer")
-        means = states[:, own] @ self.found.volume[own] / np.sum(self.found.volume[own])
-        return {
-            "softening_time": passed(times, soft, -np.log(self.quantity["soft_threshold"])),
-            "mean_time": passed(times, means, target),
-            "far_face_time": passed(times, [self.far_face(state) for state in states], target),
-        }
+        return Switch(
+            times,
+            np.array([self.stiffness(state) for state in states]),
+            states[:, own] @ self.found.volume[own] / np.sum(self.found.volume[own]),
+            np.array([self.far_face(state) for state in states]),
+        )
+
+    def time(self, name: str, switch: Switch) -> float:
+        """A time of the switch: when the joint is soft, the mean of the polymer or that of its far face is warm [s]."""
+        if name == "softening_time":
+            return passed(switch.times, -np.log(switch.stiffness), -np.log(self.quantity["soft_threshold"]))
+        return passed(switch.times, switch.of(name), self.known["target_temperature"] - 273.15)
 
 
 def product_times(model: DeviceFunctions) -> dict[str, float]:
@@ -148,14 +190,26 @@ def product_times(model: DeviceFunctions) -> dict[str, float]:
     return {name: values[name] for name in TIMES if np.isfinite(values[name])}
 
 
-def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> dict[str, tuple[float, float]]:
-    """Each time by the product and by the plane [s]."""
-    times = product_times(model)
-    judge, longest = Judge(model, plane_of(model, fine)), max(times.values())
-    found = judge.times(LONGER[0] * longest, steps)
-    if not np.isfinite(found["softening_time"]):
-        found = judge.times(LONGER[1] * longest, steps)
-    return {name: (time, found[name]) for name, time in times.items()}
+def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> dict[str, Compared]:
+    """Each time by the product and by the plane."""
+    ours = product_times(model)
+    judge, longest = Judge(model, plane_of(model, fine)), max(ours.values())
+    switch = judge.heated(LONGER[0] * longest, steps)
+    if not np.isfinite(judge.time("softening_time", switch)):
+        switch = judge.heated(LONGER[1] * longest, steps)
+    soft = judge.time("softening_time", switch)
+    # A time early in these steps once more in steps of its own.
+    early = judge.heated(1.3 * max(soft, ours["softening_time"]), steps) if soft < EARLY * switch.times[-1] else switch
+    found = {}
+    for name, time in ours.items():
+        seen = early if name == "softening_time" else switch
+        plane = judge.time(name, seen)
+        warm = seen.of(name)
+        at_product, at_plane = np.interp([time, plane], seen.times, warm)
+        slope = float(np.interp(plane, seen.times, np.gradient(warm, seen.times)))
+        over_rise = float(at_plane - warm[0]) / (plane * slope) if np.isfinite(plane) else np.inf
+        found[name] = Compared(time, plane, float(at_plane - at_product), over_rise)
+    return found
 
 
 def studies() -> list[Path]:
@@ -190,6 +244,15 @@ def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunction
     yield "optimum", optimum_of(folder)
 
 
+def rows_of(study: str, design: str, model: DeviceFunctions) -> Iterator[list[str]]:
+    """A module's rows of the table."""
+    for name, one in compared(model).items():
+        yield [
+            study, design, name, f"{one.product:.2f}", f"{one.plane:.2f}", f"{one.difference:+.2f}",
+            f"{one.warmer:+.2f}", f"{one.over_rise:.2f}",
+        ]  # fmt: skip
+
+
 def main() -> None:
     """Compare the named studies, or all, and put their rows in `results.csv`."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -201,8 +264,7 @@ def main() -> None:
             continue
         rows = []
         for design, model in designs(path, asked.work):
-            for name, (ours, plane) in compared(model).items():
-                row = [path.stem, design, name, f"{ours:.2f}", f"{plane:.2f}", f"{100.0 * (ours / plane - 1.0):+.2f}"]
+            for row in rows_of(path.stem, design, model):
                 print(*row, flush=True)
                 rows.append(row)
         _put(path.stem, rows)

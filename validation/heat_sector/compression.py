@@ -120,7 +120,7 @@ def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> Non
         Body((core.capacity + middle * height * capacity) / wide),
         Body(rim * height * capacity / wide, rim / wide, v["rotor_coefficient"], v["surface_emissivity"]),
         Body((v["housing_mass"] * v["structure_specific_heat"] - ring * depth * capacity) / wide,
-             max(around.surface.area - ring, 0.0) / wide, v["housing_coefficient"], v["surface_emissivity"]),
+             around.surface.area / wide, v["housing_coefficient"], v["surface_emissivity"]),
     ])  # fmt: skip
     if v["sink"] is not None:
         surface = v["sink"].surface

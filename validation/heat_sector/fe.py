@@ -38,7 +38,7 @@ class Drawing:
     def __init__(self, case: dict[str, float]) -> None:
         """Put the layer's face at the pads on y = 0 and the middle of the arc on x = 0."""
         c, w = case, case["half_width"]
-        half, inside = 0.5 * c["pad_depth"], max(w - c["ledge"], 0.3 * w)
+        half, inside = 0.5 * c["pad_depth"], c["window_share"] * w
         self.w, self.inside, self.end = w, inside, w + c["beside"]
         contact = [w + THIN]
         self.x = self._lines(

@@ -33,8 +33,11 @@ def by_plane(case: shear.Case, seconds: float, fine: float = 1.0) -> dict[str, f
     found = shear.plane(case, fine)
     times, states = found.heat(seconds, round(STEPS_A_SECOND * seconds))
     columns, shares = shear.columns(found, "layer")
-    means = states[:, columns].mean(axis=2) @ shares
-    faces = (1.5 * states[:, columns[:, -1]] - 0.5 * states[:, columns[:, -2]]) @ shares
+    depths = found.dy[columns[0]]
+    means = states[:, columns] @ (depths / np.sum(depths)) @ shares
+    way = depths[-1] / (depths[-1] + depths[-2])
+    ends, before = states[:, columns[:, -1]], states[:, columns[:, -2]]
+    faces = (ends + way * (ends - before)) @ shares
     at = {f"mean_{limit:.0f}": passed(times, means, limit) for limit in LIMITS}
     return {**at, "far_100": passed(times, faces, 100.0)}
 

@@ -16,9 +16,6 @@ from plane import Array, Body, Border, Material, Plane, Polymer, Pump, drawn, li
 
 from tvimdesign.device import Table
 
-NARROWEST = 0.3
-"""Least half width of the window, as a share of that of the strip."""
-
 
 @dataclass(frozen=True)
 class Case:
@@ -82,7 +79,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
     """The strip of a shear module, from its inputs in SI."""
     v = values
     wanted = ("pcl_area", "edge_length", "rotor_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
-              "peltier_mass", "pcl_depth", "sink")  # fmt: skip
+              "housing_ring", "peltier_mass", "pcl_depth", "sink")  # fmt: skip
     found = table.evaluate(v, wanted)
     area, edge, melting = found["pcl_area"], found["edge_length"], found["pcl_melting"]
     core, housing = found["core_and_link"], found["around_pads"][-1]
@@ -110,7 +107,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         rotor_coefficient=v["rotor_coefficient"], floor_coefficient=v["housing_coefficient"],
         emissivity=v["surface_emissivity"], air_conductivity=v["air_conductivity"],
         ledge=v["window_ledge"], core_conductance=core.conductance / edge,
-        core_capacity=core.capacity / edge, housing_conductance=housing.conductance / edge,
+        core_capacity=core.capacity / edge, housing_conductance=found["housing_ring"] / edge,
         housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge, **cooled,
     )  # fmt: skip
 
@@ -118,15 +115,16 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
 def plane(case: Case, fine: float = 1.0) -> Plane:
     """The strip of a case; `fine` multiplies the count of cells."""
     c, w = case, case.half_width
-    inside, end, half = max(w - c.ledge, NARROWEST * w), w + c.beside, 0.5 * c.pad_depth
+    inside, end, half = c.window_share * w, w + c.beside, 0.5 * c.pad_depth
     top, plate = c.layer_depth, c.layer_depth + c.plate_depth
 
     def n(count: int) -> int:
         return max(2, round(fine * count))
 
-    x = lines((0.0, inside, n(6), 0.8), (inside, w, n(8), 0.8), (w, end, n(14), 1.22))
-    y = lines((-c.floor_depth, -c.pad_depth, n(5), 0.85), (-c.pad_depth, -half, n(2), 1.0), (-half, 0.0, n(3), 0.8),
-              (0.0, top, n(20), 1.0), (top, plate, n(10), 1.1))  # fmt: skip
+    # Narrow towards the corner where hot pad, layer, floor and air of the gap meet: heat crowds there.
+    x = lines((0.0, inside, n(5), 0.8), (inside, w, n(13), 0.62), (w, end, n(20), 1.4))
+    y = lines((-c.floor_depth, -c.pad_depth, n(5), 0.85), (-c.pad_depth, -half, n(2), 1.0), (-half, 0.0, n(8), 0.55),
+              (0.0, top, n(32), 1.07), (top, plate, n(8), 1.15))  # fmt: skip
 
     def what(a: float, b: float) -> str | None:
         if b > top:

@@ -48,34 +48,63 @@ def test_windows_lose_heat_below_and_the_plate_s_face_above(stack: heat.Stack) -
 
 
 EDGE = 4 * (2 * (OUTER - INNER) + SPAN * (INNER + OUTER))
-FIRST, LAST = 0.05, 0.73
-"""Shares of a strip's width that the first and the last of its three bodies have, as calibrated."""
-TO_EDGE = 0.22 * AREA / EDGE
+FIRST, SECOND, LAST = 0.1, 0.25, 0.65
+"""Shares of a strip's width that its three bodies have."""
+TO_EDGE = 0.18 * AREA / EDGE
+PAD, WEB = 1.5e-3, 2.5e-3
+REST = PLATE - AREA
 
 
-def test_plate_and_floor_beside_the_arcs_are_strips_heated_at_their_edges(stack: heat.Stack) -> None:
-    rest = PLATE - AREA
-    for bodies, thickness in ((stack.beside[:-1], 4e-3), (stack.around[:-1], 4e-3)):
-        assert sum(lump.capacity for lump in bodies) == pytest.approx(1270.0 * 1200.0 * thickness * rest, rel=1e-9)
-        assert sum(lump.surface.area for lump in bodies) == pytest.approx(rest, rel=1e-9)
-        # From the middle of the first to that of the last are all but half of the first and of the last.
-        middles = rest / EDGE * (1.0 - 0.5 * FIRST - 0.5 * LAST)
-        between = sum(1.0 / lump.conductance for lump in bodies[1:])
-        assert 1.0 / between == pytest.approx(0.24 * thickness * EDGE / middles, rel=1e-9)
-    half_of_first = 0.5 * FIRST * rest / EDGE
+def between(stack: heat.Stack, first: lumps.Place, second: lumps.Place) -> lumps.Link:
+    """The first link from one place to the other."""
+    return next(link for link in stack.links if (link.first, link.second) == (first, second))
+
+
+def test_plate_beside_the_arcs_is_a_strip_heated_at_its_edge(stack: heat.Stack) -> None:
+    bodies = stack.beside[:-1]
+    assert sum(lump.capacity for lump in bodies) == pytest.approx(1270.0 * 1200.0 * 4e-3 * REST, rel=1e-9)
+    assert sum(lump.surface.area for lump in bodies) == pytest.approx(REST, rel=1e-9)
+    # From the middle of the first to that of the last are all but half of the first and of the last.
+    middles = REST / EDGE * (1.0 - 0.5 * FIRST - 0.5 * LAST)
+    along = sum(1.0 / lump.conductance for lump in bodies[1:])
+    assert 1.0 / along == pytest.approx(0.24 * 4e-3 * EDGE / middles, rel=1e-9)
+    half_of_first = 0.5 * FIRST * REST / EDGE
     assert stack.beside[0].conductance == pytest.approx(0.24 * 4e-3 * EDGE / (TO_EDGE + half_of_first), rel=1e-9)
+    # What differs over the depth dies down within the depth over pi.
+    assert stack.uneven_conductance == pytest.approx(0.24 * 4e-3 * EDGE / (TO_EDGE + 4e-3 / np.pi), rel=1e-9)
+
+
+def test_floor_beside_the_pockets_is_two_strips_one_above_the_other(stack: heat.Stack) -> None:
+    bodies = stack.around
+    volumes = [body.capacity / (1270.0 * 1200.0) for body in bodies[:6]]
+    upper, lower = ([share * REST * depth for share in (FIRST, SECOND, LAST)] for depth in (PAD, WEB))
+    upper[0] *= 0.5  # the other half is the corner next to the hot sides
+    assert volumes == pytest.approx(upper + lower, rel=1e-9)
+    assert sum(body.surface.area for body in bodies[3:6]) == pytest.approx(REST, rel=1e-9)
     # A side of the pads conducts with 6 W/m K in its plane; its edge of 0.75 mm touches the wall with 150 W/m2 K, and
     # behind that is half of the first body of the floor.
-    edge = TO_EDGE / (6.0 * 0.75e-3) + 1.0 / (150.0 * 0.75e-3) + half_of_first / (0.24 * 4e-3)
-    assert stack.around[0].conductance == pytest.approx(EDGE / edge, rel=1e-9)
+    edge = TO_EDGE / (6.0 * 0.75e-3) + 1.0 / (150.0 * 0.75e-3) + 0.5 * FIRST * REST / EDGE / (0.24 * 0.75e-3)
+    for side, place in (("hot", 7), ("cold", 0)):
+        assert between(stack, (side, 0), ("around", place)).conductance == pytest.approx(EDGE / edge, rel=1e-9)
+    down = 0.24 * LAST * REST / (0.5 * PAD + WEB / 3.0)
+    assert between(stack, ("around", 2), ("around", 5)).conductance == pytest.approx(down, rel=1e-9)
 
 
-def test_air_in_the_gap_conducts_and_its_walls_radiate(stack: heat.Stack) -> None:
-    # 0.028 W/m K over 1 mm and, from 80 to 40 degC, parallel grey plates of 0.9 each (Incropera, ch. 13).
-    rest = PLATE - AREA
+def test_cold_sides_lie_on_ledges_of_which_the_mean_is_a_third_of_their_depth_away(stack: heat.Stack) -> None:
+    ledges = AREA - stack.cold_surface.area
+    assert stack.around[6].capacity == pytest.approx(1270.0 * 1200.0 * ledges * WEB, rel=1e-9)
+    onto = between(stack, ("cold", 0), ("around", 6)).conductance
+    assert onto == pytest.approx(0.24 * ledges / (WEB / 3.0), rel=1e-9)
+
+
+def test_air_in_the_gap_conducts_and_its_walls_radiate(known: dict[str, Any]) -> None:
+    # 0.028 W/m K over 1 mm and, from 80 to 40 degC, parallel grey plates of 0.9 each (Incropera, ch. 13), between walls
+    # that conduct so well that they do not count.
+    stack = TABLE.evaluate({**known, "structure_conductivity": 1e9}, ["stack"])["stack"]
+    gaps = [link for link in stack.links if link.first[0] == "beside"]
     warm, cool = 353.15, 313.15
-    through = rest * (0.028 / 1e-3 * 40.0 + 5.670374419e-8 * (warm**4 - cool**4) / (1.0 / 0.9 + 1.0 / 0.9 - 1.0))
-    assert sum(lumps.gap_heat(gap, warm, cool) for gap in stack.gaps) == pytest.approx(through, rel=1e-9)
+    through = REST * (0.028 / 1e-3 * 40.0 + 5.670374419e-8 * (warm**4 - cool**4) / (1.0 / 0.9 + 1.0 / 0.9 - 1.0))
+    assert sum(lumps.link_heat(gap, warm, cool) for gap in gaps) == pytest.approx(through, rel=1e-6)
 
 
 def test_all_of_the_housing_warms_up(known: dict[str, Any], stack: heat.Stack) -> None:

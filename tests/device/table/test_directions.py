@@ -67,7 +67,7 @@ def base(inputs: dict[str, Any]) -> dict[str, Any]:
             ("current", 1.2, -1.0),  # more heat
             ("pcl_thickness", 0.7e-3, 1.0),  # more to melt, and a longer way
             ("rotor_thickness", 2.5e-3, 1.0),  # more to warm
-            ("hot_contact", 2e3, -1.0),
+            ("hot_contact", 5e2, -1.0),  # above 2.6e3 hardly anything follows: 1e-4, most of it at the layer's corner
             ("ambient_temperature", 283.15, -1.0),
             ("pcl_latent_heat", 60e3, 1.0),
             ("target_temperature", 365.0, 1.0),

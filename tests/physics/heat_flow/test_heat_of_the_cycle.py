@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
+from scipy.sparse import lil_matrix
+from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import crystallization, polymer
@@ -24,9 +26,14 @@ PADS = peltier.PeltierModule(0.025, 3.0, 0.12)
 SINK = lumps.Lump(5.0, 30.0, lumps.Surface(15e-3, 10.0, 0.85))
 STRIP = lumps.Lump(0.4, 12.0, lumps.Surface(4e-3, 6.0, 0.9))
 CORE = lumps.Lump(0.05, 40.0, lumps.NOWHERE)
-FLOOR = lumps.Lump(0.03, 15.0, lumps.Surface(4e-3, 6.0, 0.9))
-HOUSING = lumps.Lump(0.2, 60.0, lumps.Surface(20e-3, 5.0, 0.9))
-GAP = lumps.air_gap(4e-3, 1e-3, 0.028, 0.9, (0, 0))
+FLOOR = lumps.Body(15.0, lumps.Surface(4e-3, 6.0, 0.9))
+HOUSING = lumps.Body(60.0, lumps.Surface(20e-3, 5.0, 0.9))
+GAP = lumps.air_gap(4e-3, 1e-3, 0.028, 0.9, ("beside", 0), ("around", 0))
+EDGES = tuple(lumps.Link((side, 0), ("around", 0), 0.03) for side in ("hot", "cold"))
+LINKS = (
+    *EDGES, lumps.Link(("layer", 0), ("around", 0), 0.01), lumps.Link(("plate", 0), ("around", 1), 0.02, 1e-4),
+    lumps.Link(("around", 0), ("around", 1), 0.2), GAP,
+)  # fmt: skip
 
 
 def cycle_stack(**changes: Any) -> heat.Stack:
@@ -36,7 +43,7 @@ def cycle_stack(**changes: Any) -> heat.Stack:
         peltier=PADS, cold_capacity=4.0, hot_capacity=2.5, cold_surface=lumps.NOWHERE, hot_contact=1e4,
         plate_contact=1e4, plate_thickness=4e-3, plate_conductivity=0.24, plate_heat_capacity=1270.0 * 1200.0,
         plate_surface=lumps.Surface(AREA, 5.0, 0.9), ambient=AMBIENT, plate_cells=3, beside=(STRIP, CORE), sink=SINK,
-        around=(FLOOR, HOUSING), free_sides=0.01, gaps=(GAP,),
+        around=(FLOOR, HOUSING), links=LINKS, uneven_conductance=0.1,
     )  # fmt: skip
     return stack._replace(**changes)
 
@@ -121,19 +128,70 @@ def test_a_surface_radiates_as_stefan_and_boltzmann_say() -> None:
 def test_a_gap_conducts_through_its_air_and_its_grey_walls_radiate() -> None:
     # 0.01 m^2, 1 mm of air of 0.028 W/m K, 80 to 22 degC: 0.28 W/K * 58 K; between plates of 0.9 radiate, by hand,
     # 5.670374e-8 * 0.01 * (353.15^4 - 295.15^4)/(1/0.9 + 1/0.9 - 1) = 3.6953 W (Incropera, ch. 13).
-    gap = lumps.air_gap(0.01, 1e-3, 0.028, 0.9, (0, 0))
-    assert lumps.gap_heat(gap, 353.15, AMBIENT) == pytest.approx(0.28 * 58.0 + 3.6953, rel=2e-5)
-    assert lumps.gap_heat(gap, AMBIENT, 353.15) == -lumps.gap_heat(gap, 353.15, AMBIENT)
+    gap = lumps.air_gap(0.01, 1e-3, 0.028, 0.9, ("beside", 0), ("around", 0))
+    assert lumps.link_heat(gap, 353.15, AMBIENT) == pytest.approx(0.28 * 58.0 + 3.6953, rel=2e-5)
+    assert lumps.link_heat(gap, AMBIENT, 353.15) == -lumps.link_heat(gap, 353.15, AMBIENT)
 
 
-def test_edges_and_gap_heat_what_they_touch(bare_stack: Callable[..., heat.Stack]) -> None:
+def test_a_wall_before_a_gap_takes_its_share() -> None:
+    # 0.28 W/K of air and 0.0640 W/K of radiation near 22 degC (4 e s A T^3/(2 - e)) behind 0.5 W/K: 0.2038 W/K.
+    gap = lumps.air_gap(0.01, 1e-3, 0.028, 0.9, ("beside", 0), ("around", 0))
+    radiated = 4.0 * STEFAN_BOLTZMANN * 0.01 / (2.0 / 0.9 - 1.0) * AMBIENT**3
+    behind = lumps.link_conductance(lumps.behind(gap, 0.5, AMBIENT), AMBIENT, AMBIENT)
+    assert behind == pytest.approx(1.0 / (1.0 / (0.28 + radiated) + 1.0 / 0.5), rel=1e-12)
+
+
+def test_the_end_of_a_gap_gives_its_walls_what_finite_differences_find() -> None:
+    # A gap 40 times as long as high, its end warmer by 1 at the lower wall and by 0 at the upper one. A grid of n
+    # cells over the height has sines to n; the wall's sum to that is finer by a constant than the grid's.
+    found = {n: _end_of_gap(n) for n in (40, 80)}
+    assert found[80][1] == pytest.approx(lumps.gap_end(1.0)[1], rel=0.02)
+    more = lumps.gap_end(160.0)[0] - lumps.gap_end(80.0)[0]
+    assert found[80][0] - found[40][0] == pytest.approx(more, rel=0.02)
+
+
+def _end_of_gap(n: int) -> tuple[float, float]:
+    """Heat into the lower and upper wall of a gap with n cells over its height, by finite volumes."""
+    long = 4 * n
+    number = np.arange(long * n).reshape(long, n)
+    matrix, right = lil_matrix((long * n, long * n)), np.zeros(long * n)
+    middle = (np.arange(n) + 0.5) / n
+    for i, j in np.ndindex(long, n):
+        for k, m in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
+            inside = 0 <= m < n and 0 <= k < long
+            conductance = 1.0 if inside else 0.0 if k == long else 2.0
+            matrix[number[i, j], number[i, j]] += conductance
+            if inside:
+                matrix[number[i, j], number[k, m]] -= conductance
+            elif k < 0:
+                right[number[i, j]] += conductance * (1.0 - middle[j])
+    warm = spsolve(matrix.tocsc(), right).reshape(long, n)
+    return float(2.0 * np.sum(warm[:, 0])), float(2.0 * np.sum(warm[:, -1]))
+
+
+def test_links_heat_what_they_touch(bare_stack: Callable[..., heat.Stack]) -> None:
     # All at ambient but pads at 60, layer at 40 and strip at 80 degC: what the floor gets, by hand.
-    floor = lumps.Lump(0.03, 15.0, lumps.NOWHERE)
-    stack = bare_stack(beside=(STRIP,), around=(floor,), free_sides=0.01, gaps=(GAP,))
+    floor = lumps.Body(15.0, lumps.NOWHERE)
+    links = (*EDGES, lumps.Link(("layer", 0), ("around", 0), 0.01), GAP)
+    stack = bare_stack(beside=(STRIP,), around=(floor,), links=links)
     state = heat.initial_state(stack, 4, 273.15 + 40.0)
     state[:2], state[-2], state[-1] = 0.6, 0.8, 0.2
-    gained = 2 * 0.03 * 40.0 + 0.01 * 20.0 + lumps.gap_heat(GAP, 353.15, 293.15)
+    gained = 2 * 0.03 * 40.0 + 0.01 * 20.0 + lumps.link_heat(GAP, 353.15, 293.15)
     assert heat.rates(state, stack, 0.0)[-1] == pytest.approx(gained / 15.0 / 100.0, rel=1e-6)
+
+
+def test_what_a_plate_differs_from_its_mean_goes_sideways_by_a_conductance_of_its_own() -> None:
+    # Cells at 50, 40 and 30 degC beside a strip at 40 degC: the mean gives nothing, 0.1 W/K/3 times 10 K leave the
+    # first cell and come into the last.
+    even = cycle_stack(uneven_conductance=0.0, links=())
+    uneven = even._replace(uneven_conductance=0.1)
+    state = heat.initial_state(even, 4, 313.15)
+    state[6:9] = 0.5, 0.4, 0.3
+    capacity = 1270.0 * 1200.0 * AREA * 4e-3 / 3.0
+    change = heat.rates(state, uneven, 0.0) - heat.rates(state, even, 0.0)
+    expected = np.array([-1.0, 0.0, 1.0]) * 0.1 * 10.0 / 3.0 / capacity / 100.0
+    assert change[6:9] == pytest.approx(expected, rel=1e-9)
+    assert np.delete(change, [6, 7, 8]) == pytest.approx(0.0, abs=1e-15)
 
 
 def test_a_radiating_plate_cools_as_its_face_at_the_surface_does() -> None:

@@ -37,7 +37,9 @@ def balanced(stack: BehindPolymer) -> Any:
         top = fsolve(lambda t: 2.0 * through * (plate[-1] - t[0]) - lost(stack.plate_surface, t[0]), plate[-1])[0]
         flows = np.concatenate([[2.0 * through * (POLYMER - plate[0])], -through * np.diff(plate),
                                 [2.0 * through * (plate[-1] - top)]])  # fmt: skip
-        sideways = first.conductance / CELLS * (plate - rim)
+        mean = np.mean(plate)
+        uneven = first.conductance if stack.uneven_conductance is None else stack.uneven_conductance
+        sideways = (first.conductance * (mean - rim) + uneven * (plate - mean)) / CELLS
         onward = second.conductance * (rim - core)
         rest = [np.sum(sideways) - onward - lost(first.surface, rim), onward - lost(second.surface, core)]
         return np.concatenate([-np.diff(flows) - sideways, rest])
@@ -46,9 +48,14 @@ def balanced(stack: BehindPolymer) -> Any:
     return found[:CELLS], found[CELLS:]
 
 
+@pytest.mark.parametrize("uneven", [None, 0.3])
 @pytest.mark.parametrize("conductivity", [0.24, 167.0])
-def test_plate_rim_and_core_have_the_temperatures_of_a_steady_balance(conductivity: float) -> None:
+def test_plate_rim_and_core_have_the_temperatures_of_a_steady_balance(
+    conductivity: float, uneven: float | None
+) -> None:
     stack = behind(conductivity)
+    if uneven is not None:
+        stack = stack._replace(uneven_conductance=uneven * stack.beside[0].conductance)
     held = held_plate(stack, POLYMER)
     plate, lumps = balanced(stack)
     slices = plate.reshape(4, CELLS // 4).mean(axis=1)

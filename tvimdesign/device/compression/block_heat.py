@@ -1,8 +1,7 @@
 """What the heat passes in the compression module: along the blocks into half of a rotor vane, and up into the plate.
 
-By symmetry no heat passes the middle of a rotor vane, which a block heats from either side. Blocks and pads lose heat
-through their free sides: below and above through the air of a running clearance to floor and rotor plate, in and out
-through the chamber to the housing.
+By symmetry no heat passes the middle of a rotor vane, which a block heats from either side. What takes heat from the
+free sides of blocks, pads and vanes is in `ring_heat`.
 """
 
 from __future__ import annotations
@@ -73,14 +72,13 @@ def plate_depth(vane_thickness: Scalar) -> Scalar:
 def plate_outside(
     pcl_area: Scalar,
     block_area: Scalar,
-    block_width: Scalar,
     block_height: Scalar,
     plate_depth: Scalar,
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> lumps.Surface:
-    """Rims of the rotor's vanes, inner, outer and lower, which lose heat; as a share of the blocks' faces."""
-    share = (2.0 * block_height + block_width) * plate_depth / block_area
+    """Inner and outer rims of the rotor's vanes, which lose heat; as a share of the blocks' faces."""
+    share = 2.0 * block_height * plate_depth / block_area
     return lumps.Surface(pcl_area, share * rotor_coefficient, share * surface_emissivity)
 
 
@@ -93,11 +91,17 @@ def plate_mass(
 
 
 @quantities.helper()
+def faced_area(
+    block_width: Scalar, vane_count: Scalar, plate_depth: Scalar, block_depth: Scalar, peltier_thickness: Scalar
+) -> Scalar:
+    """Plan area of rotor's vanes, blocks and pads [m^2]: what of floor and rotor plate they heat."""
+    return 2.0 * vane_count * block_width * (plate_depth + block_depth + peltier_thickness)
+
+
+@quantities.helper()
 def rotor_beside(
-    plate_mass: Scalar,
-    pcl_area: Scalar,
-    plate_depth: Scalar,
-    rotor_radius: Scalar,
+    faced_area: Scalar,
+    rotor_thickness: Scalar,
     rotor_vanes: Section,
     vane_height: Scalar,
     structure_conductivity: Scalar,
@@ -106,113 +110,20 @@ def rotor_beside(
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> tuple[lumps.Lump, ...]:
-    """Rotor plate above the vanes, heated through their roots.
+    """Rotor plate above vanes, blocks and pads, in three bodies from its lower face on, heated by the vanes' roots.
 
     A fin heated evenly over its faces: its mean temperature is a third of its height away from the root (Incropera,
     Fundamentals of Heat and Mass Transfer, ch. 3, even generation).
     """
-    above = lumps.Lump(
-        conductance=3.0 * structure_conductivity * rotor_vanes.area / vane_height,
-        capacity=(plate_mass - pcl_area * plate_depth * structure_density) * structure_specific_heat,
-        surface=lumps.Surface(np.pi * rotor_radius**2, rotor_coefficient, surface_emissivity),
-    )
-    return (above,)
+    capacity = rotor_thickness * structure_density * structure_specific_heat
+    across = structure_conductivity * faced_area / rotor_thickness
+    first, *others = lumps.strip(faced_area, capacity, across, lumps.NOWHERE)
+    root = 3.0 * structure_conductivity * rotor_vanes.area / vane_height
+    above = lumps.Surface(faced_area, rotor_coefficient, surface_emissivity)
+    others[-1] = others[-1]._replace(surface=above)
+    return (first._replace(conductance=lumps.in_series(root, first.conductance)), *others)
 
 
 @quantities.helper()
-def open_sides(
-    block_height: Scalar,
-    vane_count: Scalar,
-    housing_coefficient: Scalar,
-    surface_emissivity: Scalar,
-    ambient_temperature: Scalar,
-) -> Scalar:
-    """What the inner and outer sides of all blocks give to the chamber, by convection and radiation [W/m K].
-
-    For a metre of their depth, or of the pads'.
-    """
-    chamber = lumps.Surface(2.0 * vane_count * 2.0 * block_height, housing_coefficient, surface_emissivity)
-    return chamber.area * lumps.surface_coefficient(chamber, ambient_temperature, ambient_temperature)
-
-
-@quantities.helper()
-def narrow_sides(
-    vane_count: Scalar, block_width: Scalar, air_conductivity: Scalar, running_clearance: Scalar
-) -> Scalar:
-    """What the lower sides of all blocks give through the air of a running clearance [W/m K]; the upper ones as much.
-
-    For a metre of their depth, or of the pads'.
-    """
-    return 2.0 * vane_count * block_width * air_conductivity / running_clearance
-
-
-@quantities.helper()
-def free_sides(open_sides: Scalar, narrow_sides: Scalar, block_depth: Scalar) -> Scalar:
-    """Conductance from the blocks' inner, outer and lower sides to the housing [W/K]."""
-    return (open_sides + narrow_sides) * block_depth
-
-
-@quantities.helper()
-def upper_sides(
-    narrow_sides: Scalar,
-    block_depth: Scalar,
-    block_width: Scalar,
-    vane_count: Scalar,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-) -> Scalar:
-    """Conductance from the blocks' upper sides to the rotor plate [W/K], through a running clearance and half of it."""
-    above = 2.0 * vane_count * block_width * block_depth
-    return lumps.in_series(narrow_sides * block_depth, 2.0 * structure_conductivity * above / rotor_thickness)
-
-
-@quantities.helper()
-def around_pads(
-    open_sides: Scalar,
-    narrow_sides: Scalar,
-    peltier_thickness: Scalar,
-    block_depth: Scalar,
-    block_width: Scalar,
-    vane_count: Scalar,
-    housing_inner_radius: Scalar,
-    housing_outer_radius: Scalar,
-    rim_level: Scalar,
-    foot_height: Scalar,
-    floor_thickness: Scalar,
-    housing_mass: Scalar,
-    structure_conductivity: Scalar,
-    structure_density: Scalar,
-    structure_specific_heat: Scalar,
-    housing_coefficient: Scalar,
-    surface_emissivity: Scalar,
-) -> tuple[lumps.Lump, ...]:
-    """What the free sides of blocks and pads face: the floor below them, and the housing.
-
-    In plastic the first tenths of a millimetre warm up and then keep the heat in; metal is one body with the rest.
-    """
-    facing = 2.0 * vane_count * block_width * (block_depth + peltier_thickness)
-    capacity = floor_thickness * structure_density * structure_specific_heat
-    through = structure_conductivity * facing / floor_thickness
-    first, *others = lumps.strip(facing, capacity, through, lumps.NOWHERE)
-    outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
-    outside = outside + np.pi * housing_inner_radius**2
-    housing = lumps.Lump(
-        conductance=through,
-        capacity=housing_mass * structure_specific_heat - capacity * facing,
-        surface=lumps.Surface(outside, housing_coefficient, surface_emissivity),
-    )
-    edges = 0.5 * peltier_thickness * (open_sides + 2.0 * narrow_sides)
-    return (first._replace(conductance=lumps.in_series(edges, first.conductance)), *others, housing)
-
-
-@quantities.helper()
-def air_gaps(
-    rotor_radius: Scalar,
-    rotor_vanes: Section,
-    vane_height: Scalar,
-    air_conductivity: Scalar,
-    surface_emissivity: Scalar,
-) -> tuple[lumps.Gap, ...]:
-    """Air of the chamber between the rotor plate beside its vanes and the floor."""
-    area = np.pi * rotor_radius**2 - rotor_vanes.area
-    return (lumps.air_gap(area, vane_height, air_conductivity, surface_emissivity, (0, len(lumps.STRIP))),)
+def uneven_sideways() -> None:
+    """A vane's cells give heat to the plate above by one conductance, their mean and what they differ from it."""

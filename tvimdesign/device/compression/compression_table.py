@@ -7,6 +7,7 @@ from tvimdesign.device.compression import (
     block_impedance,
     block_shrinkage,
     block_volumes,
+    ring_heat,
     vane_clearances,
     vane_layout,
 )
@@ -15,5 +16,5 @@ from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (vane_layout, block_impedance, block_heat, block_volumes, vane_clearances)
+ROOMS = (vane_layout, block_impedance, block_heat, ring_heat, block_volumes, vane_clearances)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *block_shrinkage.groups], "compression"), PHASES)

@@ -1,11 +1,11 @@
 """The thermal stack of the module, and what it is like at each instant of a phase.
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
-`plate_outside`), the rotor beside that (`rotor_beside`, `plate_mass`), and the pads' open `cold_area`; what takes heat
-from the edges of pads and layer (`around_pads`, `free_sides`, `upper_sides`), and where that faces the rotor
-(`air_gaps`); what of the layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from
-them to the layer (`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `moment_now` what a
-partly molten layer is to the joint.
+`plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`), and the pads' open
+`cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`heat_links`), and
+by which of these the plate loses heat in the end (`plate_losses`); what of the layer's area the pads have
+(`heated_area`), in how many `heater_strings`, how heat comes from them to the layer (`pad_contact`), and what is heated
+on the way (`spreader_capacity`); and by `moment_now` what a partly molten layer is to the joint.
 """
 
 from __future__ import annotations
@@ -117,12 +117,11 @@ def stack(
     ambient_temperature: Scalar,
     rotor_cells: float,
     rotor_beside: tuple[lumps.Lump, ...],
+    uneven_sideways: Scalar | None,
     core_and_link: lumps.Lump,
     sink: lumps.Lump | None,
-    around_pads: tuple[lumps.Lump, ...],
-    free_sides: Scalar,
-    upper_sides: Scalar | None,
-    air_gaps: tuple[lumps.Gap, ...],
+    around_pads: tuple[lumps.Body, ...],
+    heat_links: tuple[lumps.Link, ...],
 ) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
     half = 0.5 * peltier_mass * peltier_specific_heat
@@ -147,11 +146,10 @@ def stack(
         ambient=ambient_temperature,
         plate_cells=int(rotor_cells),
         beside=(*rotor_beside, core_and_link),
+        uneven_conductance=uneven_sideways,
         sink=sink,
         around=around_pads,
-        free_sides=free_sides,
-        upper_sides=upper_sides,
-        gaps=air_gaps,
+        links=heat_links,
     )
 
 

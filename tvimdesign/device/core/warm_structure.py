@@ -95,9 +95,9 @@ def behind_pcl(
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
     rotor_beside: tuple[lumps.Lump, ...],
+    uneven_sideways: Scalar | None,
     core_and_link: lumps.Lump,
-    around_pads: tuple[lumps.Lump, ...],
-    air_gaps: tuple[lumps.Gap, ...],
+    plate_losses: tuple[lumps.Loss, ...],
     link_length: Scalar,
     link_half_width: Scalar,
     rotor_coefficient: Scalar,
@@ -105,15 +105,15 @@ def behind_pcl(
 ) -> BehindPolymer:
     """What the PCL heats, as in the stack; and both faces of the link lose heat, which a phase is too short to tell.
 
-    What is beside the plate loses heat through the gap as well, to the floor and from there to the air.
+    What is beside the plate loses heat through `plate_losses` as well, such as the gap to the floor and the air there.
     """
     faces = lumps.Surface(4.0 * link_length * link_half_width, rotor_coefficient, surface_emissivity)
     cooled = list(rotor_beside)
-    for gap in air_gaps:
-        below = around_pads[gap.below].surface
-        cooled[gap.above] = lumps.cooled_through(gap, cooled[gap.above], below, ambient_temperature)
+    for loss in plate_losses:
+        _, above = loss.link.first
+        cooled[above] = lumps.cooled_through(loss, cooled[above], ambient_temperature)
     return BehindPolymer(pcl_area, plate_depth, structure_conductivity, plate_outside, ambient_temperature,
-                         (*cooled, core_and_link._replace(surface=faces)))  # fmt: skip
+                         (*cooled, core_and_link._replace(surface=faces)), uneven_sideways)  # fmt: skip
 
 
 @quantities.helper(per_point=True)

@@ -1,7 +1,7 @@
 """What the heat passes in the shear module: arcs of the rotor plate behind the layer; plate and floor beside them.
 
-Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area;
-floor and plate beside it are strips that this heats. Two figures of these strips are calibrated (`lumps`).
+Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area.
+The plate beside it is a strip that this heats; the floor is in `floor_heat`. `lumps` has what is calibrated.
 """
 
 from __future__ import annotations
@@ -90,23 +90,15 @@ def rotor_beside(
 
 
 @quantities.helper()
-def floor_beside(
-    beside_area: Scalar,
-    edge_length: Scalar,
-    floor_thickness: Scalar,
-    structure_conductivity: Scalar,
-    structure_density: Scalar,
-    structure_specific_heat: Scalar,
-    housing_coefficient: Scalar,
-    surface_emissivity: Scalar,
-) -> tuple[lumps.Lump, ...]:
-    """Floor beside the pads: a strip along the walls of their pockets, open to the air below."""
-    return lumps.strip(
-        beside_area,
-        floor_thickness * structure_density * structure_specific_heat,
-        structure_conductivity * floor_thickness * edge_length**2 / beside_area,
-        lumps.Surface(1.0, housing_coefficient, surface_emissivity),
-    )
+def uneven_sideways(
+    to_edge: Scalar, edge_length: Scalar, rotor_thickness: Scalar, structure_conductivity: Scalar
+) -> Scalar:
+    """Conductance sideways for what the plate's temperature differs over its depth from its mean [W/K].
+
+    Its slowest mode, a cosine over the depth, dies down within that over pi beside the arc.
+    """
+    sheet = structure_conductivity * rotor_thickness
+    return lumps.in_series(sheet * to_edge, sheet * edge_length * np.pi / rotor_thickness)
 
 
 @quantities.helper()
@@ -130,63 +122,3 @@ def pad_edge(
         return lumps.in_series(along, pad_edge_contact * spreader_depth * edge_length)
     half = 0.5 * peltier_thickness
     return lumps.in_series(pad_conductivity * half * to_edge, pad_edge_contact * half * edge_length)
-
-
-@quantities.helper()
-def around_pads(
-    floor_beside: tuple[lumps.Lump, ...],
-    pad_edge: Scalar,
-    housing_inner_radius: Scalar,
-    housing_outer_radius: Scalar,
-    rotor_radius: Scalar,
-    rim_level: Scalar,
-    foot_height: Scalar,
-    floor_thickness: Scalar,
-    housing_mass: Scalar,
-    structure_conductivity: Scalar,
-    structure_specific_heat: Scalar,
-    housing_coefficient: Scalar,
-    surface_emissivity: Scalar,
-) -> tuple[lumps.Lump, ...]:
-    """What the pads are set in: the floor beside them, from the walls of their pockets on; the rest of the housing."""
-    first, *others = floor_beside
-    ring = np.log(housing_inner_radius / rotor_radius) / (2.0 * np.pi * structure_conductivity * floor_thickness)
-    outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
-    outside = outside + np.pi * (housing_outer_radius**2 - rotor_radius**2)
-    rest = lumps.Lump(
-        conductance=1.0 / ring,
-        capacity=housing_mass * structure_specific_heat - sum(lump.capacity for lump in floor_beside),
-        surface=lumps.Surface(outside, housing_coefficient, surface_emissivity),
-    )
-    return (first._replace(conductance=lumps.in_series(pad_edge, first.conductance)), *others, rest)
-
-
-@quantities.helper()
-def free_sides(
-    air_conductivity: Scalar,
-    window_ledge: Scalar,
-    edge_length: Scalar,
-    to_edge: Scalar,
-    pcl_conductivity_melt: Scalar,
-    pcl_thickness: Scalar,
-) -> Scalar:
-    """Conductance from the layer through its rim to the floor beside it [W/K], through air of a ledge's width."""
-    return lumps.in_series(
-        pcl_conductivity_melt * pcl_thickness * to_edge, air_conductivity * pcl_thickness * edge_length / window_ledge
-    )
-
-
-@quantities.helper()
-def upper_sides() -> None:
-    """Sides of the layer that face the rotor beside the plate: none, the layer's free sides face the floor's ledge."""
-
-
-@quantities.helper()
-def air_gaps(
-    beside_area: Scalar, pcl_thickness: Scalar, air_conductivity: Scalar, surface_emissivity: Scalar
-) -> tuple[lumps.Gap, ...]:
-    """Air between floor and plate beside the arcs, as thick as the layer."""
-    return tuple(
-        lumps.air_gap(share * beside_area, pcl_thickness, air_conductivity, surface_emissivity, (place, place))
-        for place, share in enumerate(lumps.STRIP)
-    )

@@ -6,6 +6,7 @@ from tvimdesign.device.shared import BOOKS
 from tvimdesign.device.shear import (
     arc_clearances,
     arc_volumes,
+    floor_heat,
     keys,
     layer_heat,
     layer_impedance,
@@ -20,6 +21,6 @@ from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (rotor_level, layer_impedance, layer_heat, arc_volumes, arc_clearances, melt_retention, tile_heat)
+ROOMS = (rotor_level, layer_impedance, layer_heat, floor_heat, arc_volumes, arc_clearances, melt_retention, tile_heat)
 GROUPS = (*tiles.groups, *keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)

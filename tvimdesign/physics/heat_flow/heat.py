@@ -19,12 +19,13 @@ order of one.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tvimdesign.physics.heat_flow import conduction, lumps, peltier
-from tvimdesign.physics.heat_flow.lumps import Gap, Lump, Surface
+from tvimdesign.physics.heat_flow.lumps import Body, Link, Lump, Surface
 from tvimdesign.physics.polymers import crystallization, polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 
@@ -63,16 +64,15 @@ class Stack(NamedTuple):
     plate_cells: int
     beside: tuple[Lump, ...] = ()
     """What the plate belongs to: the first takes heat from all the plate's cells, each next from the one before."""
+    uneven_conductance: Any = None
+    """Conductance [W/K] sideways for what the plate's temperature differs over its depth from its mean; as for the mean
+    where not given."""
     sink: Lump | None = None
     """A body between the cold side and the air."""
-    around: tuple[Lump, ...] = ()
-    """What the pads are set in: the first takes heat from the edges of both their sides, each by its conductance."""
-    free_sides: Any = 0.0
-    """Conductance of the polymer's free sides to the first lump around the pads [W/K]."""
-    upper_sides: Any = None
-    """Conductance of the polymer's free sides to the first lump beside the plate [W/K], where some face it."""
-    gaps: tuple[Gap, ...] = ()
-    """Air between lumps beside the plate and lumps around the pads."""
+    around: tuple[Body, ...] = ()
+    """What the pads are set in."""
+    links: tuple[Link, ...] = ()
+    """What else passes heat between the column and the bodies beside and around it."""
     motion_heat: Any = 0.0
     """Heat that the joint's motion makes in each polymer cell [W]."""
     freezing: crystallization.Kinetics | None = None
@@ -228,21 +228,18 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
     hot_heat = peltier.hot_side_heat(stack.peltier, current, now.hot, now.cold)
     cold_heat = peltier.cold_side_heat(stack.peltier, current, now.hot, now.cold)
     from_cold, sink = _cold_end(now, stack)
-    edges, free_sides = _edges(now, stack)
-    upper_sides = _upper_sides(now, stack)
+    linked = _linked(now, stack)
     sides = np.append(
-        -(cold_heat + from_cold + edges[0]) / stack.cold_capacity,
-        (hot_heat - now.through_layer[0] - edges[1]) / stack.hot_capacity,
+        (linked["cold"][0] - cold_heat - from_cold) / stack.cold_capacity,
+        (linked["hot"][0] + hot_heat - now.through_layer[0]) / stack.hot_capacity,
     )
-    layer = (stack.motion_heat - np.diff(now.through_layer) - free_sides - upper_sides) / _cell_mass(
-        stack, len(now.cells)
-    )
+    layer = stack.motion_heat - np.diff(now.through_layer) + linked["layer"][0]
     sideways = _sideways(now, stack)
-    plate = (-np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
-    to_around = edges[0] + edges[1] + np.sum(free_sides)
-    beside, around = _chains(now, stack, np.sum(sideways) + np.sum(upper_sides), to_around)
+    plate = (linked["plate"][0] - np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
+    beside, around = _bodies(now, stack, np.sum(sideways), linked)
     bodies = np.append(np.append(np.append(plate, beside), sink), around) / TEMPERATURE_SCALE
-    heated = np.append(np.append(sides / TEMPERATURE_SCALE, layer / ENTHALPY_SCALE), bodies)
+    heated = np.append(sides / TEMPERATURE_SCALE, layer / _cell_mass(stack, len(now.cells)) / ENTHALPY_SCALE)
+    heated = np.append(heated, bodies)
     if stack.freezing is None:
         return heated
     extended = _parts(state, stack).extended
@@ -268,39 +265,55 @@ def _cold_end(now: Profile, stack: Stack) -> tuple[Any, Any]:
     return flow, rest / stack.sink.capacity
 
 
-def _edges(now: Profile, stack: Stack) -> tuple[tuple[Any, Any], Any]:
-    """Heat [W] at the edges of the cold and the hot side, and at the free side of each polymer cell."""
-    if not stack.around:
-        return (0.0, 0.0), 0.0
-    place, conductance = now.around[0], stack.around[0].conductance
-    each = stack.free_sides / len(now.cells)
-    return (conductance * (now.cold - place), conductance * (now.hot - place)), each * (now.cells - place)
+def _linked(now: Profile, stack: Stack) -> dict[str, list[Any]]:
+    """Heat [W] that links bring to each place of the column and each body; to each cell of layer and plate.
 
-
-def _upper_sides(now: Profile, stack: Stack) -> Any:
-    """Heat [W] each polymer cell gives to the first lump beside the plate through its free side."""
-    if stack.upper_sides is None:
-        return 0.0
-    return stack.upper_sides / len(now.cells) * (now.cells - now.beside[0])
+    A link of layer or plate takes from each cell in turn as much as that is warmer than the link's other end, and
+    radiates as from their mean temperature.
+    """
+    divided = {"layer": now.cells, "plate": now.plate}
+    places = {
+        "cold": [now.cold], "hot": [now.hot], "layer": [np.mean(now.cells)], "plate": [np.mean(now.plate)],
+        "beside": now.beside, "around": now.around,
+    }  # fmt: skip
+    found: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in places.items()}
+    taking: dict[str, Any] = dict.fromkeys(divided, 0.0)
+    for link in stack.links:
+        ends = [places[group][i] for group, i in (link.first, link.second)]
+        conductance = lumps.link_conductance(link, *ends)
+        for (group, i), own, other in ((link.first, *ends), (link.second, *reversed(ends))):
+            if group in divided:
+                found[group][0] = found[group][0] + conductance * other
+                taking[group] = taking[group] + conductance
+            else:
+                found[group][i] = found[group][i] + conductance * (other - own)
+    for group, cells in divided.items():
+        found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
+    return found
 
 
 def _sideways(now: Profile, stack: Stack) -> Any:
     """Heat [W] each plate cell gives to the first lump beside the plate."""
     if not stack.beside:
         return 0.0
-    return stack.beside[0].conductance / stack.plate_cells * (now.plate - now.beside[0])
+    sideways = stack.beside[0].conductance
+    if stack.uneven_conductance is None:
+        return sideways / stack.plate_cells * (now.plate - now.beside[0])
+    mean = np.mean(now.plate)
+    even = sideways * (mean - now.beside[0])
+    return (even + stack.uneven_conductance * (now.plate - mean)) / stack.plate_cells
 
 
-def _chains(now: Profile, stack: Stack, to_beside: Any, to_around: Any) -> tuple[Any, Any]:
-    """Heating [K/s] of the lumps beside the plate and around the pads, from the heat that comes into each chain [W]."""
-    upper = lumps.kept(stack.beside, now.beside, to_beside, stack.ambient)
-    lower = lumps.kept(stack.around, now.around, to_around, stack.ambient)
-    for gap in stack.gaps:
-        heat = lumps.gap_heat(gap, now.beside[gap.above], now.around[gap.below])
-        upper[gap.above] = upper[gap.above] - heat
-        lower[gap.below] = lower[gap.below] + heat
-    beside = lumps.heating(stack.beside, upper, now.beside[:0])
-    return beside, lumps.heating(stack.around, lower, now.around[:0])
+def _bodies(now: Profile, stack: Stack, to_beside: Any, linked: Mapping[str, Sequence[Any]]) -> tuple[Any, Any]:
+    """Heating [K/s] of the bodies beside the plate and around the pads, from what the plate and links bring [W]."""
+    chain = lumps.kept(stack.beside, now.beside, to_beside, stack.ambient)
+    upper = [own + more for own, more in zip(chain, linked["beside"], strict=True)]
+    lower = [
+        more - lumps.surface_heat(body.surface, now.around[i], stack.ambient)
+        for i, (body, more) in enumerate(zip(stack.around, linked["around"], strict=True))
+    ]
+    empty = now.around[:0]
+    return lumps.heating(stack.beside, upper, empty), lumps.heating(stack.around, lower, empty)
 
 
 def electrical_power(now: Profile, stack: Stack, current: Any) -> Any:

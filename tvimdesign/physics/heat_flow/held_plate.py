@@ -32,6 +32,8 @@ class BehindPolymer(NamedTuple):
     """[K]"""
     beside: tuple[Lump, ...]
     """What the plate belongs to: the first takes heat from all of its depth, each next from the one before."""
+    uneven_conductance: Any = None
+    """Conductance [W/K] sideways for what the plate differs from its mean; as for the mean where not given."""
 
 
 class HeldPlate(NamedTuple):
@@ -46,8 +48,9 @@ class HeldPlate(NamedTuple):
 def held_plate(behind: BehindPolymer, temperature: Any) -> HeldPlate:
     """Steady temperatures behind a polymer that is everywhere at one temperature [K].
 
-    theta'' = m^2 theta/d^2 with theta = T - T_beside, m^2 = G_b d/(k A), between theta(0) of the polymer and
-    -k theta'(d) = h (T(d) - T_a) at the outer face.
+    theta'' = m^2 theta/d^2 with theta = T - T_f, m^2 = G_u d/(k A), between theta(0) of the polymer and
+    -k theta'(d) = h (T(d) - T_a) at the outer face. The mean gives heat to the lump beside by G_b and what differs from
+    it by G_u, which is a fin in surroundings of T_f = T_mean - (G_b/G_u)(T_mean - T_beside).
     """
     outer, beside = temperature, tuple(temperature for _ in behind.beside)
     plate: tuple[Any, ...] = ()
@@ -66,14 +69,19 @@ class _Fin:
     def __init__(self, behind: BehindPolymer, coefficient: Any) -> None:
         across = behind.plate_conductivity * behind.area / behind.plate_thickness
         sideways = behind.beside[0].conductance if behind.beside else 0.0 * across
+        uneven = sideways if behind.uneven_conductance is None else behind.uneven_conductance
+        self.even_share = 1.0 if behind.uneven_conductance is None else sideways / uneven
         # Without lumps the profile is straight, which a thousandth in m leaves as it is.
-        self.m = np.sqrt(sideways / across + 1e-6)
+        self.m = np.sqrt(uneven / across + 1e-6)
         self.biot = coefficient * behind.area / across
         self.sinh, self.cosh = np.sinh(self.m), np.cosh(self.m)
         self.whole = self.m * self.cosh + self.biot * self.sinh
 
-    def at(self, depth: Any, polymer: Any, foot: Any, ambient: Any) -> Any:
+    def at(self, depth: Any, polymer: Any, beside: Any, ambient: Any) -> Any:
         """Temperature [K] at a share of the depth."""
+        of_polymer, of_air = self.mean_shares
+        mean = beside + of_polymer * (polymer - beside) + of_air * (ambient - beside)
+        foot = mean - self.even_share * (mean - beside)
         slope = self.biot * (ambient - foot) - (self.m * self.sinh + self.biot * self.cosh) * (polymer - foot)
         return foot + (polymer - foot) * np.cosh(self.m * depth) + slope / self.whole * np.sinh(self.m * depth)
 
@@ -81,7 +89,11 @@ class _Fin:
     def mean_shares(self) -> tuple[Any, Any]:
         """What the mean rises above the lump beside for each kelvin of polymer and of air above it [1]."""
         bent = (self.cosh - 1.0) / (self.m * self.whole)
-        return self.sinh / self.m - (self.m * self.sinh + self.biot * self.cosh) * bent, self.biot * bent
+        of_polymer = self.sinh / self.m - (self.m * self.sinh + self.biot * self.cosh) * bent
+        of_air = self.biot * bent
+        # These are above T_f, which is above the lump by (1 - G_b/G_u) of what the mean is.
+        over = self.even_share + (1.0 - self.even_share) * (of_polymer + of_air)
+        return of_polymer / over, of_air / over
 
 
 def _beside(behind: BehindPolymer, fin: _Fin, polymer: Any, last: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -13,19 +13,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 STEFAN_BOLTZMANN = 5.670374419e-8  # W/(m^2 K^4), CODATA
-STRIP = (0.05, 0.22, 0.73)
+STRIP = (0.1, 0.25, 0.65)
 """Widths of the three bodies a strip that is heated at its edge is divided into, from that edge on, as shares.
 
-Each is several times as wide as the one before, so that the first seconds are seen as well as the rest. Calibrated,
-with `TO_EDGE`, to a strip whose floor had one temperature through its depth; `docs/theory/heat.md` tells how far times
-are off the module as drawn.
+Each is more than twice as wide as the one before, so that the first seconds are seen as well as the rest.
 """
-TO_EDGE = 0.22
+TO_EDGE = 0.18
 """Way from where a heated strip has its mean temperature to its edge, as a share of its half width; calibrated.
 
 A strip that loses heat at its edge has its mean a third of its half width away once its profile is a parabola; before
-that the loss comes from nearer to the edge.
+that the loss comes from nearer to the edge. Calibrated, with `CORNER`, to times of the shear modules in two dimensions
+(`docs/theory/heat.md`); 0.16 to 0.20 do about as well.
 """
+CORNER = 6.0
+"""How fine the finest sine of `gap_end` is, over the contact's own thickness; calibrated, 5 to 7 do about as well."""
+EULER = 0.5772156649
 
 
 class Surface(NamedTuple):
@@ -41,26 +43,37 @@ class Surface(NamedTuple):
 NOWHERE = Surface(0.0, 0.0)
 
 
-class Lump(NamedTuple):
+class Body(NamedTuple):
     """A body at one temperature."""
 
-    conductance: Any
-    """To what comes before it: plate, one side of the pads, the lump before it in a chain, a sink's cold side [W/K]."""
     capacity: Any
     """[J/K]"""
     surface: Surface
 
 
-class Gap(NamedTuple):
-    """Still air between two lumps."""
+class Lump(NamedTuple):
+    """A body at one temperature in a chain."""
 
     conductance: Any
-    """Through the air [W/K]."""
-    radiating_area: Any
+    """To what comes before it: the plate, the lump before it, a sink's cold side [W/K]."""
+    capacity: Any
+    """[J/K]"""
+    surface: Surface
+
+
+Place = tuple[str, int]
+"""Where a link ends: `cold`, `hot`, `layer` or `plate` of the column, or a body `beside` or `around`, and which."""
+
+
+class Link(NamedTuple):
+    """What conducts, and radiates, between two places; `layer` and `plate` give heat evenly over their depth."""
+
+    first: Place
+    second: Place
+    conductance: Any
+    """[W/K]"""
+    radiating_area: Any = 0.0
     """Area times exchange factor 1/(1/e + 1/e - 1) [m^2]."""
-    above: int
-    """Place in the chain beside the plate of what is above it, in the chain around the pads of what is below."""
-    below: int
 
 
 def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
@@ -74,25 +87,65 @@ def surface_heat(surface: Surface, temperature: Any, ambient: Any) -> Any:
     return surface.area * surface_coefficient(surface, temperature, ambient) * (temperature - ambient)
 
 
-def air_gap(area: Any, width: Any, air_conductivity: Any, emissivity: Any, places: tuple[int, int]) -> Gap:
-    """Gap of an area [m^2] and a width [m] between faces of one emissivity; its air does not move.
-
-    `places` are those of the bodies above and below it in their chains.
-    """
-    return Gap(air_conductivity * area / width, area * emissivity / (2.0 - emissivity), *places)
+def air_gap(area: Any, width: Any, air_conductivity: Any, emissivity: Any, first: Place, second: Place) -> Link:
+    """Gap of an area [m^2] and a width [m] between faces of one emissivity; its air does not move."""
+    return Link(first, second, air_conductivity * area / width, area * emissivity / (2.0 - emissivity))
 
 
-def gap_heat(gap: Gap, warm: Any, cool: Any) -> Any:
-    """Heat [W] across a gap, k A/d (T_1 - T_2) + A_r s (T_1^4 - T_2^4), temperatures in kelvin."""
-    radiation = gap.radiating_area * STEFAN_BOLTZMANN * (warm**2 + cool**2) * (warm + cool)
-    return (gap.conductance + radiation) * (warm - cool)
+def link_conductance(link: Link, warm: Any, cool: Any) -> Any:
+    """Conductance [W/K] of a link, k A/d + A_r s (T_1^2 + T_2^2)(T_1 + T_2), temperatures in kelvin."""
+    return link.conductance + link.radiating_area * STEFAN_BOLTZMANN * (warm**2 + cool**2) * (warm + cool)
 
 
-def cooled_through(gap: Gap, lump: Lump, below: Surface, ambient: Any) -> Lump:
-    """A lump that also loses heat to ambient across a gap and then by the `below` surface, near ambient temperature."""
-    across = gap.conductance + gap.radiating_area * 4.0 * STEFAN_BOLTZMANN * ambient**3
-    more = in_series(across, below.area * surface_coefficient(below, ambient, ambient)) / lump.surface.area
+def link_heat(link: Link, warm: Any, cool: Any) -> Any:
+    """Heat [W] a link passes from one temperature [K] to the other."""
+    return link_conductance(link, warm, cool) * (warm - cool)
+
+
+class Loss(NamedTuple):
+    """A link by which what is beside the plate loses heat in the end."""
+
+    link: Link
+    """From a body beside the plate."""
+    onward: Any
+    """From the link's other end to the air [W/K]."""
+
+
+def behind(link: Link, conductance: Any, ambient: Any) -> Link:
+    """A link with a `conductance` [W/K] in series, which takes the share it has near ambient temperature."""
+    share = 1.0 / (1.0 + link_conductance(link, ambient, ambient) / conductance)
+    return link._replace(conductance=share * link.conductance, radiating_area=share * link.radiating_area)
+
+
+def straightened(link: Link, warm: Any, cool: Any) -> Link:
+    """A link that radiates as it does between these two temperatures [K] at all others as well."""
+    return link._replace(conductance=link_conductance(link, warm, cool), radiating_area=0.0)
+
+
+def cooled_through(loss: Loss, lump: Lump, ambient: Any) -> Lump:
+    """A lump that also loses heat to ambient by a loss that begins at it, as near ambient temperature."""
+    more = in_series(link_conductance(loss.link, ambient, ambient), loss.onward) / lump.surface.area
     return lump._replace(surface=lump.surface._replace(coefficient=lump.surface.coefficient + more))
+
+
+def gap_end(finest: Any) -> tuple[Any, Any]:
+    """Shape factors [1] from the end of a gap to its two walls, heat per length over k and the end's excess.
+
+    The end of a gap between walls of one temperature is warmer than they are by 1 at the one wall, falling evenly to 0
+    at the other. Its series of sines, 2/(n pi) sin(n pi y/t), brings 2/pi (1 + 1/2 + 1/3 + ...) to the first wall and
+    2/pi (1 - 1/2 + 1/3 - ...) = 2/pi ln 2 to the second (by separation of variables, Carslaw and Jaeger, Conduction of
+    Heat in Solids, ch. V). The first sum has no end: it is cut at the `finest` sine, ln n + 0.5772.
+    """
+    return 2.0 / np.pi * (np.log(finest) + EULER), 2.0 / np.pi * np.log(2.0)
+
+
+def corner_shape(shape: Any) -> Any:
+    """Shape factor [1] of a corner of a solid, over its conductivity, that takes heat along one face as `gap_end` does.
+
+    The flux goes as 1/r from the corner on over a range of ln(R/r) = L = pi/2 of the `shape`. What comes in within r
+    passes the quarter circle at r: the flux's mean of the temperature is 2 L/(3 pi k) per heat and length.
+    """
+    return 3.0 / shape
 
 
 def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple[Lump, ...]:
@@ -126,7 +179,7 @@ def kept(lumps: Sequence[Lump], temperatures: Any, inflow: Any, ambient: Any) ->
     return left
 
 
-def heating(lumps: Sequence[Lump], watts: Sequence[Any], empty: Any) -> Any:
+def heating(lumps: Sequence[Lump | Body], watts: Sequence[Any], empty: Any) -> Any:
     """Rate [K/s] at which each lump's temperature rises; `empty` is an array of none."""
     rates = empty
     for lump, heat in zip(lumps, watts, strict=True):

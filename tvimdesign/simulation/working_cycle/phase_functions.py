@@ -66,8 +66,9 @@ class PhaseFunctions:
         temperature runs away.
         """
         sink = (self._stack.sink,) if self._stack.sink else ()
-        bodies = (*self._stack.beside, *self._stack.around, *sink)
-        numbers = [number for body in bodies for number in (body.conductance, body.capacity)]
+        chained = (*self._stack.beside, *sink)
+        numbers = [part.conductance for part in (*chained, *self._stack.links)]
+        numbers += [body.capacity for body in (*chained, *self._stack.around)]
         return ca.Function("lumps", [self._inputs], [ca.vertcat(*numbers)])
 
     @cached_property

@@ -12,7 +12,6 @@ from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.first_screen.layout import block, joined
 from tvimdesign.report.run.first_screen.requirements import may_be
-from tvimdesign.report.run.first_screen.two_dimensions import in_two_dimensions
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3
@@ -113,11 +112,8 @@ class _Values:
 
 
 def _soft(answer: StudyResult, said: _Values) -> Iterator[str]:
-    """When the joint is soft, by one dimension and perhaps by two, what soft means, and what to measure first."""
+    """When the joint is soft, what soft means, and what to measure first."""
     yield said("softening_time")
-    ends = in_two_dimensions(answer.design)
-    if ends:
-        yield f"{number(ends[0], _DIGITS)} to {number(ends[1], _DIGITS)} s in two dimensions"
     yield soft_in_words(answer.design, said.table)
     yield from filter(None, [said.first("softening_time")])
 

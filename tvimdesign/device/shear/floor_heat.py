@@ -1,0 +1,189 @@
+"""The floor the pads are set in as bodies of one temperature, and what passes heat between it, pads, layer and plate.
+
+Beside the pockets the floor is two strips, as high as the pads and below them, of three bodies each; the upper half of
+the upper strip's first body, next to the pads' hot sides, is a body of its own. So are the ledges the pads lie on, and
+what is left of the housing. A body that is heated over a face has its mean temperature a third of its depth behind that
+face (even heating, Incropera, Fundamentals of Heat and Mass Transfer, ch. 3); one that heat passes through, half of it.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from tvimdesign.device.core.thermal_stack import quantities as shared
+from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link
+
+quantities = QuantityGroup(shared.group)
+
+UPPER, LOWER = (0, 1, 2), (3, 4, 5)
+"""Places of the strips' bodies, from the pockets' walls on."""
+LEDGES, CORNER, HOUSING = 6, 7, 8
+
+
+@quantities.helper()
+def housing_ring(
+    housing_inner_radius: Scalar, rotor_radius: Scalar, structure_conductivity: Scalar, floor_thickness: Scalar
+) -> Scalar:
+    """Conductance of the floor from below the rotor's rim to the housing's wall [W/K]."""
+    return 2.0 * np.pi * structure_conductivity * floor_thickness / np.log(housing_inner_radius / rotor_radius)
+
+
+@quantities.helper()
+def around_pads(
+    pcl_area: Scalar,
+    cold_area: Scalar,
+    beside_area: Scalar,
+    pad_depth: Scalar,
+    floor_web: Scalar,
+    housing_outer_radius: Scalar,
+    rotor_radius: Scalar,
+    rim_level: Scalar,
+    foot_height: Scalar,
+    floor_thickness: Scalar,
+    housing_mass: Scalar,
+    structure_density: Scalar,
+    structure_specific_heat: Scalar,
+    housing_coefficient: Scalar,
+    surface_emissivity: Scalar,
+) -> tuple[Body, ...]:
+    """What the pads are set in: upper and lower strip of the floor, ledges, corner, and the rest of the housing."""
+    volumetric = structure_density * structure_specific_heat
+    open_below = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
+    areas = [share * beside_area for share in STRIP]
+    corner = Body(0.5 * areas[0] * pad_depth * volumetric, lumps.NOWHERE)
+    upper = [corner, *(Body(area * pad_depth * volumetric, lumps.NOWHERE) for area in areas[1:])]
+    lower = [
+        Body(area * floor_web * volumetric, open_below._replace(area=area)) for area in (*areas, pcl_area - cold_area)
+    ]
+    floor = (*upper, *lower, corner)
+    outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
+    outside = outside + np.pi * (housing_outer_radius**2 - rotor_radius**2)
+    rest = housing_mass * structure_specific_heat - sum(body.capacity for body in floor)
+    return (*floor, Body(rest, open_below._replace(area=outside)))
+
+
+@quantities.helper()
+def floor_links(
+    beside_area: Scalar,
+    edge_length: Scalar,
+    pad_depth: Scalar,
+    floor_web: Scalar,
+    floor_thickness: Scalar,
+    housing_ring: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[Link, ...]:
+    """What conducts within the floor, along the strips to the housing's wall and from the upper to the lower one."""
+    per_depth = structure_conductivity * edge_length**2 / beside_area
+    ways = [0.5 * (before + after) for before, after in itertools.pairwise(STRIP)]
+    found = []
+    for row, depth in ((UPPER, pad_depth), (LOWER, floor_web)):
+        first, *others = (per_depth * depth / way for way in ways)
+        if row is UPPER:
+            found.append(_link(CORNER, row[1], 0.5 * first))
+            first = 0.5 * first
+        found += [_link(row[i], row[i + 1], along) for i, along in enumerate((first, *others))]
+        to_wall = lumps.in_series(per_depth * depth / (0.5 * STRIP[-1]), housing_ring * depth / floor_thickness)
+        found.append(_link(row[-1], HOUSING, to_wall))
+    down = [structure_conductivity * share * beside_area for share in STRIP]
+    found.append(_link(CORNER, UPPER[0], down[0] / (0.5 * pad_depth)))
+    for i, area in enumerate(down):
+        height = pad_depth if i else 0.5 * pad_depth
+        found.append(_link(UPPER[i], LOWER[i], area / (0.5 * height + floor_web / 3.0)))
+    return tuple(found)
+
+
+def _link(first: int, second: int, conductance: Scalar) -> Link:
+    return Link(("around", first), ("around", second), conductance)
+
+
+@quantities.helper()
+def pad_links(
+    pad_edge: Scalar,
+    pcl_area: Scalar,
+    cold_area: Scalar,
+    beside_area: Scalar,
+    edge_length: Scalar,
+    pad_depth: Scalar,
+    floor_web: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[Link, ...]:
+    """From the pads' edges into the walls of their pockets, and by their cold sides through the ledges."""
+    first, ledge = 0.5 * STRIP[0] * beside_area / edge_length, 0.5 * (pcl_area - cold_area) / edge_length
+    wall = lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / first)
+    onto = 3.0 * structure_conductivity * (pcl_area - cold_area) / floor_web
+    onward = structure_conductivity * floor_web * edge_length / (ledge + first)
+    return (
+        Link(("hot", 0), ("around", CORNER), wall),
+        Link(("cold", 0), ("around", UPPER[0]), wall),
+        Link(("cold", 0), ("around", LEDGES), onto),
+        _link(LEDGES, LOWER[0], onward),
+    )
+
+
+@quantities.helper()
+def side_links(
+    edge_length: Scalar,
+    pcl_thickness: Scalar,
+    pcl_conductivity_melt: Scalar,
+    hot_contact: Scalar,
+    air_conductivity: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[Link, ...]:
+    """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
+
+    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner.
+    """
+    finest = lumps.CORNER * pcl_thickness * hot_contact / (np.pi * pcl_conductivity_melt)
+    near, far = lumps.gap_end(finest)
+    through = edge_length / (1.0 / air_conductivity + 1.0 / pcl_conductivity_melt)
+    corner = structure_conductivity * edge_length * lumps.corner_shape(near)
+    return (
+        Link(("hot", 0), ("around", CORNER), lumps.in_series(near * through, corner)),
+        Link(("hot", 0), ("beside", 0), far * through),
+    )
+
+
+@quantities.helper()
+def plate_losses(
+    beside_area: Scalar,
+    pcl_thickness: Scalar,
+    air_conductivity: Scalar,
+    housing_coefficient: Scalar,
+    surface_emissivity: Scalar,
+    ambient_temperature: Scalar,
+    pad_depth: Scalar,
+    floor_thickness: Scalar,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[lumps.Loss, ...]:
+    """Air between plate and floor beside the arcs, as thick as the layer, and what is below it.
+
+    On the way lie a third of the plate's depth and half of the upper strip's.
+    """
+    faces = (rotor_thickness / 3.0 + 0.5 * pad_depth) / structure_conductivity
+    open_below = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
+    below = lumps.surface_coefficient(open_below, ambient_temperature, ambient_temperature)
+    onward = lumps.in_series(below, structure_conductivity / (floor_thickness - 0.5 * pad_depth))
+    found = []
+    for share, above, floor in zip(STRIP, range(len(STRIP)), (CORNER, *UPPER[1:]), strict=True):
+        area = share * beside_area
+        gap = lumps.air_gap(area, pcl_thickness, air_conductivity, surface_emissivity,
+                            ("beside", above), ("around", floor))  # fmt: skip
+        found.append(lumps.Loss(lumps.behind(gap, area / faces, ambient_temperature), onward * area))
+    return tuple(found)
+
+
+@quantities.helper()
+def heat_links(
+    floor_links: tuple[Link, ...],
+    pad_links: tuple[Link, ...],
+    side_links: tuple[Link, ...],
+    plate_losses: tuple[lumps.Loss, ...],
+) -> tuple[Link, ...]:
+    """What passes heat between the stack and the bodies beside and around it, and among these."""
+    return (*floor_links, *pad_links, *side_links, *(loss.link for loss in plate_losses))

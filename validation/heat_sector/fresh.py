@@ -1,0 +1,55 @@
+"""The product's times against two dimensions for random designs, which no figure of the product was calibrated with.
+
+    PYTHONPATH=benchmarks python validation/heat_sector/fresh.py
+
+draws designs that keep all rules within the ranges of studies, seeded, heats those that soften within the simulation's
+horizon by the product and in the plane, and writes `fresh.csv`.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+
+from compare import HEADER, STUDIES, model_of, product_times, rows_of
+from random_designs import Draws, Tally
+
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.study import read_study
+
+RESULTS = Path(__file__).with_name("fresh.csv")
+SEED = 2026
+COUNTS = {"paper_shear": 4, "wrist_joint": 4, "wrist_compression": 4, "compare_compression": 4}
+"""How many designs of each study's ranges."""
+MOST = 40
+"""Draws that keep the rules, of which the first that soften are taken."""
+
+
+def designs(study: str, count: int) -> Iterator[tuple[str, DeviceFunctions]]:
+    """The first designs drawn that soften, by their place among those that keep the rules."""
+    path = STUDIES / f"{study}.yaml"
+    read, found = read_study(path), 0
+    for place, design in enumerate(Draws(read, SEED).keeping_rules(MOST, Tally())):
+        model = model_of(path, **{name: design.values[name] for name in read.vary if name in design.values})
+        if "softening_time" in product_times(model):
+            yield f"draw {place}", model
+            found += 1
+        if found == count:
+            return
+
+
+def main() -> None:
+    """Compare all, and write the table."""
+    with RESULTS.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(HEADER)
+        for study, count in COUNTS.items():
+            for name, model in designs(study, count):
+                for row in rows_of(study, name, model):
+                    print(*row, flush=True)
+                    writer.writerow(row)
+
+
+if __name__ == "__main__":
+    main()
