@@ -44,7 +44,7 @@ def plain(name: str) -> str:
     """A name in small letters, without accents, signs before and after it, and double blanks."""
     folded = unicodedata.normalize("NFKD", name.replace("″", '"').replace("′", "'").replace("''", '"'))
     letters = "".join(sign for sign in folded if not unicodedata.combining(sign)).lower().replace("_", " ")
-    return " ".join(letters.strip(" #:.*").split())
+    return " ".join(letters.strip(" #:.*/").split())
 
 
 def heading(text: str, unit: str = "") -> Heading:

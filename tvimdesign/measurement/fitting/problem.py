@@ -1,0 +1,85 @@
+"""What is fitted to what: parameters, channels of data with the equations that predict them, quantities that follow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Values = Mapping[str, Any]
+"""Parameters by name, in SI: numbers or CasADi symbols."""
+FAR = 1e6
+"""A positive parameter is looked for between its start over this and its start times this."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """An unknown of the equations; a positive one is fitted by its logarithm."""
+
+    name: str
+    unit: str
+    meaning: str
+    start: float
+    positive: bool = True
+    scale: float = 1.0
+    """Size of a usual change [SI] of one that may be negative."""
+
+    def inner(self, value: float) -> float:
+        """The number the solver sees."""
+        return float(np.log(value)) if self.positive else value / self.scale
+
+    def outer(self, inner: Any) -> Any:
+        """The value [SI] of the solver's number; symbols too."""
+        return np.exp(inner) if self.positive else inner * self.scale
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Of the solver's number."""
+        middle = self.inner(self.start)
+        return (middle - np.log(FAR), middle + np.log(FAR)) if self.positive else (-np.inf, np.inf)
+
+
+@dataclass(frozen=True)
+class Channel:
+    """Values that were measured, and what predicts them."""
+
+    name: str
+    unit: str
+    measured: Array
+    """[SI]"""
+    predicted: Callable[[Values], Any]
+    """A column as long as the values, from the parameters: CasADi expressions through the product's equations."""
+    at: Array
+    """What they are drawn over [SI]."""
+    at_name: str
+    at_unit: str
+    relative: bool = False
+    """Whether the error is a share of the value: then the logarithms are compared."""
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A positive quantity that follows from the parameters."""
+
+    name: str
+    unit: str
+    meaning: str
+    formula: Callable[[Values], Any]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Parameters, channels and what follows."""
+
+    parameters: Sequence[Parameter]
+    channels: Sequence[Channel]
+    derived: Sequence[Derived] = field(default_factory=tuple)
+
+    @property
+    def count(self) -> int:
+        """Values measured."""
+        return sum(len(channel.measured) for channel in self.channels)

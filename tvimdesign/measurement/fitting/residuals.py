@@ -1,0 +1,55 @@
+"""The problem compiled: residuals and their exact derivatives by the solver's numbers, from CasADi."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import casadi as ca
+import numpy as np
+
+from tvimdesign.measurement.fitting.problem import Array, Problem, Values
+
+ca.GlobalOptions.setNumpyMode(1)  # numpy's functions act on CasADi's symbols
+
+
+class Residuals:
+    """Measured less predicted, channel after channel, as functions of the solver's numbers."""
+
+    def __init__(self, problem: Problem) -> None:
+        """Build the functions."""
+        self.problem = problem
+        inner = ca.MX.sym("x", len(problem.parameters))
+        values: Values = {one.name: one.outer(inner[i]) for i, one in enumerate(problem.parameters)}
+        predicted = [ca.vec(ca.MX(channel.predicted(values))) for channel in problem.channels]
+        compared = [ca.log(one) if c.relative else one for one, c in zip(predicted, problem.channels, strict=True)]
+        self._values = ca.Function("values", [inner], [ca.vertcat(*compared)])
+        self._jacobian = ca.Function("jacobian", [inner], [ca.jacobian(ca.vertcat(*compared), inner)])
+        following = [ca.log(ca.MX(one.formula(values))) for one in problem.derived]
+        out = ca.vertcat(*following) if following else ca.MX(0, 1)
+        self._derived = ca.Function("derived", [inner], [out, ca.jacobian(out, inner)])
+        measured = [np.log(c.measured) if c.relative else c.measured for c in problem.channels]
+        self._measured = np.concatenate(measured)
+        ends = np.cumsum([0, *(len(c.measured) for c in problem.channels)])
+        self.parts = [slice(int(a), int(b)) for a, b in pairwise(ends)]
+        """Where each channel stands in the whole."""
+
+    def at(self, inner: Array) -> Array:
+        """Residuals, in the units of the channels, or as a share of the value."""
+        return self._measured - np.asarray(self._values(inner)).ravel()
+
+    def jacobian(self, inner: Array) -> Array:
+        """Their derivatives by the solver's numbers."""
+        return -np.asarray(self._jacobian(inner).full())
+
+    def derived(self, inner: Array) -> tuple[Array, Array]:
+        """Logarithms of what follows, and their derivatives."""
+        values, slopes = self._derived(inner)
+        return np.asarray(values).ravel(), np.asarray(slopes.full())
+
+    def predicted(self, inner: Array) -> list[Array]:
+        """What each channel should be [SI]."""
+        values = np.asarray(self._values(inner)).ravel()
+        return [
+            np.exp(values[part]) if channel.relative else values[part]
+            for part, channel in zip(self.parts, self.problem.channels, strict=True)
+        ]
