@@ -61,7 +61,9 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
     free = {i for direction in known.free_directions for i in moved_by(direction)}
     parameters, words = [], in_words(problem, known)
     for i, one in enumerate(problem.parameters):
-        ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles)
+        ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
+        if one.nuisance:
+            continue
         words += _unbounded(one, ends)
         parameters.append(_estimate(one, best.inner[i], ends))
     return Fit(

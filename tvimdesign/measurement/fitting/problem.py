@@ -27,6 +27,10 @@ class Parameter:
     positive: bool = True
     scale: float = 1.0
     """Size of a usual change [SI] of one that may be negative."""
+    profiled: bool = True
+    """Whether its interval is read off a profile of the likelihood; off the covariance otherwise."""
+    nuisance: bool = False
+    """Whether it is of this measurement alone, such as a baseline: fitted with the others, not reported."""
 
     def inner(self, value: float) -> float:
         """The number the solver sees."""

@@ -23,13 +23,14 @@ def in_words(problem: Problem, known: Spread) -> list[str]:
         undetermined.update(moved)
         said.append(_free(problem.parameters, direction, moved))
     said += _correlated(problem.parameters, correlation(known.covariance), undetermined)
-    for channel, rho in zip(problem.channels, known.autocorrelation, strict=True):
-        if rho > _FOLLOW:
-            wider = np.sqrt((1.0 + rho) / (1.0 - rho))
-            said.append(
-                f"The residuals of {channel.name} follow one another (correlation {rho:.2f}): the equations leave "
-                f"something out, or the instrument smooths. The intervals are {wider:.1f} times as wide for it."
-            )
+    following = [(rho, channel.name) for channel, rho in zip(problem.channels, known.autocorrelation, strict=True)]
+    rho, name = max(following)
+    if rho > _FOLLOW:
+        wider = np.sqrt((1.0 + rho) / (1.0 - rho))
+        said.append(
+            f"Residuals follow one another, most those of {name} (correlation {rho:.2f}): the equations leave something "
+            f"out, or the instrument smooths. What these data say counts as {wider:.1f} times less sure for it."
+        )
     return said
 
 
@@ -56,7 +57,7 @@ def _correlated(parameters: Sequence[Parameter], rho: Array, left_out: set[int])
     said = []
     for i, one in enumerate(parameters):
         for j in range(i + 1, len(parameters)):
-            if abs(rho[i, j]) < CLOSE or {i, j} & left_out:
+            if abs(rho[i, j]) < CLOSE or {i, j} & left_out or one.nuisance or parameters[j].nuisance:
                 continue
             how = "rises with" if rho[i, j] > 0.0 else "falls as"
             end = "" if rho[i, j] > 0.0 else " rises"

@@ -31,6 +31,8 @@ class Measurement:
     record_values: Mapping[str, Estimate] = field(default_factory=dict)
     """Values of a record, by their names there."""
     record_tables: Mapping[str, RecordTableFound] = field(default_factory=dict)
+    record_conditions: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+    """Values of a record that were chosen, not measured, and go with the others: in SI, with the unit to write."""
 
 
 def required(settings: Settings, name: str, why: str) -> float:
