@@ -95,8 +95,8 @@ def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Esti
     logarithms, slopes = residuals.derived(best.inner)
     found = []
     for one, middle, slope in zip(residuals.problem.derived, logarithms, slopes, strict=True):
-        half = known.quantile * float(np.sqrt(slope @ known.covariance @ slope))
+        half = known.quantile * float(np.sqrt(max(slope @ known.covariance @ slope, 0.0)))
         open_ = any(abs(slope @ direction) > 1e-6 * np.max(np.abs(slope)) for direction in known.free_directions)
-        ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(middle + half)))
+        ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(min(middle + half, 700.0))))
         found.append(Estimate(one.name, one.unit, one.meaning, float(np.exp(middle)), *ends))
     return tuple(found)

@@ -15,7 +15,7 @@ from scipy.stats import t as student
 
 from tvimdesign.measurement.fitting.problem import Array
 from tvimdesign.measurement.fitting.residuals import Residuals
-from tvimdesign.measurement.fitting.robust_fit import RobustFit, cost, influence, solved, weights_of
+from tvimdesign.measurement.fitting.robust_fit import RobustFit, cost, influence, parameters_of, solved, weights_of
 
 CONFIDENCE = 0.95
 _SMALLEST = 1e-7
@@ -48,16 +48,21 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
     weights = weights_of(residuals, fit.noise)
     z = residuals.at(fit.inner) * weights
     jacobian = residuals.jacobian(fit.inner) * weights[:, None]
-    count, free = jacobian.shape
+    free = jacobian.shape[1]
     pull, slope = influence(z)
     curvature, moved, worth, follows = np.zeros((free, free)), np.zeros((free, free)), 0.0, []
-    for part in residuals.parts:
+    taken = parameters_of(residuals, fit.inner, fit.noise)
+    for part, alike in zip(residuals.parts, residuals.alike, strict=True):
+        count = sum(residuals.parts[i].stop - residuals.parts[i].start for i in alike)
         rho = _autocorrelation(z[part])
         wider = (1.0 + rho) / (1.0 - rho)
         square = jacobian[part].T @ jacobian[part]
-        left = max(1.0 - free / count, 1e-3)
-        curvature += np.mean(slope[part]) * square
-        moved += wider * np.mean(pull[part] ** 2) / left * square
+        left = max(1.0 - float(np.sum(taken[alike])) / count, 0.05)
+        together = np.concatenate([np.arange(residuals.parts[i].start, residuals.parts[i].stop) for i in alike])
+        mean = float(np.mean(slope[together]))
+        few = 1.0 + (1.0 - left) * float(np.var(slope[together])) / mean**2  # [H], correction for few data
+        curvature += mean * square
+        moved += wider * few**2 * np.mean(pull[together] ** 2) / left * square
         worth += len(z[part]) / wider
         follows.append(rho)
     inverse, directions = _inverse(curvature)

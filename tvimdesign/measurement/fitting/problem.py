@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Values = Mapping[str, Any]
 """Parameters by name, in SI: numbers or CasADi symbols."""
+_LARGEST = 700.0  # the exponential of more is no number
 FAR = 1e6
 """A positive parameter is looked for between its start over this and its start times this."""
 
@@ -38,7 +39,9 @@ class Parameter:
 
     def outer(self, inner: Any) -> Any:
         """The value [SI] of the solver's number; symbols too."""
-        return np.exp(inner) if self.positive else inner * self.scale
+        if not self.positive:
+            return inner * self.scale
+        return np.exp(min(inner, _LARGEST)) if isinstance(inner, float) else np.exp(inner)
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -63,6 +66,8 @@ class Channel:
     at_unit: str
     relative: bool = False
     """Whether the error is a share of the value: then the logarithms are compared."""
+    noise_of: str = ""
+    """Channels of one word here err alike; a channel without one has a noise of its own."""
 
 
 @dataclass(frozen=True)

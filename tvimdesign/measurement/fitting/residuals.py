@@ -32,6 +32,9 @@ class Residuals:
         ends = np.cumsum([0, *(len(c.measured) for c in problem.channels)])
         self.parts = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         """Where each channel stands in the whole."""
+        words = [channel.noise_of or f"channel {i}" for i, channel in enumerate(problem.channels)]
+        self.alike = [[j for j, word in enumerate(words) if word == mine] for mine in words]
+        """Of each channel those that err as it does, itself among them."""
 
     def at(self, inner: Array) -> Array:
         """Residuals, in the units of the channels, or as a share of the value."""

@@ -66,13 +66,11 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
         )
     if not np.all(np.isfinite(residuals.at(start))):
         raise InputError("the equations give no number at the start of the fit; look at units and ranges of the columns")
-    noise = np.array([_noise_of(residuals.at(start)[part], 0.0) for part in residuals.parts])
+    noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
     inner = start
     for _ in range(_ROUNDS):
         inner = solved(residuals, inner, noise)
-        values = residuals.at(inner)
-        share = count / residuals.problem.count
-        now = np.array([_noise_of(values[part], share * (part.stop - part.start)) for part in residuals.parts])
+        now = _noises(residuals, inner, parameters_of(residuals, inner, noise))
         now = np.maximum(now, _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts]))
         settled = np.all(np.abs(now / noise - 1.0) < _SETTLED)
         noise = now
@@ -104,6 +102,14 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
     return whole(found.x)
 
 
+def parameters_of(residuals: Residuals, inner: Array, noise: Array) -> Array:
+    """How many of the parameters each channel determines: the sum of the leverages of its values."""
+    jacobian = residuals.jacobian(inner) * weights_of(residuals, noise)[:, None]
+    left, sizes, _ = np.linalg.svd(jacobian, full_matrices=False)
+    leverage = np.sum(left[:, sizes > 1e-10 * sizes[0]] ** 2, axis=1)
+    return np.array([float(np.sum(leverage[part])) for part in residuals.parts])
+
+
 def weights_of(residuals: Residuals, noise: Array) -> Array:
     """One over the noise, for every value."""
     weights = np.empty(residuals.problem.count)
@@ -115,6 +121,15 @@ def weights_of(residuals: Residuals, noise: Array) -> Array:
 def cost(residuals: Residuals, inner: Array, noise: Array) -> float:
     """Sum of the loss."""
     return float(np.sum(loss(residuals.at(inner) * weights_of(residuals, noise))))
+
+
+def _noises(residuals: Residuals, inner: Array, taken: Array) -> Array:
+    """Noise of every channel, from the residuals of all that err alike; `taken` is what `parameters_of` gives."""
+    values = residuals.at(inner)
+    return np.array([
+        _noise_of(np.concatenate([values[residuals.parts[i]] for i in alike]), float(np.sum(taken[alike])))
+        for alike in residuals.alike
+    ])
 
 
 def _noise_of(values: Array, parameters: float) -> float:

@@ -148,7 +148,7 @@ def _problem(
 
     channels = [
         Channel(f"{name} of {sweep.name}, {sweep.temperature - polymer.ZERO_CELSIUS:.0f} degC", "Pa", moduli,
-                predicted(sweep, which), sweep.frequency, "angular frequency", "rad/s", relative=True)
+                predicted(sweep, which), sweep.frequency, "angular frequency", "rad/s", relative=True, noise_of=name)
         for sweep in sweeps
         for which, (name, moduli) in enumerate((("storage modulus", sweep.storage), ("loss modulus", sweep.loss)))
     ]  # fmt: skip

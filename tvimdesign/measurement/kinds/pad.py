@@ -6,9 +6,10 @@ from it is what is put in, q, and what leaks in through the insulation, g (physi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
+import casadi as ca
 import numpy as np
 
 from tvimdesign.measurement.fitting.fit import fitted
@@ -24,16 +25,23 @@ _LEAST_DIFFERENCE = 5.0  # K
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
     """Fit blocks of steady states. Raises InputError for what lacks."""
     channels: list[Channel] = []
+    faces: list[Parameter] = []
     starts, differences = [], []
-    for block in blocks:
+    for i, block in enumerate(blocks):
         current, voltage, hot, cold = rows_of(block, _COLUMNS)
         heat = _heat(block, settings)
         starts.append(_start(current, voltage, hot, cold))
         differences.append(float(np.max(np.abs(hot - cold))))
+        names = [f"hot_{i}_{row}" for row in range(len(hot))]
+        faces += [
+            Parameter(name, "degC", "Temperature of the hot face", one, positive=False, nuisance=True)
+            for name, one in zip(names, hot, strict=True)
+        ]
+        state = _State(current, names, heat, settings["leak"], settings["ambient"])
         channels += [
-            Channel(f"voltage of {block.file}", "V", voltage, _voltage(current, hot, cold), current, "current", "A"),
-            Channel(f"cold face of {block.file}", "degC", cold, _cold_face(current, hot, heat, settings), current,
-                    "current", "A"),
+            Channel(f"voltage of {block.file}", "V", voltage, state.voltage, current, "current", "A"),
+            Channel(f"faces of {block.file}", "degC", np.concatenate([hot, cold]), state.faces,
+                    np.concatenate([current, current]), "current", "A"),
         ]  # fmt: skip
     seebeck, resistance, conductance = np.median(starts, axis=0)
     found = fitted(
@@ -41,6 +49,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
             Parameter("seebeck", "mV/K", "Voltage for each kelvin between the faces", seebeck),
             Parameter("resistance", "ohm", "Resistance", resistance),
             Parameter("conductance", "W/K", "Conductance from face to face", conductance),
+            *faces,
         ], channels),
         profiles=profiles,
     )  # fmt: skip
@@ -59,12 +68,27 @@ def _module(values: Values) -> peltier.PeltierModule:
     return peltier.PeltierModule(values["seebeck"], values["resistance"], values["conductance"])
 
 
-def _voltage(current: Array, hot: Array, cold: Array) -> Callable[[Values], Any]:
-    return lambda values: peltier.voltage(_module(values), current, hot, cold)
+class _State(NamedTuple):
+    """Steady states of a table; the hot face's true temperatures are unknowns, as thermocouples err on both faces."""
 
+    current: Array
+    hot: Sequence[str]
+    heat: Array
+    leak: float
+    ambient: float
 
-def _cold_face(current: Array, hot: Array, heat: Array, settings: Settings) -> Callable[[Values], Any]:
-    return lambda values: cold_temperature(_module(values), current, hot, heat, settings["leak"], settings["ambient"])
+    def _both(self, values: Values) -> tuple[Any, Any]:
+        hot = ca.vertcat(*(values[name] for name in self.hot))
+        current, heat = ca.DM(self.current), ca.DM(self.heat)
+        return hot, cold_temperature(_module(values), current, hot, heat, self.leak, self.ambient)
+
+    def faces(self, values: Values) -> Any:
+        """Temperatures of the hot faces, then of the cold ones [K]."""
+        return ca.vertcat(*self._both(values))
+
+    def voltage(self, values: Values) -> Any:
+        """Voltages [V]."""
+        return peltier.voltage(_module(values), ca.DM(self.current), *self._both(values))
 
 
 def _heat(block: Block, settings: Settings) -> Array:
