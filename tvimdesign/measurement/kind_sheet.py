@@ -28,6 +28,8 @@ class KindSheet:
     about: str
     needs: tuple[tuple[str, ...], ...]
     """Columns; of each tuple one."""
+    takes: tuple[str, ...]
+    """Columns that are used where they are there."""
     category: str
     """Of the catalogue's record that follows; empty where none does."""
     settings: Mapping[str, Mapping[str, Any]]
@@ -73,8 +75,8 @@ def kind_sheets() -> dict[str, KindSheet]:
     tree = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
     return {
         name: KindSheet(
-            name, entry["about"], tuple(tuple(need.split(" | ")) for need in entry["needs"]), entry.get("category", ""),
-            entry["settings"],
+            name, entry["about"], tuple(tuple(need.split(" | ")) for need in entry["needs"]),
+            tuple(entry.get("takes", ())), entry.get("category", ""), entry["settings"],
         )
         for name, entry in tree.items()
     }  # fmt: skip

@@ -1,6 +1,6 @@
 """Robust least squares: an outlier pulls with less than its square, and each channel's noise is read off its residuals.
 
-Sources: [H] Huber and Ronchetti, Robust Statistics, 2nd ed. (M-estimates, their covariance, "proposal 2" for the scale);
+Sources: [H] Huber and Ronchetti, Robust Statistics, 2nd ed. (M-estimates, "proposal 2" for the scale);
 loss and solver as in scipy.optimize.least_squares (soft_l1, trust-region reflective).
 """
 
@@ -22,6 +22,7 @@ _NORMAL = 1.4826  # deviation over the median of the sizes, for a normal distrib
 _ROUNDS = 20
 _SETTLED = 1e-3
 _LEAST_NOISE = 1e-9
+_NEVER = 1e10  # of a residual where the equations give no number
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,9 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
             f"{residuals.problem.count} values do not give {count} parameters; give more rows, or more files"
         )
     if not np.all(np.isfinite(residuals.at(start))):
-        raise InputError("the equations give no number at the start of the fit; look at units and ranges of the columns")
+        raise InputError(
+            "the equations give no number at the start of the fit; look at units and ranges of the columns"
+        )
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
     inner = start
     for _ in range(_ROUNDS):
@@ -91,11 +94,14 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
         inner[free] = part
         return inner
 
+    def values(part: Array) -> Array:
+        return np.nan_to_num(residuals.at(whole(part)) * weights, nan=_NEVER, posinf=_NEVER, neginf=-_NEVER)
+
     def jacobian(part: Array) -> Array:
         return (residuals.jacobian(whole(part)) * weights[:, None])[:, free]
 
     found = least_squares(
-        lambda part: np.nan_to_num(residuals.at(whole(part)) * weights, nan=1e10, posinf=1e10, neginf=-1e10),
+        values,
         np.clip(start[free], bounds[:, 0], bounds[:, 1]), jac=jacobian, bounds=(bounds[:, 0], bounds[:, 1]),
         loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=1e-10, ftol=1e-10, gtol=1e-10, max_nfev=300, x_scale="jac",
     )  # fmt: skip
@@ -126,10 +132,12 @@ def cost(residuals: Residuals, inner: Array, noise: Array) -> float:
 def _noises(residuals: Residuals, inner: Array, taken: Array) -> Array:
     """Noise of every channel, from the residuals of all that err alike; `taken` is what `parameters_of` gives."""
     values = residuals.at(inner)
-    return np.array([
-        _noise_of(np.concatenate([values[residuals.parts[i]] for i in alike]), float(np.sum(taken[alike])))
-        for alike in residuals.alike
-    ])
+    return np.array(
+        [
+            _noise_of(np.concatenate([values[residuals.parts[i]] for i in alike]), float(np.sum(taken[alike])))
+            for alike in residuals.alike
+        ]
+    )
 
 
 def _noise_of(values: Array, parameters: float) -> float:

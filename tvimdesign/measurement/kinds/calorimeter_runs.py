@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -58,7 +59,7 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
     kinds = np.where(smooth < -threshold, -1, np.where(smooth > threshold, 1, 0))
     edges = [0, *(np.flatnonzero(np.diff(kinds)) + 1), len(kinds)]
     found = []
-    for begin, end in zip(edges[:-1], edges[1:], strict=True):
+    for begin, end in pairwise(edges):
         way = {-1: "cooled", 0: "held", 1: "heated"}[int(kinds[begin])]
         span = float(np.ptp(temperature[begin:end]))
         if end - begin < _LEAST_ROWS or (way != "held" and span < _LEAST_SPAN):

@@ -51,7 +51,9 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
             Parameter(f"slope_{i}", "W/kg", "Its rise over the run", 0.0, positive=False, scale=size, nuisance=True),
         ]  # fmt: skip
         predicted = (melted if run.way == "heated" else frozen)(run, i, settings)
-        channels.append(Channel(f"heat of {run.name}", "W/kg", run.heat, predicted, run.temperature, "temperature", "degC"))
+        channels.append(
+            Channel(f"heat of {run.name}", "W/kg", run.heat, predicted, run.temperature, "temperature", "degC")
+        )
     end = Derived("melting_end", "degC", "Temperature at which melting ends",
                   lambda values: values["melting_start"] + values["melting_width"])  # fmt: skip
     found = fitted(Problem(parameters, channels, [end] if melting else []), profiles=profiles)

@@ -1,6 +1,6 @@
-"""Frequency sweeps of a melt: the relaxation spectrum with the fewest modes the data bear, and its shift in temperature.
+"""Frequency sweeps of a melt: the relaxation spectrum with as few modes as the data bear, and its shift.
 
-Modes (tau_i, G_i) are free in time and modulus and G', G'' follow by `polymer.maxwell_moduli`; every temperature but the
+Modes (tau_i, G_i) are free in time and modulus; G', G'' follow by `polymer.maxwell_moduli`; each temperature but the
 reference shifts its frequencies by a factor a_T of its own, and by Arrhenius' law where that describes them all. How
 many modes: as long as one more betters Schwarz's criterion [Sch]. Sources: [BW] Baumgaertel and Winter, Rheol. Acta 28
 (1989) 511 (free times and moduli, as few modes as the data bear); [Sch] Schwarz, Ann. Statist. 6 (1978) 461.
@@ -189,9 +189,7 @@ def _measurement(best: Fit, count: int, reference: float, most: int, notes: Sequ
     values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
     if any(one.name == "flow_activation_energy" for one in best.parameters):
         values["flow_activation_energy"] = best["flow_activation_energy"]
-    modes = sorted(
-        ((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True
-    )
+    modes = sorted(((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True)
     table = RecordTableFound({"relaxation_time": "s", "modulus": "Pa"}, split_to(modes, most))
     return Measurement(
         best, tuple(notes), values, {"melt_spectrum": table}, {"melt_reference_temperature": (reference, "degC")}

@@ -116,5 +116,7 @@ def _notes(settings: Settings, difference: float) -> list[str]:
             "conductance of the pad."
         )
     if difference < _LEAST_DIFFERENCE:
-        notes.append(f"The faces differ by {difference:.1f} K at most: more current tells Seebeck and resistance apart.")
+        notes.append(
+            f"The faces differ by {difference:.1f} K at most: more current tells Seebeck and resistance apart."
+        )
     return notes

@@ -8,6 +8,7 @@ sample's derivatives are those of the integration, exactly.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import casadi as ca
@@ -101,15 +102,15 @@ def _swing(time: Array, angle: Array) -> tuple[float, float]:
     length."""
     rest = float(np.median(angle[-max(len(angle) // 10, 3) :]))
     away = angle - rest
-    crossings = np.flatnonzero(np.diff(np.sign(away)) != 0)
     noise = 0.05 * np.max(np.abs(away))
-    crossings = [i for i in crossings if np.max(np.abs(away[i : i + max(len(away) // 50, 3)])) > noise]
+    changes = np.flatnonzero(np.diff(np.sign(away)) != 0)
+    crossings = [i for i in changes if np.max(np.abs(away[i : i + max(len(away) // 50, 3)])) > noise]
     if len(crossings) < 2:
         gone = np.flatnonzero(np.abs(away) < 0.37 * np.max(np.abs(away)))
         time_gone = time[gone[0]] - time[0] if len(gone) else time[-1] - time[0]
         return 4.0 * max(float(time_gone), float(time[1] - time[0])), 1.0 / max(float(time_gone), 1e-9)
     period = 2.0 * float(np.median(np.diff(time[crossings])))
-    tops = [float(np.max(np.abs(away[a:b]))) for a, b in zip(crossings, crossings[1:], strict=False) if b > a]
+    tops = [float(np.max(np.abs(away[a:b]))) for a, b in pairwise(crossings) if b > a]
     decay = np.log(tops[0] / tops[-1]) / (0.5 * period * (len(tops) - 1)) if len(tops) > 1 else 0.1 / period
     return period, max(float(decay), 0.01 / period)
 

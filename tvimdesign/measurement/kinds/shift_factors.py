@@ -50,7 +50,7 @@ def shift_note(found: Activation, shifts: Mapping[float, Estimate], reference: f
     law = (
         f"Arrhenius' law with {found.energy / 1e3:.1f} kJ/mol describes them."
         if found.describes
-        else f"Arrhenius' law misses one by {100.0 * found.farthest:.0f} %: no activation energy is given, and the shift "
-        "of the record this is based on is not that of these data."
+        else f"Arrhenius' law misses one by {100.0 * found.farthest:.0f} %: no activation energy is given, and the "
+        "shift of the record this is based on is not that of these data."
     )
     return [f"Shift factors to {reference - ZERO_CELSIUS:.0f} degC: {table}. {law}"]

@@ -102,7 +102,12 @@ def _notes(two_ways: bool, both_signs: bool, with_modulus: bool) -> list[str]:
         notes.append("The load only rises, or only falls: friction is not fitted, and shifts the zero by friction/K.")
     if not both_signs:
         notes.append("The load has one sign: a backlash would not be seen, and is not fitted.")
-    if not with_modulus:
+    if with_modulus:
+        notes.append(
+            "The modulus is the one for which E d^4/(64 D n) is the stiffness that was measured: what legs, pins and "
+            "coils that touch give is in it."
+        )
+    else:
         notes.append(
             "Without --set wire_diameter, coil_diameter and coil_count the modulus of the wire does not follow, and "
             "no record is written."

@@ -30,7 +30,9 @@ class ColumnMap:
         taken = [one._replace(quantity="") if one.quantity in self.columns else one for one in headings]
         for quantity, entry in self.columns.items():
             for i, one in enumerate(taken):
-                meant = plain(one.text) == plain(str(entry["heading"])) if "heading" in entry else i + 1 == entry["column"]
+                meant = (
+                    plain(one.text) == plain(str(entry["heading"])) if "heading" in entry else i + 1 == entry["column"]
+                )
                 if meant:
                     taken[i] = one._replace(quantity=quantity, unit=str(entry.get("unit", one.unit)))
         return taken

@@ -74,6 +74,19 @@ class Block:
         found = conversion(words[1] if len(words) > 1 else entry["unit"], entry["unit"])
         return None if found is None else found[0] + found[1] * value
 
+    def shown(self, uses: Sequence[str] = ()) -> list[str]:
+        """Its columns with their units and ranges, in lines: those of `uses`, or all, and what is unused then."""
+        rows = max((len(column.values) for column in self.columns.values()), default=0)
+        title = f" {self.title!r}" if self.title else ""
+        lines = [f"  lines {self.lines[0]} to {self.lines[1]}{title}: {rows} rows"]
+        lines += [f"    {name}: {_range(column)}" for name, column in self.columns.items() if not uses or name in uses]
+        lines += [f"    {name}: not read ({why})" for name, why in self.problems.items() if not uses or name in uses]
+        if self.unused and not uses:
+            lines.append(f"    not used: {', '.join(self.unused)}")
+        if self.skipped:
+            lines.append(f"    without a number: line {', '.join(map(str, self.skipped))}")
+        return lines
+
 
 @dataclass(frozen=True)
 class DataFile:
@@ -88,17 +101,7 @@ class DataFile:
     def shown(self) -> list[str]:
         """What was understood, in lines: each block with its columns, their units and ranges, and what is unused."""
         lines = [f"{self.path}: {self.how}, {len(self.blocks)} {'table' if len(self.blocks) == 1 else 'tables'}"]
-        for block in self.blocks:
-            rows = max((len(column.values) for column in block.columns.values()), default=0)
-            title = f" {block.title!r}" if block.title else ""
-            lines.append(f"  lines {block.lines[0]} to {block.lines[1]}{title}: {rows} rows")
-            lines += [f"    {column.quantity}: {_range(column)}" for column in block.columns.values()]
-            lines += [f"    {quantity}: not read ({why})" for quantity, why in block.problems.items()]
-            if block.unused:
-                lines.append(f"    not used: {', '.join(block.unused)}")
-            if block.skipped:
-                lines.append(f"    without a number: line {', '.join(map(str, block.skipped))}")
-        return lines
+        return [*lines, *(line for block in self.blocks for line in block.shown())]
 
 
 def read_data_file(path: Path, columns: ColumnMap | None = None) -> DataFile:

@@ -15,7 +15,7 @@ SEPARATORS = {"tab": "\t", "semicolon": ";", "bar": "|", "comma": ",", "blanks":
 DECIMALS = {"point": ".", "comma": ","}
 _POINT = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?")
 _COMMA = re.compile(r"[+-]?(?:[0-9]+,?[0-9]*|,[0-9]+)(?:[eE][+-]?[0-9]{1,4})?")
-_THOUSANDS = re.compile(r"[+-]?[0-9]{1,3}(?:,[0-9]{3})+")
+_THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+")
 _BAD = re.compile(r"(?=.*[0-9])[0-9.,;|+\-eE\s]+")
 _LOOKED_AT = 3000
 _LIKELY = 0.8
@@ -115,7 +115,9 @@ def _counts(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, in
 
 
 def _refuse_thousands(lines: Sequence[str], separator: str, file: str) -> None:
-    with_comma = [cell for line in lines for cell in cells_of(line, separator) if "," in cell and _COMMA.fullmatch(cell)]
+    with_comma = [
+        cell for line in lines for cell in cells_of(line, separator) if "," in cell and _COMMA.fullmatch(cell)
+    ]
     if with_comma and all(_THOUSANDS.fullmatch(cell) for cell in with_comma):
         raise InputError(
             f"{file}: {with_comma[0]!r} may be a decimal comma or a separator of thousands; say `decimal: comma` in "

@@ -103,7 +103,8 @@ def _said(row: Row, settings: dict[str, str]) -> str:
 
 def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> list[Heading]:
     """Headings of the numbers that begin at a row: names and units from the rows above it, or the format's own."""
-    rows, above = sheet.rows, []
+    rows = sheet.rows
+    above: list[Row] = []
     at = begin - 1
     while at >= 0 and len(above) < _HEADING_ROWS and _heads(rows[at], sheet):
         above += [rows[at]] if rows[at].filled > 1 else []
