@@ -29,7 +29,7 @@ def in_words(problem: Problem, known: Spread) -> list[str]:
         wider = np.sqrt((1.0 + rho) / (1.0 - rho))
         said.append(
             f"Residuals follow one another, most those of {name} (correlation {rho:.2f}): the equations leave "
-            f"something out, or the instrument smooths. What these data say counts as {wider:.1f} times less sure for it."
+            f"something out, or the instrument smooths. What these data say counts as {wider:.1f} times less sure."
         )
     return said
 

@@ -13,6 +13,7 @@ from tvimdesign.measurement.reading.separated import Row, Sheet
 _LEAST_NUMBERS = 2
 _HEADING_ROWS = 4
 _MOST = 0.6
+_MOST_COLUMNS = 100
 _PAIRS = re.compile(r"\s*([A-Za-z][\w ]*?)\s*=\s*([^;=]*);?")
 
 
@@ -32,19 +33,21 @@ def blocks_of(sheet: Sheet, file: str, ending: str) -> list[RawBlock]:
     """Every table of a sheet. Raises InputError, with the line, where rows and headings do not go together."""
     found: list[RawBlock] = []
     settings: dict[str, str] = {}
-    title, begin = sheet.title, 0
+    titles, begin = [(0, sheet.title)], 0
     rows = sheet.rows
     while begin < len(rows):
-        if not _begins(sheet, begin, bool(found)):
-            title = _said(rows[begin], settings) or title
+        if not _begins(sheet, begin):
+            said = _said(rows[begin], settings)
+            titles += [(rows[begin].line, said)] if said else []
             begin += 1
             continue
-        headings = _headings(sheet, begin, file, ending)
+        headings, head_line = _headings(sheet, begin, file, ending)
+        title = [text for line, text in titles if line < head_line][-1]
         end, skipped = _end(sheet, begin, file)
         kept = [row for row in rows[begin:end] if row.line not in skipped]
         _refuse_ragged(kept, len(headings), file)
         found += _divided(RawBlock(title, headings, kept, dict(settings), skipped))
-        title, begin = sheet.title, end
+        titles, begin = [(0, sheet.title)], end
     return found
 
 
@@ -68,15 +71,19 @@ def _end(sheet: Sheet, begin: int, file: str) -> tuple[int, list[int]]:
     return end, skipped
 
 
-def _begins(sheet: Sheet, at: int, before: bool) -> bool:
-    """Whether a table's numbers begin here: two such rows, or a last one under headings."""
+def _begins(sheet: Sheet, at: int) -> bool:
+    """Whether a table's numbers begin here: two such rows, or one under headings."""
     rows = sheet.rows
     if not _is_data(sheet, rows[at]):
         return False
-    following = rows[at + 1] if at + 1 < len(rows) else None
-    if following is None or following.empty:
-        return at > 0 and _heads(rows[at - 1], sheet) and before
-    return sheet.numbers(following) >= 1
+    if any(heading(cell).quantity for row in _rows_above(sheet, at) for cell in row.cells if cell):
+        return True
+    return at + 1 < len(rows) and sheet.numbers(rows[at + 1]) >= 1
+
+
+def _may_head(row: Row, sheet: Sheet) -> bool:
+    """Whether headings may stand in a row or above it: a line of separators alone does not end them."""
+    return _heads(row, sheet) or (row.empty and len(row.cells) > 1)
 
 
 def _heads(row: Row, sheet: Sheet) -> bool:
@@ -101,23 +108,21 @@ def _said(row: Row, settings: dict[str, str]) -> str:
     return text if len(cells) == 1 and re.search(r"[A-Za-z]{3}", text) and not text.startswith(("[", "#")) else ""
 
 
-def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> list[Heading]:
-    """Headings of the numbers that begin at a row: names and units from the rows above it, or the format's own."""
+def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> tuple[list[Heading], int]:
+    """Headings of the numbers that begin at a row, and the line where they begin.
+
+    Names and units are from the rows above it, or the format's own.
+    """
     rows = sheet.rows
-    above: list[Row] = []
-    at = begin - 1
-    while at >= 0 and len(above) < _HEADING_ROWS and _heads(rows[at], sheet):
-        above += [rows[at]] if rows[at].filled > 1 else []
-        at -= 1
-    names, units = _names_and_units(above, sheet.numbers(rows[begin]))
+    names, units = _names_and_units(_rows_above(sheet, begin), sheet.numbers(rows[begin]))
     default = known()["formats"].get(ending.lower(), [])
     found = _aligned(names, units, rows[begin], sheet, default) if names else []
     width = sum(map(bool, rows[begin].cells))
-    if default and {one.quantity for one in found} >= {name for name, _ in default}:
-        return found
-    if default:  # by place, as the format has them
-        texts = [f"{name} [{unit}]" for name, unit in default]
-        return [heading(text) for text in texts] + [Heading(f"column {i}", "", "") for i in range(len(texts), 100)]
+    line = min((row.line for row in (names, units) if row), default=rows[begin].line)
+    if default:  # by place, as the format has them, where the headings do not say it
+        if not {one.quantity for one in found} >= {name for name, _ in default}:
+            found = [heading(f"{name} [{unit}]") for name, unit in default]
+        return found + [Heading(f"column {i}", "", "") for i in range(len(found) + 1, _MOST_COLUMNS)], line
     if not found:
         raise InputError(
             f"{file}:{rows[begin].line}: numbers without a row of headings above them; write one, such as "
@@ -128,16 +133,26 @@ def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> list[Heading]
             f"{file}:{rows[begin].line}: {width} numbers under {len(found)} headings; where blanks separate, a heading "
             "is one word: separate by tabs or semicolons"
         )
-    return found
+    return found, line
+
+
+def _rows_above(sheet: Sheet, begin: int) -> list[Row]:
+    """The rows with several cells and no number right above some numbers, nearest first."""
+    above: list[Row] = []
+    at = begin - 1
+    while at >= 0 and len(above) < _HEADING_ROWS and _may_head(sheet.rows[at], sheet):
+        above += [sheet.rows[at]] if sheet.rows[at].filled > 1 else []
+        at -= 1
+    return above
 
 
 def _names_and_units(above: Sequence[Row], enough: int) -> tuple[Row | None, Row | None]:
     """The row of names and that of units among the rows above the numbers, nearest first."""
     units = next((row for row in above if _are_units(row)), None)
-    names = [row for row in above if row is not units and row.filled >= enough]
-    if not names and units is not None and units.filled >= enough:
+    names = next((row for row in above if row is not units and row.filled >= enough), None)
+    if names is None and units is not None and units.filled >= enough:
         return units, None
-    return (max(names, key=lambda row: row.filled) if names else None), units
+    return names, units
 
 
 def _are_units(row: Row) -> bool:
