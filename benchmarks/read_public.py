@@ -32,7 +32,9 @@ def main() -> None:
     """Print what came of each file, then how many of each."""
     counts: Counter[tuple[str, str]] = Counter()
     for folder in map(Path, sys.argv[1:]):
-        for path in sorted(path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.stat().st_size):
+        for path in sorted(
+            path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.stat().st_size
+        ):
             said = outcome(path)
             counts[path.suffix.lower(), said.partition(":")[0]] += 1
             print(f"{path}: {said}")

@@ -56,6 +56,7 @@ def measure_files(
     files = tuple(read_data_file(path, columns) for path in paths)
     blocks = [block for file in files for block in file.blocks]
     sheet = kind_sheet(kind) if kind else _likely_kind(blocks)
+    values = sheet.values(settings or {})
     fitting = tuple(block for block in blocks if sheet.fits(block) and _rows(block, sheet) >= LEAST_ROWS)
     if not fitting:
         most = max(blocks, key=lambda block: sum(sheet.column(block, need) is not None for need in sheet.needs))
@@ -64,7 +65,7 @@ def measure_files(
             f"{why}; {sheet.name} needs {_needed(sheet)}. A column map (--columns) says which column is what"
         )
     measure = import_module(f"tvimdesign.measurement.kinds.{sheet.name}").measure
-    return Measured(sheet, files, fitting, measure(fitting, sheet.values(settings or {})))
+    return Measured(sheet, files, fitting, measure(fitting, values))
 
 
 def _rows(block: Block, sheet: KindSheet) -> int:

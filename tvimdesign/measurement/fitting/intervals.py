@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from tvimdesign.measurement.fitting.problem import Array
 from tvimdesign.measurement.fitting.residuals import Residuals
@@ -67,7 +67,7 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
         follows.append(rho)
     inverse, directions = _inverse(curvature)
     covariance = inverse @ moved @ inverse
-    quantile = float(student.ppf(0.5 + 0.5 * CONFIDENCE, max(worth - free, 1.0)))
+    quantile = float(stdtrit(max(worth - free, 1.0), 0.5 + 0.5 * CONFIDENCE))
     own = np.diag(inverse)
     slack = np.divide(np.diag(covariance), own, out=np.ones(free), where=own > 0.0)
     return Spread(covariance, directions, quantile, np.array(follows), slack)

@@ -11,6 +11,8 @@ from tvimdesign.measurement.fitting.problem import Array, Problem, Values
 
 ca.GlobalOptions.setNumpyMode(1)  # numpy's functions act on CasADi's symbols
 
+_FARTHEST = 1e6
+
 
 class Residuals:
     """Measured less predicted, channel after channel, as functions of the solver's numbers."""
@@ -29,6 +31,7 @@ class Residuals:
         self._derived = ca.Function("derived", [inner], [out, ca.jacobian(out, inner)])
         measured = [np.log(c.measured) if c.relative else c.measured for c in problem.channels]
         self._measured = np.concatenate(measured)
+        self._most = _FARTHEST * (1.0 + float(np.max(np.abs(self._measured))))
         ends = np.cumsum([0, *(len(c.measured) for c in problem.channels)])
         self.parts = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         """Where each channel stands in the whole."""
@@ -37,12 +40,18 @@ class Residuals:
         """Of each channel those that err as it does, itself among them."""
 
     def at(self, inner: Array) -> Array:
-        """Residuals, in the units of the channels, or as a share of the value."""
-        return self._measured - np.asarray(self._values(inner)).ravel()
+        """Residuals, in the units of the channels, or as a share of the value.
+
+        No larger than `_FARTHEST` times the largest value measured, where the equations give less or no number.
+        """
+        found = self._measured - np.asarray(self._values(inner)).ravel()
+        return np.clip(
+            np.nan_to_num(found, nan=self._most, posinf=self._most, neginf=-self._most), -self._most, self._most
+        )
 
     def jacobian(self, inner: Array) -> Array:
         """Their derivatives by the solver's numbers."""
-        return -np.asarray(self._jacobian(inner).full())
+        return -np.nan_to_num(np.asarray(self._jacobian(inner).full()), posinf=0.0, neginf=0.0)
 
     def derived(self, inner: Array) -> tuple[Array, Array]:
         """Logarithms of what follows, and their derivatives."""

@@ -19,10 +19,11 @@ LINEAR_UP_TO = 2.0
 """Deviations from which on a residual pulls as its size and no more as its square; 3 % wider intervals without
 outliers."""
 _NORMAL = 1.4826  # deviation over the median of the sizes, for a normal distribution
-_ROUNDS = 20
+_ROUNDS, _PASSES = 20, 8
+_EXACT, _MOST_STEPS = 1e-9, 100
+_ROUGH, _FEW_STEPS = 1e-6, 8
 _SETTLED = 1e-3
 _LEAST_NOISE = 1e-9
-_NEVER = 1e10  # of a residual where the equations give no number
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
         )
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
     inner = start
-    for _ in range(_ROUNDS):
+    for _ in range(_PASSES):
         inner = solved(residuals, inner, noise)
         now = _noises(residuals, inner, parameters_of(residuals, inner, noise))
         now = np.maximum(now, _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts]))
@@ -84,7 +85,8 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
 
 
 def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None = None) -> Array:
-    """The numbers of least loss for a given noise; one may stay as it is."""
+    """The numbers of least loss for a given noise; one may stay as it is, and the others are then found to less."""
+    tolerance, steps = (_EXACT, _MOST_STEPS) if fixed is None else (_ROUGH, _FEW_STEPS)
     free = np.arange(len(start)) != fixed
     weights = weights_of(residuals, noise)
     bounds = np.array([one.bounds for one in residuals.problem.parameters])[free]
@@ -95,7 +97,7 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
         return inner
 
     def values(part: Array) -> Array:
-        return np.nan_to_num(residuals.at(whole(part)) * weights, nan=_NEVER, posinf=_NEVER, neginf=-_NEVER)
+        return residuals.at(whole(part)) * weights
 
     def jacobian(part: Array) -> Array:
         return (residuals.jacobian(whole(part)) * weights[:, None])[:, free]
@@ -103,7 +105,7 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
     found = least_squares(
         values,
         np.clip(start[free], bounds[:, 0], bounds[:, 1]), jac=jacobian, bounds=(bounds[:, 0], bounds[:, 1]),
-        loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=1e-10, ftol=1e-10, gtol=1e-10, max_nfev=300, x_scale="jac",
+        loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=tolerance, ftol=tolerance, gtol=tolerance, max_nfev=steps, x_scale="jac",
     )  # fmt: skip
     return whole(found.x)
 

@@ -21,7 +21,7 @@ from tvimdesign.measurement.kinds.measurement import Measurement, Settings, rows
 from tvimdesign.measurement.reading.data_file import Array, Block
 from tvimdesign.physics.motions import dynamics, motion
 
-_MOST_SAMPLES = 400
+_MOST_SAMPLES = 300
 _STEPS_A_PERIOD = 60
 _LEAST_STEPS, _MOST_STEPS = 1, 50
 _CORNER = 0.01
