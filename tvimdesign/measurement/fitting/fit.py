@@ -76,7 +76,8 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
 def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profiles: bool) -> tuple[float, float]:
     half = known.quantile * float(np.sqrt(known.covariance[at, at]))
     if not profiles or half == 0.0:
-        return best.inner[at] - half, best.inner[at] + half
+        least = residuals.problem.parameters[at].bounds[0]
+        return max(best.inner[at] - half, least), best.inner[at] + half
     return profile_end(residuals, best, known, at, -1), profile_end(residuals, best, known, at, 1)
 
 

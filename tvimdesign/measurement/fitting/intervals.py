@@ -101,17 +101,23 @@ def moved_by(direction: Array) -> list[int]:
 def profile_end(residuals: Residuals, fit: RobustFit, known: Spread, at: int, side: Literal[-1, 1]) -> float:
     """The end of a parameter's interval: where the best fit with it held there is worse by what chance explains [B].
 
-    The solver's number; infinite where the data do not bound it within `_FARTHEST` deviations.
+    The solver's number, no farther than the parameter's bound; infinite where the data do not bound it within `_FARTHEST` deviations.
     """
     deviation = float(np.sqrt(known.covariance[at, at]))
     allowed = known.quantile**2 * known.slack[at]
     along = known.covariance[:, at] / known.covariance[at, at]
+    parameter = residuals.problem.parameters[at]
+    bound = parameter.bounds[0] if side < 0 and not parameter.positive else side * np.inf
+    most = abs(bound - fit.inner[at]) / deviation
     steps, low, high = known.quantile, 0.0, np.inf
     for _ in range(_TRIES):
+        steps = min(steps, most)
         inner = fit.inner + side * steps * deviation * along
         worse = cost(residuals, solved(residuals, inner, fit.noise, fixed=at), fit.noise) - fit.cost
         if abs(worse / allowed - 1.0) < _NEAR:
             break
+        if steps == most and worse < allowed:
+            return bound
         low, high = (steps, high) if worse < allowed else (low, steps)
         if low > _FARTHEST:
             return side * np.inf

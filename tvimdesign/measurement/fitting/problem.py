@@ -28,6 +28,8 @@ class Parameter:
     positive: bool = True
     scale: float = 1.0
     """Size of a usual change [SI] of one that may be negative."""
+    least: float = -np.inf
+    """Smallest value [SI] of one that is not fitted by its logarithm: 0 for a friction that may not be there."""
     profiled: bool = True
     """Whether its interval is read off a profile of the likelihood; off the covariance otherwise."""
     nuisance: bool = False
@@ -47,7 +49,7 @@ class Parameter:
     def bounds(self) -> tuple[float, float]:
         """Of the solver's number."""
         middle = self.inner(self.start)
-        return (middle - np.log(FAR), middle + np.log(FAR)) if self.positive else (-np.inf, np.inf)
+        return (middle - np.log(FAR), middle + np.log(FAR)) if self.positive else (self.least / self.scale, np.inf)
 
 
 @dataclass(frozen=True)

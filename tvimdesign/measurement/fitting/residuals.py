@@ -11,7 +11,7 @@ from tvimdesign.measurement.fitting.problem import Array, Problem, Values
 
 ca.GlobalOptions.setNumpyMode(1)  # numpy's functions act on CasADi's symbols
 
-_FARTHEST = 1e6
+_FARTHEST, _STEEPEST = 1e6, 1e30  # beyond these a trial of the solver is merely bad
 
 
 class Residuals:
@@ -51,7 +51,8 @@ class Residuals:
 
     def jacobian(self, inner: Array) -> Array:
         """Their derivatives by the solver's numbers."""
-        return -np.nan_to_num(np.asarray(self._jacobian(inner).full()), posinf=0.0, neginf=0.0)
+        slopes = np.nan_to_num(np.asarray(self._jacobian(inner).full()), posinf=0.0, neginf=0.0)
+        return -np.clip(slopes, -_STEEPEST, _STEEPEST)
 
     def derived(self, inner: Array) -> tuple[Array, Array]:
         """Logarithms of what follows, and their derivatives."""

@@ -46,7 +46,11 @@ def _free(parameters: Sequence[Parameter], direction: Array, moved: Sequence[int
     if len(moved) == 1:
         return f"The data say nothing of {names[0]}: no prediction depends on it. Its value is the start of the fit."
     together = "rise together" if len({np.sign(direction[i]) for i in moved}) == 1 else "make up for one another"
-    ratio = " Only their ratios are known." if all(parameters[i].positive for i in moved) else ""
+    ratio = (
+        " Only their ratios are known."
+        if all(parameters[i].positive or parameters[i].least == 0.0 for i in moved)
+        else ""
+    )
     return (
         f"The data cannot tell {_listed(names)} apart: they {together} without changing any prediction.{ratio} "
         "Measure one of them otherwise and give it with --set."

@@ -43,8 +43,24 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     speed = (angle[1] - angle[0]) / (time[1] - time[0])
     parameters = [
         Parameter("stiffness", "N*m/rad", "Stiffness", stiffness),
-        Parameter("damping", "N*m*s/rad", "Viscous damping", max(2.0 * inertia * decay, 1e-3 * inertia / period)),
-        Parameter("friction", "N*m", "Dry friction: the half-width of the loop at rest", 3e-3 * stiffness * size),
+        Parameter(
+            "damping",
+            "N*m*s/rad",
+            "Viscous damping",
+            2.0 * inertia * decay,
+            positive=False,
+            scale=2.0 * inertia * decay,
+            least=0.0,
+        ),
+        Parameter(
+            "friction",
+            "N*m",
+            "Dry friction: the half-width of the loop at rest",
+            3e-3 * stiffness * size,
+            positive=False,
+            scale=3e-3 * stiffness * size,
+            least=0.0,
+        ),
         Parameter("zero_angle", "deg", "Angle at rest", rest, positive=False, scale=size),
         Parameter("first_angle", "deg", "Angle at the first sample", float(angle[0]), positive=False, scale=size),
         Parameter("first_speed", "rad/s", "Speed at the first sample", speed, positive=False, scale=size / period),

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from tvimdesign.measurement.fitting.fit import fitted
@@ -30,15 +31,35 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     both_signs = bool(np.min(torque) < 0.0 < np.max(torque))
     two_ways = any(len(set(direction(one))) > 1 for one, _ in series)
     stiffness, zero = (float(x) for x in _line(torque, angle))
-    friction = 0.05 * float(np.ptp(torque))
+    friction, turned = 0.05 * float(np.ptp(torque)), float(np.ptp(angle))
     parameters = [
         Parameter("stiffness", "N*m/rad", "Torque for each angle", max(stiffness, 1e-9)),
         Parameter("zero_angle", "deg", "Angle without a load", zero, positive=False, scale=float(np.ptp(angle)) or 1.0),
     ]
     if two_ways:
-        parameters.append(Parameter("friction", "N*m", "Friction torque, which opposes the motion", friction))
+        parameters.append(
+            Parameter(
+                "friction",
+                "N*m",
+                "Friction torque, which opposes the motion",
+                friction,
+                positive=False,
+                scale=friction,
+                least=0.0,
+            )
+        )
     if both_signs:
-        parameters.append(Parameter("backlash", "deg", "Play between the two directions", 0.01 * float(np.ptp(angle))))
+        parameters.append(
+            Parameter(
+                "backlash",
+                "deg",
+                "Play between the two directions",
+                0.01 * turned,
+                positive=False,
+                scale=0.01 * turned,
+                least=0.0,
+            )
+        )
     channels = [
         Channel(f"angle of {block.file}", "deg", angles, _predicted(torques), torques, "torque", "N*m")
         for block, (torques, angles) in zip(blocks, series, strict=True)
@@ -61,17 +82,18 @@ def direction(torque: Array) -> Array:
 
 def angle_of(torque: Array, values: Values) -> Any:
     """Angle [rad] at each torque [N*m] of a series in the order in which it was measured."""
-    left = torque - direction(torque) * values.get("friction", 0.0)
-    turned = left / values["stiffness"]
-    play = values.get("backlash")
-    if play is not None:
-        # The torque that is left decides which side is touched; its sign is that of the load but for the friction.
-        turned = turned + 0.5 * play * np.sign(torque)
-    return values["zero_angle"] + turned
+    return _angle(torque, direction(torque), np.sign(torque), values)
+
+
+def _angle(torque: Any, way: Any, side: Any, values: Values) -> Any:
+    """The same, with the ways of the motion and the sides that are touched: those of the load, but for the friction."""
+    turned = (torque - way * values.get("friction", 0.0)) / values["stiffness"]
+    return values["zero_angle"] + turned + side * (0.5 * values.get("backlash", 0.0))
 
 
 def _predicted(torque: Array) -> Callable[[Values], Any]:
-    return lambda values: angle_of(torque, values)
+    columns = [ca.DM(one) for one in (torque, direction(torque), np.sign(torque))]
+    return lambda values: _angle(*columns, values)
 
 
 def _series(block: Block, settings: Settings) -> tuple[Array, Array]:
