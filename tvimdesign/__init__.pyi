@@ -1,4 +1,6 @@
 # The public names, for type checkers and editors; `__init__.py` loads them when they are asked for.
+from tvimdesign.api.measured import Fitted as Fitted
+from tvimdesign.api.measured import fit as fit
 from tvimdesign.api.quantity import Quantity as Quantity
 from tvimdesign.api.quantity import linspace as linspace
 from tvimdesign.api.result import NoDesignError as NoDesignError

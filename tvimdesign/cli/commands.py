@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from tvimdesign.base.errors import RenamedWarning
+from tvimdesign.base.errors import InputError, RenamedWarning
 from tvimdesign.cli import completions
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.cli.options import AsJson, Out, Overwrite, Settings, StudyFile, StudyOrDesign
@@ -162,6 +162,52 @@ def tolerate(
 
     folder = out or Path("results") / f"{name_of(study)}-tolerances"
     tolerate_study(study, folder, samples, workers, overwrite=overwrite, as_json=json)
+
+
+@app.command()
+def fit(
+    files: Annotated[
+        list[Path] | None, typer.Argument(metavar="FILE...", help="Measured data: text, CSV, Excel, TRIOS, RepTate.")
+    ] = None,
+    kind: Annotated[
+        str,
+        typer.Option(
+            "--as",
+            metavar="KIND",
+            help="Kind of measurement; found by its columns unless given. See --kinds.",
+            autocompletion=completions.kinds,
+        ),
+    ] = "",
+    kinds: Annotated[bool, typer.Option("--kinds", help="List the kinds: columns needed, what can be set.")] = False,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="Say what the files do not, such as arm='100 mm'."),
+    ] = None,
+    columns: Annotated[
+        Path | None, typer.Option("--columns", help="Column map (YAML): which column is what, units, decimal sign.")
+    ] = None,
+    record: Annotated[str, typer.Option("--record", help="Write what was measured as a record of this name.")] = "",
+    based_on: Annotated[str, typer.Option("--based-on", help="The record that has all that was not measured.")] = "",
+    catalog: Annotated[Path, typer.Option("--catalog", help="Folder of your records.")] = Path("my_records"),
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for the results; results/<first file>-fit unless given.")
+    ] = None,
+    overwrite: Overwrite = False,
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure of the residuals.")] = True,
+    json: AsJson = False,
+) -> None:
+    """Fit measured data: parameters with intervals, and a record of the catalogue that a study names."""
+    from tvimdesign.report.fit.fit_files import fit_files, list_kinds
+
+    if kinds:
+        list_kinds(json)
+        return
+    if not files:
+        raise InputError("give at least one FILE; --kinds lists what can be fitted")
+    fit_files(
+        files, kind, out or Path("results") / f"{files[0].stem}-fit", settings=settings or (), columns=columns,
+        record=record, based_on=based_on, catalog=catalog, overwrite=overwrite, plots=plots, as_json=json,
+    )  # fmt: skip
 
 
 @app.command()

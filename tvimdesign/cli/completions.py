@@ -25,6 +25,13 @@ def tests(incomplete: str) -> list[str]:
     return _beginning(TESTS, incomplete)
 
 
+def kinds(incomplete: str) -> list[str]:
+    """Kinds of measurement."""
+    from tvimdesign.measurement.kind_sheet import kind_sheets
+
+    return _beginning(kind_sheets(), incomplete)
+
+
 def examples(incomplete: str) -> list[str]:
     """Shipped studies."""
     from tvimdesign.report.study_files import example_names

@@ -1,4 +1,4 @@
-"""What nobody has measured: inputs known only within a range, from the chosen records or the table's own defaults."""
+"""Inputs known only within a range, which nobody has measured, or not exactly: of records, or the table's defaults."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class UnmeasuredInput:
     low: float
     high: float
     status: str
-    """How the value is known: assumed, calibrated, handbook, datasheet."""
+    """How the value is known: assumed, calibrated, handbook, datasheet, measured."""
 
     @property
     def logarithmic(self) -> bool:
@@ -49,7 +49,8 @@ class UnmeasuredInput:
 def unmeasured_inputs(resolved: ResolvedModule) -> list[UnmeasuredInput]:
     """The inputs that still have the value of a chosen record, or of the table, which comes with a range.
 
-    A value that the study sets is the study's own; one that is `measured` is known.
+    A value that the study sets is the study's own. One that was `measured` counts with the interval its record has, and
+    is known where it has none.
     """
     found = []
     for row in resolved.table.inputs:
@@ -64,7 +65,7 @@ def unmeasured_inputs(resolved: ResolvedModule) -> list[UnmeasuredInput]:
 def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
     assert row.record is not None
     entry = _entry(resolved.values[row.record[0]], row.record[1])
-    if entry is None or entry.status == "measured" or entry.low is None or entry.high is None:
+    if entry is None or entry.low is None or entry.high is None:
         return None
     return _within(row, resolved, entry.value, (entry.low, entry.high), entry.status)
 
@@ -73,7 +74,7 @@ def _of_table(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
     ends, status = (row.low, row.high), row.source.partition(": ")[0]
     if row.range_of is not None:
         entry = _entry(resolved.values[row.range_of[0]], row.range_of[1])
-        if entry is None or entry.status == "measured" or entry.share_of_range is None:
+        if entry is None or entry.share_of_range is None:
             return None
         ends, status = entry.share_of_range, entry.status
     if ends[0] is None or ends[1] is None or row.default is None:

@@ -1,0 +1,74 @@
+"""The command `fit`: a folder, a record, kinds listed, and errors with exit code 2."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support import Command
+
+WEIGHTS = "mass [g]; angle [deg]\n0; 0.9\n100; 5.1\n200; 9.3\n300; 13.4\n200; 9.8\n100; 5.6\n0; 1.4\n"
+
+
+@pytest.fixture
+def weights(tmp_path: Path) -> Path:
+    path = tmp_path / "weights.csv"
+    path.write_text(WEIGHTS)
+    return path
+
+
+def test_a_fit_writes_its_folder_and_its_record(tvimdesign: Command, weights: Path, tmp_path: Path) -> None:
+    sizes = ("wire_diameter=2.413 mm", "coil_diameter=24.41 mm", "coil_count=3.25", "arm=100 mm")
+    done = tvimdesign("fit", weights, *(word for size in sizes for word in ("--set", size)), "--record", "my_wire",
+                      "--out", "out", cwd=tmp_path)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "angle: 'angle [deg]' in °, 0.9 to 13.4" in done.stdout
+    assert "spring_material: my_wire" in done.stdout
+    files = {path.name for path in (tmp_path / "out").iterdir()}
+    assert files >= {"fit.json", "residuals.csv", "fit.png", "manifest.json"}
+    data = json.loads((tmp_path / "out/fit.json").read_text())
+    assert [one["name"] for one in data["parameters"]] == ["stiffness", "zero_angle", "friction"]
+    assert data["record"] == "my_records/spring_materials/my_wire.yaml"
+    assert (tmp_path / data["record"]).exists()
+    rows = (tmp_path / "out/residuals.csv").read_text(encoding="utf-8-sig").splitlines()
+    assert len(rows) == 1 + 7
+
+
+def test_json_is_what_the_folder_has(tvimdesign: Command, weights: Path, tmp_path: Path) -> None:
+    done = tvimdesign("fit", weights, "--set", "arm=100 mm", "--no-plots", "--json", cwd=tmp_path)
+    printed = json.loads(done.stdout)
+    assert printed.pop("folder") == "results/weights-fit"
+    assert printed == json.loads((tmp_path / "results/weights-fit/fit.json").read_text())
+
+
+def test_kinds_are_listed(tvimdesign: Command) -> None:
+    listed = tvimdesign("fit", "--kinds").stdout
+    assert "columns: angle, torque or mass or force" in listed
+    assert set(json.loads(tvimdesign("fit", "--kinds", "--json").stdout)) == {
+        "torque_angle", "frequency_sweep", "dsc", "pad", "release",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ([], "give at least one FILE"),
+        (["nowhere.csv"], "there is no such file"),
+        (["weights.csv"], "--set arm=...: needed"),
+        (["weights.csv", "--set", "arm"], "expected a name, `=` and a value"),
+        (["weights.csv", "--as", "spring"], "no kind of measurement is named 'spring'"),
+        (["weights.csv", "--columns", "weights.csv"], "expected quantities with their columns"),
+    ],
+)
+def test_what_is_wrong_is_said(tvimdesign: Command, weights: Path, tmp_path: Path, words: list[str], said: str) -> None:
+    done = tvimdesign("fit", *words, "--no-plots", cwd=weights.parent)
+    assert done.returncode == 2
+    assert said in done.stderr
+
+
+def test_the_command_line_loads_no_solver_before_it_fits() -> None:
+    code = "import sys; import tvimdesign.cli.commands; print(sorted({'scipy', 'casadi'} & set(sys.modules)))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"

@@ -1,0 +1,117 @@
+"""Measured data from Python: files fitted, parameters as a table, a record written."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tvimdesign.api.figures import drawn
+from tvimdesign.api.quantity import Quantity
+from tvimdesign.base.units import from_si, pretty
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+    from tvimdesign.measurement.measure_files import Measured
+
+File = str | os.PathLike[str]
+
+
+def fit(
+    files: File | Sequence[File], kind: str = "", *, columns: File | Mapping[str, Any] | None = None, **settings: str
+) -> Fitted:
+    """Fit files of measured data, all together, as `tvimdesign fit` does, without writing a file.
+
+    `kind` is found by the columns unless given; `columns` is a column map or its file; settings are text with a unit,
+    such as `arm="100 mm"`. Raises InputError for what cannot be read or lacks.
+    """
+    from tvimdesign.measurement.measure_files import measure_files
+    from tvimdesign.measurement.reading.column_map import column_map, read_column_map
+
+    paths = [Path(files)] if isinstance(files, str | os.PathLike) else [Path(file) for file in files]
+    if columns is None:
+        mapped = None
+    elif isinstance(columns, Mapping):
+        mapped = column_map(columns, "fit(columns=...)")
+    else:
+        mapped = read_column_map(Path(columns))
+    return Fitted(measure_files(paths, kind, settings, mapped))
+
+
+class Fitted:
+    """What measured data come to: parameters with intervals of 95 %, notes, residuals, and a record."""
+
+    def __init__(self, measured: Measured) -> None:
+        """Hold a measurement of `measure_files`."""
+        self._measured = measured
+
+    @property
+    def kind(self) -> str:
+        """The kind of measurement."""
+        return self._measured.kind.name
+
+    @property
+    def read(self) -> list[str]:
+        """What was understood of the files, in lines."""
+        return self._measured.read()
+
+    @property
+    def notes(self) -> list[str]:
+        """What was taken for what, what the data cannot tell apart, and what else a reader has to know; sentences."""
+        found = self._measured.measurement
+        return [*found.notes, *found.fit.words]
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """All of it as plain data, as in `fit.json`."""
+        from tvimdesign.report.fit.fit_data import fit_data
+
+        return fit_data(self._measured)
+
+    def __getitem__(self, name: str) -> Quantity:
+        """A parameter, or what follows. Raises KeyError."""
+        found = next((one for one in self._estimates() if one.name == name), None)
+        if found is None:
+            raise KeyError(f"{name!r}; there are {', '.join(one.name for one in self._estimates())}")
+        return Quantity(from_si(found.value, found.unit), found.unit)
+
+    def table(self) -> pd.DataFrame:
+        """Parameters and what follows: value, low and high of 95 %, unit, meaning. An open end is not a number."""
+        import pandas as pd
+
+        rows = [
+            {"value": from_si(one.value, one.unit), "low": _end(one.low, one.unit), "high": _end(one.high, one.unit),
+             "unit": pretty(one.unit), "meaning": one.meaning}
+            for one in self._estimates()
+        ]  # fmt: skip
+        return pd.DataFrame(rows, index=pd.Index([one.name for one in self._estimates()], name="parameter"))
+
+    def plot(self) -> Figure:
+        """Values, fitted curves and residuals."""
+        from tvimdesign.report.figures.plot_process import Drawing
+        from tvimdesign.report.fit.fit_data import figure_data
+
+        names = ", ".join(file.path.name for file in self._measured.files)
+        return drawn(Drawing("fit", "fit_figure.fit", figure_data(self._measured)), names)
+
+    def record(self, name: str, *, based_on: str = "", catalog: File = "my_records", overwrite: bool = False) -> Path:
+        """Write what was measured as a record of this name; returns its file. Raises InputError and CatalogError."""
+        from tvimdesign.measurement.record_file import write_record
+
+        return write_record(self._measured, Path(catalog), name, based_on, overwrite=overwrite)
+
+    def __repr__(self) -> str:
+        """Kind, files and parameters in a line."""
+        names = ", ".join(one.name for one in self._estimates())
+        return f"<Fitted {self.kind}, {len(self._measured.blocks)} tables: {names}>"
+
+    def _estimates(self) -> list[Any]:
+        found = self._measured.measurement.fit
+        return [*found.parameters, *found.derived]
+
+
+def _end(value: float | None, unit: str) -> float:
+    return float("nan") if value is None else from_si(value, unit)

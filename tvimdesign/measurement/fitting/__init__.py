@@ -1,0 +1,1 @@
+"""Parameters from data: robust least squares with exact derivatives, intervals, and what the data cannot tell apart."""

@@ -1,0 +1,114 @@
+"""Which quantity a column holds and in which unit, by its heading; the names are in `headings.yaml`."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import yaml
+
+from tvimdesign.base.errors import UnitError
+from tvimdesign.base.units import parse_quantity
+
+_FILE = Path(__file__).with_name("headings.yaml")
+_IN_BRACKETS = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])]")
+_AFTER_SLASH = re.compile(r"([^/]*[^/\s.])\.?\s*/\s*(\S.*)")
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_ALONE = {"-", "--", "[-]", "[1]", "[]", "()", "a.u.", "°", "1"}
+
+
+class Heading(NamedTuple):
+    """What a heading says: the quantity by its name in `headings.yaml`, or none, and the unit, or none."""
+
+    text: str
+    quantity: str
+    unit: str
+
+
+@cache
+def known() -> dict[str, Any]:
+    """The content of `headings.yaml`."""
+    content: dict[str, Any] = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+    return content
+
+
+@cache
+def _by_name() -> dict[str, str]:
+    return {plain(name): key for key, entry in known()["quantities"].items() for name in [*entry["names"], key]}
+
+
+def plain(name: str) -> str:
+    """A name in small letters, without accents, signs before and after it, and double blanks."""
+    folded = unicodedata.normalize("NFKD", name.replace("″", '"').replace("′", "'").replace("''", '"'))
+    letters = "".join(sign for sign in folded if not unicodedata.combining(sign)).lower().replace("_", " ")
+    return " ".join(letters.strip(" #:.*/").split())
+
+
+def heading(text: str, unit: str = "") -> Heading:
+    """Read a heading such as `Storage Modulus`, `Time (s)`, `Temp./°C` or `G'`; `unit` is from a row of its own."""
+    whole = _by_name().get(plain(text))
+    if whole or unit:
+        return Heading(text, whole or _quantity(text), read_unit(unit))
+    for pattern in (_IN_BRACKETS, _AFTER_SLASH):
+        match = pattern.fullmatch(text.strip().lstrip("#"))
+        if match and is_unit(match[2]):
+            return Heading(text, _quantity(match[1]), read_unit(match[2]))
+    return Heading(text, "", "")
+
+
+def _quantity(text: str) -> str:
+    without = _IN_BRACKETS.fullmatch(text)
+    return _by_name().get(plain(text), "") or (_by_name().get(plain(without[1]), "") if without else "")
+
+
+def read_unit(text: str) -> str:
+    """A unit as instruments write it, in this package's spelling; empty where there is none."""
+    inner = text.strip()
+    while len(inner) > 1 and (inner[0], inner[-1]) in {("[", "]"), ("(", ")")}:
+        inner = inner[1:-1].strip()
+    if not inner and text.strip():
+        return "1"
+    inner = inner.replace("�", "°") if inner.endswith("C") else inner
+    inner = inner.translate(_SUPERSCRIPTS).replace("µ", "u").replace("μ", "u")
+    inner = re.sub(r"(?<=[A-Za-z])-(?=[A-Za-z])", "*", inner)
+    inner = re.sub(r"^s\^?-1$", "1/s", inner)
+    return "1" if inner in _ALONE - {"°"} else inner
+
+
+def is_unit(text: str) -> bool:
+    """Whether a cell can be a unit: one in brackets, or one this package reads."""
+    stripped = text.strip()
+    if not stripped or stripped in _ALONE or re.fullmatch(r"\[[^\]]*\]", stripped):
+        return True
+    return conversion(read_unit(stripped), "") is not None
+
+
+@cache
+def conversion(unit: str, wanted: str) -> tuple[float, float] | None:
+    """Offset and factor with which a number in `unit` is one in SI; None where `unit` is not of the kind of `wanted`.
+
+    Without `wanted` any unit will do.
+    """
+    kinds = [wanted] if wanted else [unit, "degC"]
+    for kind in kinds:
+        for text in {unit, unit.replace("C", "degC") if unit in {"C", "°C"} else unit}:
+            try:
+                zero, one = (parse_quantity(f"{count} {text}" if text != "1" else count, kind) for count in ("0", "1"))
+            except UnitError:
+                continue
+            return zero, one - zero
+    return None
+
+
+def unit_of(quantity: str) -> str:
+    """A unit of the kind a quantity has."""
+    return str(known()["quantities"][quantity]["unit"])
+
+
+def setting_name(text: str) -> str:
+    """The setting a line before a table is about; empty for one that is of no use here."""
+    name = plain(text).replace("/", "").replace("  ", " ")
+    return next((key for key, entry in known()["settings"].items() if name in entry["names"]), "")

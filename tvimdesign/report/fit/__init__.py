@@ -1,0 +1,1 @@
+"""Fits of measured data told: screen, folder, figure, record."""

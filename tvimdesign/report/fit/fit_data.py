@@ -1,0 +1,95 @@
+"""A measurement as plain data: parameters with intervals, notes, residuals, and the figure's panels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.measurement.fitting.fit import Estimate, Fit
+from tvimdesign.measurement.measure_files import Measured
+from tvimdesign.report.output.number_entry import finite, number_entry
+from tvimdesign.report.output.number_format import head
+
+_MOST_PANELS = 6
+_DECADES = 30.0
+"""Largest over smallest value from which on an axis is logarithmic."""
+
+
+def fit_data(measured: Measured) -> dict[str, Any]:
+    """What `fit.json` has."""
+    found = measured.measurement
+    names = [one.name for one in found.fit.problem.parameters]
+    shown = [names.index(one.name) for one in found.fit.parameters]
+    return {
+        **head(),
+        "kind": measured.kind.name,
+        "files": [{"path": str(file.path), "sha256": file.sha256} for file in measured.files],
+        "parameters": [_entry(one) for one in found.fit.parameters],
+        "derived": [_entry(one) for one in found.fit.derived],
+        "correlation": {
+            "names": [names[i] for i in shown],
+            "rows": [[finite(float(found.fit.correlation[i, j])) for j in shown] for i in shown],
+        },
+        "noise": [
+            {"channel": channel.name, "deviation": _deviation(channel.relative, noise, channel.unit), "unit":
+             "1" if channel.relative else channel.unit, "values": len(channel.measured)}
+            for channel, noise in zip(found.fit.problem.channels, found.fit.noise, strict=True)
+        ],
+        "notes": list(found.notes),
+        "words": list(found.fit.words),
+        "read": measured.read(),
+    }  # fmt: skip
+
+
+def _entry(one: Estimate) -> dict[str, Any]:
+    return {"name": one.name, **number_entry(one.value, one.unit, (one.low, one.high)), "meaning": one.meaning}
+
+
+def _deviation(relative: bool, noise: float, unit: str) -> float:
+    return noise if relative else from_si(noise, unit) - from_si(0.0, unit)
+
+
+def residuals_csv(fit: Fit) -> str:
+    """Every value with what the fit predicts, in the units of the data; a row each."""
+    lines = ["channel,over,over unit,at,unit,measured,fitted,residual over noise"]
+    for channel, predicted, noise in zip(fit.problem.channels, fit.predicted, fit.noise, strict=True):
+        over = from_si_array(channel.at, channel.at_unit)
+        measured, fitted = (from_si_array(one, channel.unit) for one in (channel.measured, predicted))
+        left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
+        name = channel.name.replace(",", ";")
+        lines += [
+            f"{name},{channel.at_name},{channel.at_unit},{x:.8g},{channel.unit},{y:.8g},{z:.8g},{r:.4g}"
+            for x, y, z, r in zip(over, measured, fitted, left / noise, strict=True)
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def from_si_array(values: Any, unit: str) -> Any:
+    """Values in a unit."""
+    zero = from_si(0.0, unit)
+    return zero + (from_si(1.0, unit) - zero) * values
+
+
+def figure_data(measured: Measured) -> dict[str, Any]:
+    """What the figure is drawn from: panels of values and curves, each with its residuals below."""
+    return {"title": f"{measured.kind.name}: measured and fitted", "panels": list(_panels(measured.measurement.fit))}
+
+
+def _panels(fit: Fit) -> Iterator[dict[str, Any]]:
+    """A panel for every channel, the first few of many."""
+    for channel, predicted, noise in list(zip(fit.problem.channels, fit.predicted, fit.noise, strict=True))[
+        :_MOST_PANELS
+    ]:
+        left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
+        x = from_si_array(channel.at, channel.at_unit)
+        y = from_si_array(channel.measured, channel.unit)
+        yield {
+            "title": channel.name, "x_label": f"{channel.at_name} / {pretty(channel.at_unit)}",
+            "y_label": pretty(channel.unit),
+            "log_x": bool(np.min(x) > 0.0 and np.max(x) > _DECADES * np.min(x)), "log_y": channel.relative,
+            "x": x.tolist(), "measured": y.tolist(), "fitted": from_si_array(predicted, channel.unit).tolist(),
+            "residual": (left / noise).tolist(),
+        }  # fmt: skip

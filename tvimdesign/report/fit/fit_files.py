@@ -1,0 +1,113 @@
+"""The command `fit`: files of measured data to parameters, a folder, and a record that a study names."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as Grid
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.measurement.kind_sheet import kind_sheets
+from tvimdesign.measurement.measure_files import Measured, measure_files
+from tvimdesign.measurement.reading.column_map import read_column_map
+from tvimdesign.measurement.record_file import write_record
+from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.fit.fit_data import figure_data, fit_data, residuals_csv
+from tvimdesign.report.output.progress import progress_output, wide_console
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.tables import number
+
+_MOST_TABLES = 3
+"""Tables that the screen shows; `fit.json` has all."""
+
+
+def fit_files(
+    paths: Sequence[Path], kind: str, out: Path, *, settings: Sequence[str], columns: Path | None, record: str,
+    based_on: str, catalog: Path, overwrite: bool, plots: bool, as_json: bool,
+) -> None:  # fmt: skip
+    """Fit files and write the folder, and the record where one is named. Raises InputError."""
+    given = _given(settings)
+    column_map = read_column_map(columns) if columns else None
+    with ExitStack() as stack:
+        folder = stack.enter_context(ResultsFolder(out, overwrite))
+        progress = stack.enter_context(progress_output())
+        drawing = stack.enter_context(PlotProcess()) if plots else None
+        progress("fitting")
+        measured = measure_files(paths, kind, given, column_map)
+        if drawing:
+            drawing.begin(folder.path, [Drawing("fit", "fit_figure.fit", figure_data(measured))], _named(paths))
+        written = write_record(measured, catalog, record, based_on, overwrite=overwrite) if record else None
+        data = fit_data(measured) | {"settings": dict(given), "record": str(written) if written else None}
+        folder.write_json("fit.json", data)
+        folder.write("residuals.csv", residuals_csv(measured.measurement.fit))
+        if drawing:
+            progress("drawing the figure")
+            drawing.finish()
+        progress("")
+        folder.finish("fitted", {path.name: path for path in paths}, {})
+    if as_json:
+        print(json.dumps({**data, "folder": str(out)}, indent=2, allow_nan=False))
+    else:
+        _print(measured, written, out, wide_console())
+
+
+def list_kinds(as_json: bool) -> None:
+    """Print the kinds of measurement with what each needs and what can be set."""
+    sheets = kind_sheets().values()
+    if as_json:
+        print(json.dumps({one.name: {"about": one.about, "needs": one.needs, "settings": dict(one.settings)}
+                          for one in sheets}, indent=2))  # fmt: skip
+        return
+    console = wide_console()
+    for one in sheets:
+        console.print(f"[bold]{one.name}[/bold]: {escape(one.about)}")
+        console.print(f"  columns: {', '.join(' or '.join(need) for need in one.needs)}")
+        for name, entry in one.settings.items():
+            default = f", {entry['default']:g} unless set" if "default" in entry else ""
+            console.print(f"  --set {name}=... {escape('[' + entry['unit'] + ']')}: {escape(entry['about'])}{default}")
+
+
+def _given(settings: Sequence[str]) -> Mapping[str, str]:
+    found = {}
+    for one in settings:
+        name, sign, value = one.partition("=")
+        if not sign or not value.strip():
+            raise InputError(f"--set {one}: expected a name, `=` and a value, such as arm='100 mm'")
+        found[name.strip()] = value.strip()
+    return found
+
+
+def _named(paths: Sequence[Path]) -> str:
+    return ", ".join(path.name for path in paths)
+
+
+def _print(measured: Measured, written: Path | None, out: Path, console: Console) -> None:
+    found = measured.measurement
+    for line in measured.read_for_the_fit(_MOST_TABLES):
+        console.print(escape(line), style="dim", soft_wrap=True)
+    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
+    for name in ("parameter", "value", "95 % from", "to", "unit", "meaning"):
+        grid.add_column(name, justify="right" if name in {"value", "95 % from", "to"} else "left", overflow="fold")
+    for one in (*found.fit.parameters, *found.fit.derived):
+        ends = ["open" if end is None else number(from_si(end, one.unit)) for end in (one.low, one.high)]
+        grid.add_row(one.name, number(from_si(one.value, one.unit)), *ends, pretty(one.unit), one.meaning)
+    console.print(grid)
+    for line in (*found.notes, *found.fit.words):
+        console.print(escape(line), soft_wrap=True)
+    if written:
+        console.print(f"\nRecord: [bold]{escape(str(written))}[/bold]", soft_wrap=True)
+        console.print(escape(_use(written, measured.kind.category)), soft_wrap=True)
+    console.print(f"Values, residuals and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
+
+
+_CHOICES = {"spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module"}
+
+
+def _use(written: Path, category: str) -> str:
+    return f"In a study: catalog: {written.parent.parent}, module: {{{_CHOICES[category]}: {written.stem}}}"
