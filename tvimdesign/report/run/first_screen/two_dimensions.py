@@ -24,7 +24,8 @@ def _off() -> dict[str, list[float]]:
 def in_two_dimensions(design: Design) -> tuple[float, float] | None:
     """Least and largest softening time [s] that two dimensions may find; None where nobody has looked."""
     time = design.values["softening_time"]
-    if not math.isfinite(time) or design.choices.get("heater_form", WITH_CUT_PADS) != WITH_CUT_PADS:
+    foil = design.values.get("peltier_seebeck") == 0.0
+    if not math.isfinite(time) or foil or design.choices.get("heater_form", WITH_CUT_PADS) != WITH_CUT_PADS:
         return None
     low, high = _off()[design.mode]
     return time / (1.0 + high / 100.0), time / (1.0 + low / 100.0)
