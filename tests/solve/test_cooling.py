@@ -1,4 +1,4 @@
-"""What cooling by current buys: the same module with its pads unpowered on the way back, and heaters that cannot cool."""
+"""What cooling by current buys: the same module with its pads unpowered, and heaters that cannot cool."""
 
 from __future__ import annotations
 
