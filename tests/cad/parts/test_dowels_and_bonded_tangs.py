@@ -118,7 +118,7 @@ def test_bill_and_note_have_the_pins_and_the_adhesive(
     kinds = [one.kind for one in extra]
     assert kinds == ["thermal_grease", "thermistor", "tang_adhesive"]
     assert extra[-1].title == "An epoxy"
-    assert extra[1].mass == pytest.approx(1e3 * design.value("tang_adhesive_mass"))
+    assert extra[-1].mass == pytest.approx(1e3 * design.value("tang_adhesive_mass"))
     assert b"tang_adhesive" in bill_csv([*items, *extra])
     note = assembly_note(design, dims, items, extra).decode()
     assert "tang adhesive, An epoxy" in note
