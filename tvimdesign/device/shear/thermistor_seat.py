@@ -61,6 +61,12 @@ def thermistor_volume(thermistor_count: Scalar, thermistor_diameter: Scalar, the
     return thermistor_count * 0.25 * np.pi * thermistor_diameter**2 * thermistor_length
 
 
+@weights.output("g")
+def thermistor_mass(thermistor_volume: Scalar, thermistor_density: Scalar) -> Scalar:
+    """Mass of all thermistor beads together; zero without."""
+    return thermistor_volume * thermistor_density
+
+
 @rules.output(
     "mm",
     at_least(
