@@ -324,5 +324,27 @@ CATEGORIES: Mapping[str, Category] = {
             "youngs_modulus": "GPa",
         },
     ),
+    "thermal_fuses": Category(
+        values={
+            "rated_current": "A",
+            "high_rated_current": "A",
+            "body_diameter": "mm",
+            "body_length": "mm",
+            "opening_band": "K",
+        },
+        tables={
+            "types": Columns(
+                {
+                    "model": "1",
+                    "functioning_temperature": "degC",
+                    "holding_temperature": "degC",
+                    "ultimate_temperature": "degC",
+                },
+                rising=("holding_temperature", "functioning_temperature", "ultimate_temperature"),
+            )
+        },
+        words={"designation": ()},
+        rising=(("rated_current", "high_rated_current"),),
+    ),
     "wires": Category(tables={"sizes": Columns({"wire_diameter": "mm"})}),
 }

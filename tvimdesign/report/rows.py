@@ -151,7 +151,7 @@ def _plain(row: Quantity) -> dict[str, Any]:
         if row.record and not math.isfinite(row.upper):
             return _entry(row, kind, row.unit, f"from {row.record[0]}", "", name)
         default = "" if row.default is None else number(from_si(row.default, row.unit))
-        if row.record:
+        if row.record and not row.falls_back:
             default = f"from {row.record[0]}"
         allowed = " to ".join(number(from_si(end, row.unit)) if math.isfinite(end) else "any" for end in ends)
         return _entry(row, kind, row.unit, default, allowed, name)

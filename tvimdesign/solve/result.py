@@ -18,6 +18,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import intervals
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
+from tvimdesign.solve.cooling import Cooling, cooling
 from tvimdesign.solve.idealized import Idealization, idealizations
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
@@ -80,6 +81,8 @@ class StudyResult:
     """Least and largest value (SI) of the outputs for which a point inside the melting range has no one answer."""
     constant_current: dict[str, float]
     """What the same module does where currents that follow a profile stay at their default; empty where none does."""
+    cooling: Cooling
+    """What cooling by current buys on the way back."""
 
     @property
     def found(self) -> bool:
@@ -171,6 +174,7 @@ def answer(
         sweep=impedance_sweep(resolved), solution=solution,
         intervals=open_values,
         constant_current=_at_constant_current(model, inputs, set(current_profiles)),
+        cooling=cooling(model, inputs, values, current_profiles),
     )  # fmt: skip
 
 

@@ -115,8 +115,10 @@ def test_bill_and_note_have_the_pins_and_the_adhesive(
     extra = beside(design, {"tang_adhesive": "An epoxy"})
     pins = next(one for one in items if one.kind == "link_dowel")
     assert (pins.quantity, pins.made) == (dims.count("dowels_fitted"), False)
-    assert [(one.kind, one.title) for one in extra[1:]] == [("tang_adhesive", "An epoxy")]
-    assert extra[1].mass == pytest.approx(1e3 * design.value("tang_adhesive_mass"))
+    kinds = [one.kind for one in extra]
+    assert kinds == ["thermal_grease", "thermistor", "tang_adhesive"]
+    assert extra[-1].title == "An epoxy"
+    assert extra[-1].mass == pytest.approx(1e3 * design.value("tang_adhesive_mass"))
     assert b"tang_adhesive" in bill_csv([*items, *extra])
     note = assembly_note(design, dims, items, extra).decode()
     assert "tang adhesive, An epoxy" in note
@@ -129,6 +131,6 @@ def test_screws_alone_and_loose_tangs_have_none_of_it() -> None:
     design = design_of("loose", {"link_fit": "clearance", "tang_hold": "hole"})
     dims = dimensions(design)
     assert "link_dowel" not in drawn_parts(dims)
-    assert [one.kind for one in beside(design, {})] == ["thermal_grease"]
+    assert [one.kind for one in beside(design, {})] == ["thermal_grease", "thermistor"]
     assert drawing_requirements("link", dims, design.choices).seats == []
     assert broken_rules(design_of("fitted", {})) == []

@@ -111,3 +111,23 @@ def test_heat_flows_back_from_hot_to_cold_without_current() -> None:
     module = peltier.PeltierModule(0.05, 2.0, 0.5)
     assert peltier.hot_side_heat(module, 0.0, 310.0, 300.0) == pytest.approx(-5.0)
     assert peltier.cold_side_heat(module, 0.0, 310.0, 300.0) == pytest.approx(-5.0)
+
+
+@given(kelvins, kelvins, st.floats(0.0, 5.0), st.floats(0.1, 100.0), st.floats(0.01, 2.0))
+def test_a_foil_heats_whichever_way_its_current_flows(
+    hot: float, cold: float, current: float, resistance: float, conductance: float
+) -> None:
+    foil = peltier.PeltierModule(0.0, resistance, conductance)
+    both = [peltier.hot_side_heat(foil, sign * current, hot, cold) for sign in (1.0, -1.0)]
+    assert both[0] == both[1]
+    given_off = both[0] - peltier.cold_side_heat(foil, current, hot, cold)
+    assert given_off == pytest.approx(current**2 * resistance, rel=1e-9, abs=1e-9)
+
+
+def test_the_outer_side_of_an_insulated_foil_is_hotter_by_half_its_way_at_the_whole_flux() -> None:
+    # A wire in the middle of 1.6 mm of silicone, 8 kW/m2 all to one side: q t/(2 k) = 91 K over the half it passes.
+    flux, thickness, conductivity, area = 8e3, 1.6e-3, 0.07, 1.6e-3
+    foil = peltier.PeltierModule(0.0, 45.0, conductivity * area / thickness)
+    current = np.sqrt(flux * area / 45.0)
+    outer = brentq(lambda cold: peltier.cold_side_heat(foil, current, 350.0, cold), 350.0, 900.0)
+    assert outer - 350.0 == pytest.approx(0.5 * flux * thickness / conductivity, rel=1e-9)

@@ -13,6 +13,7 @@ import cadquery as cq
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.assembly import file_names
+from tvimdesign.cad.assembly.heater_leads import thermistor_in_words, up, wire_in_words
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
@@ -21,7 +22,6 @@ from tvimdesign.study.design import Design
 
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
 """Rows of the switch that a supply is bought by: volts, amperes."""
-_ROUNDING = 1e-6
 _WIRED = {
     "series": "all pads in series",
     "arcs_parallel": "arcs in parallel, the pads of each in series",
@@ -65,6 +65,10 @@ def bill(design: Design, titles: Mapping[str, str], placed: Mapping[str, cq.Soli
 
 def _titled(design: Design, kind: str, title: str) -> str:
     """What a part is ordered by: a spring is no piece of wire, so its sizes go with the wire's name."""
+    if kind == "thermistor":
+        return thermistor_in_words(design)
+    if kind == "peltier_pad" and design.values.get("peltier_seebeck") == 0.0:
+        return f"{title}, {_resistance(design):.3g} ohm each, made to the outline of its STEP file"
     if kind not in _HANDS:
         return title
     wire, coil = 1e3 * design.value("wire_diameter"), 1e3 * design.value("coil_diameter")
@@ -73,10 +77,17 @@ def _titled(design: Design, kind: str, title: str) -> str:
     return f"Torsion spring of {title}: {size}, by the spring's sheet"
 
 
+def _resistance(design: Design) -> float:
+    """Resistance of one foil heater [ohm], which goes with its area."""
+    scale = design.value("peltier_volume") / (design.value("peltier_thickness") * design.value("peltier_area"))
+    return design.value("peltier_resistance") * scale / design.value("heater_count")
+
+
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """What is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the pads."""
     grease = "Thermal grease, a film under each pad, and above it where the PCL is not cast on"
-    items = [Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_with_spreaders(design), *_supply(design)]
+    items = [Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_with_spreaders(design)]
+    items += [*_of_the_heater(design, titles), *_supply(design)]
     if design.choices.get("tang_hold") == BONDED:
         mass = 1e3 * design.value("tang_adhesive_mass")
         record = str(design.choices["tang_adhesive"])
@@ -85,16 +96,28 @@ def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
 
 
 def _with_spreaders(design: Design) -> list[Item]:
-    """What rigid Peltier modules below spreaders take beside: adhesive, and a thermistor on each spreader."""
+    """What rigid Peltier modules below spreaders take beside: the adhesive between them."""
     if design.choices.get("heater_form", "flexible") == "flexible":
         return []
-    hole = f"{1e3 * design.value('lead_hole_diameter'):.3g} mm"
-    hottest = f"{_up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
+    hottest = f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
     return [
-        Item("heat_conducting_adhesive", 1, False, "", f"Adhesive of modules and spreaders, for {hottest}", 0.0, ()),
-        Item("thermistor", round(design.value("arc_count")), False, "",
-             f"Thermistor, for {hottest}, with wires through a hole of {hole}", 0.0, ()),
-    ]  # fmt: skip
+        Item("heat_conducting_adhesive", 1, False, "", f"Adhesive of modules and spreaders, for {hottest}", 0.0, ())
+    ]
+
+
+def _of_the_heater(design: Design, titles: Mapping[str, str]) -> list[Item]:
+    """Thermal cut-out and wires, and a thermistor where none is drawn; through a hole of its own below a spreader."""
+    items = []
+    if design.values.get("thermistor_diameter", 0.0) <= 0.0:
+        hole = design.values.get("lead_hole_diameter", 0.0) if design.values.get("spreader_depth", 0.0) else 0.0
+        through = f", through a hole of {1e3 * hole:.3g} mm" if hole else ""
+        count = round(design.value("arc_count")) if hole else 1
+        items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
+    if titles.get("heater_fuse"):
+        record = str(design.choices["heater_fuse"])
+        items.append(Item("thermal_cutout", 1, False, record, titles["heater_fuse"], 0.0, ()))
+    wire = wire_in_words(design, round(design.values.get("heater_count", 1.0)))
+    return items + ([Item("heater_wire", 1, False, "", wire, 0.0, ())] if wire else [])
 
 
 def _supply(design: Design) -> list[Item]:
@@ -110,13 +133,8 @@ def _supply(design: Design) -> list[Item]:
         return []
     both = " both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else ""
     wired = _WIRED[design.choices.get("heater_wiring", "series")]
-    asked = f"at least {_up(volts)} V and {_up(amperes)} A over {wired}"
+    asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
     return [Item("supply", 1, False, "", f"DC supply with a controlled current{both}, {asked}", 0.0, ())]
-
-
-def _up(value: float) -> str:
-    """A figure that a rating must reach, to a tenth upwards."""
-    return f"{math.ceil(10.0 * value - _ROUNDING) / 10.0:g}"
 
 
 def _papers(kind: str) -> tuple[str, ...]:

@@ -18,6 +18,7 @@ from tvimdesign.cad.parts import (
     motor_parts,
     purchased_parts,
     shear_parts,
+    thermistor_parts,
     tile_parts,
 )
 
@@ -39,6 +40,7 @@ class ModuleParts:
         return {
             **self.made,
             **(tile_parts.DRAWN if dims.spreader_depth else {}),
+            **thermistor_parts.drawn(dims),
             **purchased_parts.drawn(dims),
             **(adjusters if dims.adjuster_radius else {}),
             **(cover_parts.DRAWN if dims.cover_height else {}),

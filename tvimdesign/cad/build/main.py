@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.record import Record
 from tvimdesign.base.whole_files import write_whole
+from tvimdesign.cad.assembly.heater_leads import fuse_in_words
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
 
@@ -73,6 +74,8 @@ def _titles(design: Design) -> dict[str, str]:
 
 def _ordered_by(record: Record, design: Design, row: str) -> str:
     """The designation of a standard part, its length filled in; else the record's title."""
+    if record.category == "thermal_fuses":
+        return fuse_in_words(record, design)
     length = design.values.get(f"{row}_length")
     if "designation" not in record.words or not isinstance(length, int | float):
         return record.title

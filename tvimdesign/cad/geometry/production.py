@@ -37,6 +37,7 @@ PRODUCTION = {
         down="bought", why="a Peltier module of the catalogue, cut to this outline or of this size as it is sold",
     ),
     "spreader": Production(down="bought", why="cut from sheet of its material to the outline in its STEP file"),
+    "thermistor": Production(down="bought", why="a thermistor in glass with a bead of this size and insulated wires"),
     "adjuster": Production(
         down="bottom", drawn=True, why="flange on the bed: post and slot grow upwards, the screw's hole stands upright",
     ),

@@ -9,12 +9,12 @@ import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import cylinder, join, polar, ring, rounded, sector, turned
-from tvimdesign.cad.parts import tile_parts
+from tvimdesign.cad.parts import thermistor_parts, tile_parts
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "spreader", "pcl_arc", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw",
-    "adjuster_insert", "cover", "cover_screw", "cover_insert",
+    "housing", "peltier_pad", "spreader", "thermistor", "pcl_arc", "bearing_outer", "preload_spring", "adjuster",
+    "adjuster_screw", "adjuster_insert", "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 
 
@@ -22,6 +22,7 @@ def housing(dims: Dimensions) -> cq.Shape:
     """Housing with pockets for the pads and windows below them."""
     through = tile_parts.openings(dims) if dims.spreader_depth else [_window(dims)]
     openings = [turned(shape, azimuth) for azimuth in _azimuths(dims) for shape in (_pocket(dims), *through)]
+    openings += [turned(seat, _azimuths(dims)[0]) for seat in thermistor_parts.seats(dims)]
     return bare_housing(dims, (), openings)
 
 
@@ -100,7 +101,8 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
     arc = pcl_arc(dims, rotor_angle) if keyed else drawn["pcl_arc"]
     beside = tile_parts.azimuths(dims) if dims.spreader_depth else [0.0]
     pads = [azimuth + of_tile for azimuth in _azimuths(dims) for of_tile in beside]
-    places = {"peltier_pad": pads, "pcl_arc": _azimuths(dims), "spreader": _azimuths(dims)}
+    sensed = _azimuths(dims)[: dims.count("thermistor_count")] if "thermistor" in drawn else []
+    places = {"peltier_pad": pads, "pcl_arc": _azimuths(dims), "spreader": _azimuths(dims), "thermistor": sensed}
     shapes = {kind: drawn[kind] for kind in places if kind in drawn} | {"pcl_arc": arc}
     return {
         f"{kind}_{index + 1}": turned(shape, azimuth)

@@ -40,6 +40,12 @@ def spreader_mass() -> Scalar:
     return 0.0
 
 
+@quantities.output("g")
+def thermistor_mass() -> Scalar:
+    """Mass of all thermistor beads together: none is drawn."""
+    return 0.0
+
+
 @quantities.helper()
 def slot_section(
     vane_count: Scalar,

@@ -254,6 +254,7 @@ def module_mass(
     pcl_mass: Scalar,
     peltier_mass: Scalar,
     spreader_mass: Scalar,
+    thermistor_mass: Scalar,
     screws_mass: Scalar,
     bearings_mass: Scalar,
     adjusters_mass: Scalar,
@@ -266,7 +267,8 @@ def module_mass(
     """Mass of the module with its motor, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + cover_mass + pcl_mass
     fasteners = screws_mass + inserts_mass + dowels_mass
-    bought = springs_mass + peltier_mass + spreader_mass + fasteners + bearings_mass + preload_spring_mass
+    heater = peltier_mass + spreader_mass + thermistor_mass
+    bought = springs_mass + heater + fasteners + bearings_mass + preload_spring_mass
     return made + bought + adjusters_mass + drive_mass
 
 

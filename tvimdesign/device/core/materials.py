@@ -24,6 +24,10 @@ quantities.record(
     unless="heater_form",
 )
 
+quantities.record(
+    "heater_fuse", "thermal_fuses", "ultimheat_5ma3", "Thermal cut-out in the heater's leads, or none", others=("none",)
+)
+
 for name, unit, field, description in (
     ("spring_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the spring wire"),
     ("spring_density", "kg/m^3", "density", "Density of the spring wire"),

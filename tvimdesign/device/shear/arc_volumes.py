@@ -75,10 +75,16 @@ def window_section(
 
 @quantities.helper()
 def floor_openings(
-    pad_section: Section, pad_depth: Scalar, window_section: Section, lead_hole_section: Section, floor_web: Scalar
+    pad_section: Section,
+    pad_depth: Scalar,
+    window_section: Section,
+    lead_hole_section: Section,
+    floor_web: Scalar,
+    thermistor_seat_moments: Section,
 ) -> Section:
-    """What the floor has not got, volume and its polar moment: pockets, windows below them, holes for leads."""
-    return stacked((pad_section, pad_depth), (window_section, floor_web), (lead_hole_section, floor_web))
+    """What the floor has not got, volume and its polar moment: pockets, windows, holes for leads, thermistor's seat."""
+    opened = stacked((pad_section, pad_depth), (window_section, floor_web), (lead_hole_section, floor_web))
+    return opened.plus(thermistor_seat_moments)
 
 
 @quantities.output("mm^3")

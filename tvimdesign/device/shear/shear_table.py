@@ -14,6 +14,7 @@ from tvimdesign.device.shear import (
     melt_lip,
     melt_retention,
     rotor_level,
+    thermistor_seat,
     tile_heat,
     tiles,
 )
@@ -22,5 +23,5 @@ from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
 ROOMS = (rotor_level, layer_impedance, layer_heat, floor_heat, arc_volumes, arc_clearances, melt_retention, tile_heat)
-GROUPS = (*tiles.groups, *keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
+GROUPS = (*tiles.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)

@@ -87,6 +87,11 @@ class Input:
     """What a module must have for it to be of any effect."""
 
     @property
+    def falls_back(self) -> bool:
+        """Whether records may lack it: then it has a default with a source of its own."""
+        return self.record is not None and not self.source.startswith("record: ")
+
+    @property
     def sizes_in(self) -> tuple[str, str, str]:
         """Category, table and column where a record lists sizes of it."""
         return self.stock or ("wires", "sizes", self.name)

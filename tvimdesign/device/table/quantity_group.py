@@ -58,7 +58,7 @@ class QuantityGroup:
                     unit=unit,
                     description=entry["about"],
                     group=self.group,
-                    default=None if record else to_si(float(entry["value"]), unit),
+                    default=to_si(float(entry["value"]), unit) if "value" in entry else None,
                     lower=to_si(float(entry["from"]), unit),
                     upper=to_si(float(entry["to"]), unit),
                     variable=entry.get("vary", False),
@@ -69,7 +69,7 @@ class QuantityGroup:
                     low=to_si(float(entry["low"]), unit) if "low" in entry else None,
                     high=to_si(float(entry["high"]), unit) if "high" in entry else None,
                     range_of=(str(entry["range_of"][0]), str(entry["range_of"][1])) if "range_of" in entry else None,
-                    source=_of_record(record) if record else f"{entry['status']}: {entry['source']}",
+                    source=_of_record(record) if record and "value" not in entry else _said(entry),
                     record=record,
                     stock=_listed_in(*entry["stock"]) if "stock" in entry else None,
                     mode=entry.get("mode"),
@@ -306,6 +306,11 @@ def gather(groups: Iterable[QuantityGroup], mode: str) -> tuple[Quantity, ...]:
                 together.insert(place, quantity)
                 place += 1
     return tuple(quantity for together in headings.values() for quantity in together)
+
+
+def _said(entry: Mapping[str, Any]) -> str:
+    """Source of an input that has a default of its own."""
+    return f"{entry['status']}: {entry['source']}"
 
 
 def _of_record(record: tuple[str, str]) -> str:

@@ -63,6 +63,9 @@ def _of_record(
     except CatalogError:
         return Provenance("record", row.source)
     entry = record.entries.get(field)
+    if entry is None and row.falls_back:
+        status, _, source = row.source.partition(": ")
+        return Provenance(status, source)
     if entry is None:
         return Provenance("chosen", f"{record.category}/{record.name} has no {field}; such a module needs none")
     return Provenance(entry.status, f"{record.category}/{record.name}: {entry.source}", entry.low, entry.high)

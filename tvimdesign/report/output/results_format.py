@@ -59,6 +59,15 @@ class IdealizationEntry(TypedDict):
 
 
 @closed
+class CoolingEntry(TypedDict):
+    """Whether the heater can cool and does, and the times of the way back with its pads unpowered where it does."""
+
+    able: bool
+    used: bool
+    unpowered: dict[str, NumberEntry]
+
+
+@closed
 class BestConstant(TypedDict):
     """The best design with constant currents, where the study lets them follow a profile."""
 
@@ -277,6 +286,7 @@ class Answered(Head):
     idealizations: list[IdealizationEntry]
     current_profiles: dict[str, CurrentProfileEntry]
     at_default_currents: dict[str, ValueEntry]
+    cooling: CoolingEntry
     best_constant_currents: BestConstant | None
     yield_reached: Yield | None
     choosing: ChoosingEntry | None

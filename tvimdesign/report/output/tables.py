@@ -186,6 +186,11 @@ def results(answer: StudyResult, table: Table) -> Answered:
         ],
         "current_profiles": cast("Any", design.current_profiles),
         "at_default_currents": entries(answer.constant_current),
+        "cooling": {
+            "able": answer.cooling.able,
+            "used": answer.cooling.used,
+            "unpowered": {n: number_entry(v, table.unit(n)) for n, v in answer.cooling.unpowered.items()},
+        },
         "best_constant_currents": best,
         "yield_reached": cast("Yield", asdict(reached)) if reached else None,
         "choosing": choosing_data(answer.solution.choosing if answer.solution else None, table),

@@ -125,6 +125,17 @@ def _stiff(answer: StudyResult, said: _Values) -> Iterator[str]:
     yield f"{said('stiffening_time')} from the end of the switch"
     yield stiff_in_words(answer.design, said.table)
     yield f"frozen {said('frozen_time')}"
+    yield left_to_the_air(answer)
+
+
+def left_to_the_air(answer: StudyResult) -> str:
+    """What cooling by current buys: when the same module is frozen with its pads unpowered, or why they are."""
+    if not answer.cooling.able:
+        return "by the air alone: this heater cannot cool"
+    if not answer.cooling.used:
+        return "by the air alone: no current cools"
+    time = answer.cooling.unpowered.get("frozen_time", math.inf)
+    return f"with the pads unpowered {'never' if math.isinf(time) else f'{number(time, _DIGITS)} s'}"
 
 
 def trade_lines(front: Any, table: Table, width: int) -> list[str]:

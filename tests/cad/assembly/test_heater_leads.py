@@ -1,0 +1,65 @@
+"""What a heater takes beside its pads is in the list: cut-out, thermistor, wires, and what a foil is ordered by."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cadquery as cq
+import pytest
+from cad_designs import TILES, design_of
+
+from tvimdesign.base.units import ZERO_CELSIUS
+from tvimdesign.cad.assembly.bill_of_materials import beside, bill
+from tvimdesign.cad.assembly.heater_leads import fuse_in_words
+from tvimdesign.cad.build.main import _titles
+from tvimdesign.catalog import Catalog
+from tvimdesign.study.design import Design
+
+FUSE = Catalog().record("thermal_fuses", "ultimheat_5ma3")
+
+
+def switched(changes: dict[str, Any], hottest: float = 105.2, mode: str = "shear") -> Design:
+    """A design that was taken through its cycle: its heater's highest temperature [degC] at 2.1 A."""
+    design = design_of("switched", changes, mode)
+    design.values.update(peak_peltier_temperature=hottest + ZERO_CELSIUS, peak_cold_side_temperature=330.0)
+    design.values.update(peak_current=2.1, stiffening_peak_current=0.2, peak_voltage=9.0, stiffening_peak_voltage=1.0)
+    return design
+
+
+def listed(design: Design) -> dict[str, str]:
+    return {item.kind: item.title for item in beside(design, _titles(design))}
+
+
+@pytest.mark.parametrize(("changes", "mode"), [({}, "shear"), (TILES, "shear"), ({}, "compression")])
+def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, Any], mode: str) -> None:
+    found = listed(switched(changes, mode=mode))
+    assert (
+        "5MA3SPF139019340: opens from 132 to 142 °C, holds 114 °C where the heater has 105.2" in found["thermal_cutout"]
+    )
+    assert "it opens above the 120 °C the heater bears" in found["thermal_cutout"]
+    assert found["thermistor"].startswith("Thermistor, for 120 °C")
+    assert "for 2.1 A and 120 °C" in found["heater_wire"]
+
+
+def test_a_cut_out_that_opens_below_the_heater_s_rating_has_no_such_word() -> None:
+    assert "opens above" not in listed(switched({"peltier_module": "silicone_9ar_08_24v"}))["thermal_cutout"]
+
+
+def test_none_is_listed_where_the_study_has_none_or_nothing_is_known_of_the_cycle() -> None:
+    assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
+    assert "thermal_cutout" not in listed(design_of("never switched", {}))
+    assert fuse_in_words(FUSE, switched({}, 200.0)).startswith("none fits: ")
+
+
+def test_a_bead_that_is_drawn_is_in_the_list_of_parts_with_its_size() -> None:
+    design = switched({"thermistor_diameter": 1.8e-3})
+    assert "thermistor" not in listed(design)
+    (item,) = bill(design, _titles(design), {"thermistor_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
+    assert item.title == "Thermistor, bead of 1.8 x 4 mm with insulated wires, for 120 °C"
+
+
+def test_a_foil_is_ordered_by_its_resistance() -> None:
+    design = switched({"peltier_module": "silicone_9ar_08_24v"})
+    (item,) = bill(design, _titles(design), {"peltier_pad_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
+    each = 45.0 * design.values["peltier_volume"] / (1.6e-3 * 1600e-6) / 4.0  # 45 ohm of 1600 mm2, four pads
+    assert f"{each:.3g} ohm each" in item.title

@@ -1,0 +1,70 @@
+"""The solid of a thermistor: touching what it measures, clear of all else, over a hole for its wires."""
+
+from __future__ import annotations
+
+import cadquery as cq
+import pytest
+from cad_designs import TILES, broken_rules, design_of
+
+from tvimdesign.cad.assembly.assembly import drawn_part
+from tvimdesign.cad.assembly.assembly_note import steps_of
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
+from tvimdesign.cad.parts import shear_parts
+from tvimdesign.study.design import Design
+
+BEAD = {"thermistor_diameter": 1.8e-3}
+
+
+def standing(design: Design) -> dict[str, cq.Solid]:
+    dims = dimensions(design)
+    kinds = ["housing", "peltier_pad", "pcl_arc", "thermistor", *(["spreader"] if dims.spreader_depth else [])]
+    drawn = {kind: drawn_part(dims, kind) for kind in kinds}
+    placed = {name: shape.Solids()[0] for name, shape in shear_parts.stand(dims, drawn, 0.0).items()}
+    return {"housing": drawn["housing"], **placed}
+
+
+@pytest.mark.parametrize(("changes", "touched", "count"), [(BEAD, "peltier_pad_1", 1), (TILES | BEAD, "spreader_1", 3)])
+def test_it_touches_what_it_measures_and_cuts_nothing(changes: dict[str, float], touched: str, count: int) -> None:
+    design = design_of("seat", changes)
+    placed = standing(design)
+    assert broken_rules(design) == []
+    assert sum(name.startswith("thermistor") for name in placed) == count
+    assert placed["thermistor_1"].distance(placed[touched]) == pytest.approx(0.0, abs=1e-6)
+    assert placed["thermistor_1"].distance(placed["housing"]) > 0.1
+    assert [check.text for check in interference_checks(placed, "here") if not check.ok] == []
+    named = {"housing_volume", "housing_inertia", "thermistor_volume"}
+    sizes = [check for check in size_checks(design, placed) if check.name in named]
+    assert len(sizes) == 3
+    assert all(check.ok for check in sizes), [check.text for check in sizes]
+
+
+@pytest.mark.parametrize("changes", [BEAD, TILES | BEAD])
+def test_its_wires_go_straight_down_through_the_floor(changes: dict[str, float]) -> None:
+    design = design_of("wires", changes)
+    placed, dims = standing(design), dimensions(design)
+    box = placed["thermistor_1"].BoundingBox()
+    assert box.zmax == pytest.approx(-dims.spreader_depth)
+    below = cq.Solid.makeCylinder(
+        0.4 * dims.thermistor_diameter, 20.0, cq.Vector(*placed["thermistor_1"].Center().toTuple()[:2], box.zmin - 20.0)
+    )
+    assert below.intersect(placed["housing"]).Volume() == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_seat_that_breaks_into_the_window_is_found_by_rule_and_by_volume() -> None:
+    design = design_of("large", {"thermistor_diameter": 3e-3})
+    assert broken_rules(design) == ["thermistor_window_gap"]
+    checks = {check.name: check.ok for check in size_checks(design, standing(design))}
+    assert not checks["housing_volume"]
+
+
+def test_the_note_says_where_it_and_the_cut_out_go_in_both_modes() -> None:
+    with_bead = [step["text"] for step in steps_of({"housing", "peltier_pad", "pcl_arc", "thermistor"})]
+    assert any("flush with the floor" in text for text in with_bead)
+    for kinds in ({"peltier_pad", "pcl_arc"}, {"peltier_pad", "pcl_block"}, {"peltier_pad", "pcl_arc", "spreader"}):
+        texts = [step["text"] for step in steps_of(kinds)]
+        assert sum("thermal cut-out" in text for text in texts) == 1, kinds
+    for kinds in ({"peltier_pad", "pcl_arc"}, {"peltier_pad", "pcl_block"}):
+        assert sum("thermistor of the bill" in step["text"] for step in steps_of(kinds)) == 1, kinds
+    assert "thermistor" not in MODULES["shear"].kinds(dimensions(design_of("none", {})))

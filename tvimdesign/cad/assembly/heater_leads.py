@@ -1,0 +1,62 @@
+"""What a heater takes beside its pads, in words of an order: thermal cut-out, thermistor, wires."""
+
+from __future__ import annotations
+
+import math
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.record import Record
+from tvimdesign.base.units import ZERO_CELSIUS
+from tvimdesign.device.core.heater_fuse import heater_fuse
+from tvimdesign.study.design import Design
+
+_HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")
+_STRONGEST = ("peak_current", "stiffening_peak_current")
+_ROUNDING = 1e-6
+
+
+def up(value: float) -> str:
+    """A figure that a rating must reach, to a tenth upwards."""
+    return f"{math.ceil(10.0 * value - _ROUNDING) / 10.0:g}"
+
+
+def largest(design: Design, names: tuple[str, ...]) -> float | None:
+    """The largest of some values that happen; None where the design was not taken through its cycle."""
+    found = [abs(design.values[name]) for name in names if math.isfinite(design.values.get(name, math.nan))]
+    return max(found, default=None)
+
+
+def fuse_in_words(record: Record, design: Design) -> str:
+    """The cut-out that a design's heater takes; why there is none; empty where nothing is known of its cycle."""
+    hottest, current = largest(design, _HOTTEST), largest(design, _STRONGEST)
+    if hottest is None or current is None:
+        return ""
+    try:
+        fuse = heater_fuse(record, hottest, current)
+    except InputError as error:
+        return f"none fits: {error}"
+    opens = f"opens from {fuse.opens_from - ZERO_CELSIUS:.3g} to {fuse.opens_at - ZERO_CELSIUS:.3g} °C"
+    holds = f"holds {fuse.holds - ZERO_CELSIUS:.3g} °C where the heater has {up(hottest - ZERO_CELSIUS)}"
+    size = " x ".join(f"{1e3 * record.value(name):.3g}" for name in ("body_diameter", "body_length"))
+    said = f"{record.title}, {fuse.designation}: {opens}, {holds}; body {size} mm; ask for its rating in direct current"
+    bears = design.value("peltier_max_temperature")
+    late = f"; it opens above the {bears - ZERO_CELSIUS:.3g} °C the heater bears: it saves what is around the heater"
+    return said + (late if fuse.opens_at > bears else "")
+
+
+def thermistor_in_words(design: Design) -> str:
+    """A thermistor for the temperature the heater is rated for, and what its bead may measure where one is drawn."""
+    rated = f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
+    if design.values.get("thermistor_diameter", 0.0) > 0.0:
+        size = " x ".join(f"{1e3 * design.value(name):.3g}" for name in ("thermistor_diameter", "thermistor_length"))
+        return f"Thermistor, bead of {size} mm with insulated wires, for {rated}"
+    return f"Thermistor, for {rated}, with insulated wires"
+
+
+def wire_in_words(design: Design, pads: int) -> str:
+    """The wires of the pads, by the current of the whole heater; empty where that is not known."""
+    current = largest(design, _STRONGEST)
+    if current is None:
+        return ""
+    rated = up(design.value("peltier_max_temperature") - ZERO_CELSIUS)
+    return f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rated} °C"
