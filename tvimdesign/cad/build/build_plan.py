@@ -26,7 +26,7 @@ from tvimdesign.cad.export.mesh import CHORD, spring_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import SPRINGS, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.cad.geometry.spring_solids import free_coil
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
@@ -76,7 +76,7 @@ def _part(kind: str, job: Job) -> list[SolidCheck]:
     checks = _step(job.folder, solid, what)
     if PRODUCTION[kind].drawn:
         asked = drawing_requirements(kind, job.dims, job.design.choices)
-        sheet = part_sheet(kind, solid, what, job.design.name, asked)
+        sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(KINDS[kind].material, ""))
         _write(job.folder, file_names.drawing_dxf(kind), sheet.dxf())
         _write(job.folder, file_names.drawing_pdf(kind), sheet.pdf())
     if PRODUCTION[kind].down == "bought":
