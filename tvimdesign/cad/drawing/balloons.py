@@ -21,7 +21,7 @@ _RADIUS = 2.7
 _REACHES = (7.0, 9.0, 12.0, 15.0, 19.0, 24.0, 30.0, 38.0, 48.0, 60.0, 75.0, 95.0)
 """Lengths of leaders that are tried [mm]."""
 _WAYS = 48
-_COVERED = 4.0
+_COVERED = 10.0
 """Length of a leader [mm] that a number is moved for each point of an outline that it would cover."""
 _STEP = 1.0
 """Distance of the points of outlines that are looked at [mm]."""
@@ -41,13 +41,19 @@ class _Placed:
     leaders: list[Line] = field(default_factory=list)
 
 
-def draw_balloons(plan: PlacedView, rows: Sequence[FeatureRow], room: tuple[float, float, float, float]) -> None:
-    """Number the rows in the plan; `room` is where numbers may stand on paper: least and largest x, then y [mm]."""
+def draw_balloons(
+    plan: PlacedView, rows: Sequence[FeatureRow], room: tuple[float, float, float, float], taken: Sequence[Point]
+) -> None:
+    """Number the rows in the plan.
+
+    `room` is where numbers may stand on paper: least and largest x, then y [mm]; `taken` are places of letters there.
+    """
     scale, (left, bottom) = plan.sheet.scale, plan.origin
     feet = {
-        index: [(left + x * scale, bottom + y * scale) for x, y in row.points] for index, row in enumerate(rows, start=1)
+        index: [(left + x * scale, bottom + y * scale) for x, y in row.points]
+        for index, row in enumerate(rows, start=1)
     }
-    placed = _Placed(feet, _outlines(plan))
+    placed = _Placed(feet, _outlines(plan), list(taken))
     # Those with the fewest places to point at choose first.
     for index in sorted(feet, key=lambda one: (len(feet[one]), one)):
         leader = next((one for one in _leaders(placed, index, room) if _is_free(placed, one)), None)
@@ -75,7 +81,7 @@ def _outlines(plan: PlacedView) -> cKDTree:
 
 
 def _leaders(placed: _Placed, index: int, room: tuple[float, float, float, float]) -> Iterator[Line]:
-    """Leaders of a row from foot to number, those first that are short and whose number covers few points of outlines."""
+    """Leaders of a row from foot to number, those first that are short and whose number covers few lines."""
     left, right, bottom, top = room
     angles = 2.0 * pi * (np.arange(_WAYS) + 0.5) / _WAYS
     reaches, feet = np.array(_REACHES), np.array(placed.feet[index]).reshape(-1, 2)

@@ -11,8 +11,8 @@ from typing import Any
 
 import yaml
 
-from tvimdesign.cad.drawing.iso_1101 import Frame
 from tvimdesign.cad.drawing.iso_286 import Limits, limit_deviations, standard_tolerance
+from tvimdesign.cad.drawing.iso_1101 import Frame
 from tvimdesign.cad.drawing.number_text import figure
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import Cylinder
@@ -51,6 +51,8 @@ class Seat:
     """What is asked of its form, its place and of the shoulder beside it."""
     letter: str = ""
     """Of the datum its axis is."""
+    mates: str = ""
+    """Kind of the bought part that sits there, if any."""
 
 
 @dataclass(frozen=True)
@@ -149,8 +151,6 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
     )
 
 
-
-
 def _clearance_hole(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ClearanceHole:
     """A hole for a screw to pass, told by its depth from others of its diameter where it has to be."""
     depth = getattr(dims, reported["depth"]) - getattr(dims, reported["less"]) if "depth" in reported else 0.0
@@ -161,8 +161,8 @@ def _clearance_hole(reported: Mapping[str, Any], dims: Dimensions, is_milled: bo
 def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tuple[Frame, ...]:
     """Position of milled screw holes: a screw in a hole of its clearance may be off by half the play in either part.
 
-    The tapped hole may stand half of its zone off its place, the other hole half of its own the other way: zones as wide
-    as half of the play (hole less screw) each use all of it up.
+    The tapped hole may stand half of its zone off its place, the other hole half of its own the other way: zones as
+    wide as half of the play (hole less screw) each use all of it up.
     """
     if not is_milled or "clearance" not in reported:
         return ()
@@ -206,15 +206,15 @@ def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
         frames = _bearing_frames(size)
     return Seat(
         reported["about"], size, drawn, fit, limits, reported["roughness"], reported.get("form", ""), tuple(frames),
-        letter,
+        letter, reported.get("mates", ""),
     )  # fmt: skip
 
 
 def _bearing_frames(size: float) -> list[Frame]:
     """Of a bearing's seat: cylindrical within half of IT5, run-out of the shoulder IT5, as bearing catalogues ask.
 
-    Both seats lie in one zone (CZ, ISO 5458) as wide as IT5: so they are coaxial, though cut from two sides. Assumed, as
-    wide as the run-out of the shoulder.
+    Both seats lie in one zone (CZ, ISO 5458) as wide as IT5: so they are coaxial, though cut from two sides. Assumed,
+    as wide as the run-out of the shoulder.
     """
     grade = standard_tolerance(5, size)
     return [

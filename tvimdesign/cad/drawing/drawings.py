@@ -38,22 +38,23 @@ def part_sheet(
     found = upright_cylinders(solid)
     central = {2.0 * one.radius: one for one in found if one.is_central and one.is_round}
     rows = feature_rows(solid, asked)
-    rows = rows if central else with_datum(rows)
+    rows = with_datum(rows) if asked.general and not central else rows
     beside = _beside(rows)
     half = half_section(solid, beside) if beside else None
     place = layout(plan, front, half, len(central), table_height(rows, asked))
     sheet = DrawingSheet(place.scale, place.form)
     placed_plan, placed_front = PlacedView(sheet, plan, place.plan), PlacedView(sheet, front, place.front)
-    _draw_plan(placed_plan, found, asked, half, beside)
+    letters = _draw_plan(placed_plan, found, asked, half, beside)
     _draw_section(placed_front, "A – A", solid, found, asked, 0.0)
     if half:
         _draw_section(PlacedView(sheet, half, place.half), "D – D", solid, found, asked, beside)
-    placed_front.ground(GROUND)
+    if asked.general:
+        placed_front.ground(GROUND)
     _dimension_diameters(placed_front, [central[diameter] for diameter in sorted(central)], asked)
     _dimension_extent(placed_front, sorted(central))
     _dimension_levels(placed_front, levels(solid))
     draw_tables(sheet, rows, asked)
-    draw_balloons(placed_plan, rows, place.room)
+    draw_balloons(placed_plan, rows, place.room, letters)
     _words(sheet, kind, solid, what, module, asked, material or what.material)
     return sheet
 
@@ -69,16 +70,14 @@ def _beside(rows: Sequence[FeatureRow]) -> float:
 
 def _draw_plan(
     plan: PlacedView, found: Sequence[Cylinder], asked: DrawingRequirements, half: View | None, beside: float
-) -> None:
-    """The view from above with its axes, its threads, and where the sections are taken."""
+) -> list[tuple[float, float]]:
+    """The view from above with its axes, its threads, and where the sections are taken; returns the letters' places."""
     plan.draw()
     plan.centre_lines([one for one in found if one.is_round])
     plan.threads([(one.x, one.y, _screw(one, asked)) for one in found if one.is_round and asked.thread(one)])
     left, right = plan.view.bounds[:2]
-    plan.cutting_mark("A", 0.0, right)
-    plan.cutting_mark("A", radians(180.0), -left)
-    if half:
-        plan.cutting_mark("D", beside, half.bounds[1])
+    marks = [plan.cutting_mark("A", 0.0, right), plan.cutting_mark("A", radians(180.0), -left)]
+    return [*marks, plan.cutting_mark("D", beside, half.bounds[1])] if half else marks
 
 
 def _screw(one: Cylinder, asked: DrawingRequirements) -> float:
@@ -119,7 +118,7 @@ def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], ask
             front.at(0.0, level), *ends, text=sized(one, asked), dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}
         ).render()
         # Without a seat the largest round face is what the part is held by, and measured from.
-        if (seat and seat.letter) or (not has_seat and one is round_faces[-1]):
+        if (seat and seat.letter) or (asked.general and not has_seat and one is round_faces[-1]):
             front.datum(DATUM, (-one.radius, level), left - front.paper(12.0))
 
 
@@ -164,7 +163,7 @@ def _words(
     volume = solid.Volume()
     lying = "standing as in the section" if PRODUCTION[kind].down == "bottom" else "turned over"
     notes = [
-        "Millimetres. Heights h are over the lowest face C; in brackets what lies between.",
+        "Millimetres. Heights h are over the lowest face; in brackets what lies between.",
         "Azimuths count from x, to the right, counter-clockwise in the plan.",
         "Walls: distance from the axis along the way they face.",
         f"Exact shape: {file_names.step(kind)}.",
@@ -177,8 +176,8 @@ def _words(
         kind.replace("_", " "),
         [
             to_fill_in("Approved", "Number", "Revision", "Date"),
-            [Field("Made by", f"tvimdesign {__version__}", 0.5), Field("Size, projection", f"{sheet.form}, first angle", 0.3),
-             Field("Sheet", "1 of 1", 0.2)],
+            [Field("Made by", f"tvimdesign {__version__}", 0.5),
+             Field("Size, projection", f"{sheet.form}, first angle", 0.3), Field("Sheet", "1 of 1", 0.2)],
             [Field("General tolerances", asked.tolerances, 0.65), Field("Surface, Ra in µm", asked.surface, 0.35)],
             [Field("Mass", f"{volume * what.density * 1e-6:.2f} g", 0.25),
              Field("Volume", f"{volume * 1e-3:.3f} cm³", 0.25),

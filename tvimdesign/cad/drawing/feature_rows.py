@@ -116,7 +116,9 @@ def _told_of_hole(asked: DrawingRequirements) -> Callable[[list[Cylinder]], Feat
         size = thread.designation if thread else sized(one, asked)
         place = "on the axis" if one.is_central else _circle(_centres(group))
         what = ("thread" if thread else "hole") if one.concave else "boss"
-        points = tuple((other.x + other.radius * cos(0.25 * pi), other.y + other.radius * sin(0.25 * pi)) for other in group)
+        points = tuple(
+            (other.x + other.radius * cos(0.25 * pi), other.y + other.radius * sin(0.25 * pi)) for other in group
+        )
         return FeatureRow(what, size, place, one.bottom, one.top, about, tuple(frames), points, of=tuple(group),
                           azimuths=() if one.is_central else tuple(_directions(_centres(group))))  # fmt: skip
 
@@ -214,7 +216,7 @@ def _told_of_arc(asked: DrawingRequirements) -> Callable[[list[Cylinder]], Featu
             place = f"over {over}, {_circle(_centres(group))}"
         points = tuple(
             (other.x + other.radius * cos(way), other.y + other.radius * sin(way))
-            for other in group for way in (other.middle, other.middle + 0.3 * other.span, other.middle - 0.3 * other.span)
+            for other in group for way in (other.middle + share * other.span for share in (0.0, 0.3, -0.3))
         )  # fmt: skip
         what = "arc inside" if one.concave else "arc outside"
         return FeatureRow(what, size, place, one.bottom, one.top, points=points, of=tuple(group))
@@ -225,8 +227,12 @@ def _told_of_arc(asked: DrawingRequirements) -> Callable[[list[Cylinder]], Featu
 def _told_of_corners(group: list[Cylinder]) -> FeatureRow:
     one = group[0]
     bottom, top = min(other.bottom for other in group), max(other.top for other in group)
-    points = tuple((other.x + other.radius * cos(other.middle), other.y + other.radius * sin(other.middle)) for other in group)
-    return FeatureRow("corners", f"R{figure(one.radius)}", "where walls meet", bottom, top, points=points, of=tuple(group))
+    points = tuple(
+        (other.x + other.radius * cos(other.middle), other.y + other.radius * sin(other.middle)) for other in group
+    )
+    return FeatureRow(
+        "corners", f"R{figure(one.radius)}", "where walls meet", bottom, top, points=points, of=tuple(group)
+    )
 
 
 # --- places ----------------------------------------------------------------------------------------------------------

@@ -16,10 +16,10 @@ OVER_TITLE = 65.0
 _LINE, _FRAME = 4.6, 5.2
 """Height of its lines, and of those with tolerance frames [mm]."""
 _OVER = 0.8
-"""What is left free over a feature with a second line [mm]."""
+"""What is left free over and below a feature with a second line [mm]."""
 _SMALL, _TEXT = 1.8, 2.3
 _INDENT = 9.0
-_COLUMNS = (0.0, 5.0, 40.0, 59.0, 74.0, 104.0, 112.0)
+_COLUMNS = (0.0, 5.0, 40.0, 59.0, 73.0, 102.0, 112.0)
 """Where the columns of the seats begin [mm]."""
 _SEATS = ("", "Seat", "fit", "limits µm", "limits of size", "Ra µm", "form and place")
 _ABOUT = 42.0
@@ -28,7 +28,7 @@ _ABOUT = 42.0
 
 def table_height(rows: Sequence[FeatureRow], asked: DrawingRequirements) -> float:
     """Height on paper that both tables take [mm]."""
-    features = sum(_LINE + (_FRAME + _OVER if _asks(row) else 0.0) for row in rows)
+    features = sum(_LINE + (_FRAME + 2.0 * _OVER if _asks(row) else 0.0) for row in rows)
     return features + 2.0 * _LINE + (len(asked.seats) * (_FRAME + 0.8) + _LINE if asked.seats else 0.0)
 
 
@@ -44,6 +44,7 @@ def draw_tables(sheet: DrawingSheet, rows: Sequence[FeatureRow], asked: DrawingR
         level += _LINE + 2.0
     for index, row in reversed(list(enumerate(rows, start=1))):
         if _asks(row):
+            level += _OVER
             sheet.text(row.asks, (left + _INDENT, level), _TEXT)
             draw_frames(sheet, row.frames, (left + _ABOUT, level - 0.8))
             level += _FRAME

@@ -31,9 +31,12 @@ class PlacedView:
     def draw(self) -> None:
         """Draw outlines and hatching."""
         space = self.sheet.space
-        for layer, curves in (("HIDDEN", self.view.hidden), ("OUTLINE", (*self.view.arcs, *self.view.chains))):
-            for curve in curves:
-                self._curve(curve, layer)
+        for behind in self.view.hidden:
+            self._curve(behind, "HIDDEN")
+        for arc in self.view.arcs:
+            self._curve(arc, "OUTLINE")
+        for chain in self.view.chains:
+            self._curve(chain, "OUTLINE")
         for outlines in self.view.cut:
             hatch = space.add_hatch(dxfattribs={"layer": "HATCH"})
             hatch.set_pattern_fill("ANSI31", scale=0.8 / self.sheet.scale)
@@ -75,8 +78,11 @@ class PlacedView:
             self.line((x - arm, y), (x + arm, y))
             self.line((x, y - arm), (x, y + arm))
 
-    def cutting_mark(self, letter: str, azimuth: float, reach: float) -> None:
-        """Mark where a section is taken, `reach` from the axis at an azimuth [rad], with an arrow as it is looked at."""
+    def cutting_mark(self, letter: str, azimuth: float, reach: float) -> tuple[float, float]:
+        """Mark where a section is taken, `reach` from the axis at an azimuth [rad], with an arrow as it is looked at.
+
+        Returns where on paper its letter stands.
+        """
         out, beside = (cos(azimuth), sin(azimuth)), (-sin(azimuth), cos(azimuth))
         if cos(azimuth) < -0.5:  # the far end of a section across the axis is looked at the same way
             beside = (sin(azimuth), -cos(azimuth))
@@ -90,18 +96,21 @@ class PlacedView:
         arrow = [self.at(*at(8.0 + half, 2.75)) for half in (-0.8, 0.8)]
         self.sheet.space.add_solid([*arrow, self.at(*at(8.0, 5.0))], dxfattribs={"layer": "FINE"})
         x, y = at(8.0, -3.5)
-        scale = self.sheet.scale
-        self.sheet.text(letter, (self.origin[0] + x * scale, self.origin[1] + y * scale), 3.5, "MIDDLE_CENTER")
+        place = self.origin[0] + x * self.sheet.scale, self.origin[1] + y * self.sheet.scale
+        self.sheet.text(letter, place, 3.5, "MIDDLE_CENTER")
+        return place
 
     def threads(self, screws: Sequence[tuple[float, float, float]]) -> None:
-        """Draw threads of holes as ISO 6410-1 has them from above: of each x, y and the screw's diameter, three quarters
-        of a thin circle."""
+        """Draw threads of holes from above, three quarters of a thin circle each (ISO 6410-1).
+
+        Of each hole: x, y and the screw's diameter.
+        """
         for x, y, wide in screws:
             centre = self.at(x, y)
             self.sheet.space.add_arc(centre, 0.5 * wide, 100.0, 10.0, dxfattribs={"layer": "FINE"})
 
     def cut_thread(self, x: float, wide: float, mouth: float, end: float) -> None:
-        """Draw the thread of a hole in the plane of a section: thin lines from its mouth to its end, a thick one there."""
+        """Draw the thread of a hole in the plane of a section: thin lines to its end, a thick one there."""
         half = 0.5 * wide
         for side in (-half, half):
             self.line((x + side, mouth), (x + side, end), "FINE")

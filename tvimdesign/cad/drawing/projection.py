@@ -71,8 +71,9 @@ def from_above(solid: cq.Solid) -> View:
     visible, hidden = _edges(solid, (0, 0, 1))
     arcs, chains = _curves(visible)
     hidden_arcs, hidden_chains = _curves(hidden)
-    in_front = {*arcs, *chains}
-    return View(arcs, chains, tuple(one for one in (*hidden_arcs, *hidden_chains) if one not in in_front))
+    behind: tuple[Arc | Chain, ...] = (*hidden_arcs, *hidden_chains)
+    in_front: set[Arc | Chain] = {*arcs, *chains}
+    return View(arcs, chains, tuple(one for one in behind if one not in in_front))
 
 
 def section(solid: cq.Solid) -> View:
@@ -94,7 +95,7 @@ def half_section(solid: cq.Solid, azimuth: float) -> View:
 def _room(solid: cq.Solid) -> float:
     """The side of a cube about the origin that holds the solid with room to spare."""
     box = solid.BoundingBox()
-    return 2.0 * (box.DiagonalLength + box.center.Length)
+    return float(2.0 * (box.DiagonalLength + box.center.Length))
 
 
 def _front(behind: cq.Shape) -> View:

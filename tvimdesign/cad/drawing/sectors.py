@@ -54,9 +54,7 @@ class Sector:
         return (*self.ends, *(arc for arc in self.arcs if _same(arc.bottom, bottom) and _same(arc.top, top)))
 
 
-def sectors(
-    cylinders: Sequence[Cylinder], walls: Sequence[Wall]
-) -> tuple[list[Sector], list[Cylinder], list[Wall]]:
+def sectors(cylinders: Sequence[Cylinder], walls: Sequence[Wall]) -> tuple[list[Sector], list[Cylinder], list[Wall]]:
     """All sectors, the partial cylinders that are in none of them, and the walls that are in none."""
     arcs = [one for one in cylinders if not one.is_round]
     levels: dict[Hashable, list[Wall]] = {}

@@ -35,7 +35,7 @@ class Layout:
 
 
 def layout(plan: View, front: View, half: View | None, diameters: int, table: float) -> Layout:
-    """The largest standard scale on the smallest sheet that shows the part twice as large as it is, or on the larger one."""
+    """The largest standard scale on the smallest sheet that shows the part doubled, or on the larger sheet."""
     over = FIRST + NEXT * (diameters + 1)
     best = [(_scale_on(size, plan, front, half, over, table), name) for name, size in SIZES.items()]
     scale, form = next((one for one in best if one[0] >= _LARGE), max(best, key=lambda one: one[0]))
