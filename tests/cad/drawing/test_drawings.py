@@ -185,6 +185,12 @@ def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
     assert (lines["body coils n"].value, lines["free angle"].value) == ("3.25", "90")
     assert lines["wire"].value == "Music wire, ASTM A228"
     assert lines["quantity for one module"].value == "2 wound right, 2 wound left"
+    # China Spring's and Apex Spring's charts: music wire 500 degF, 302 stainless 600 to 650 degF, both for half an hour.
+    assert lines["stress relief after coiling"].value == "260 °C, 30 min"
+    steel = design_of("stainless", {"spring_material": "stainless_302"})
+    heated = by_name(spring_lines(steel, dimensions(steel), TITLES))["stress relief after coiling"]
+    assert heated.value == "316 to 343 °C, 30 min"
+    assert "China Spring Corp" in heated.note
     # DIN 2194, grade 2: 2.4 x 3.25^0.76 x sqrt(10.116) = 18.70 deg; 0.025 x 24.409 x 2.413^-0.17 = 0.525 mm.
     assert lines["free angle"].tolerance == "± 18.7"
     assert lines["mean coil diameter D"].tolerance == "± 0.53"
