@@ -11,8 +11,10 @@ import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, TILES, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
-from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
+from tvimdesign.cad.assembly.bill_of_materials import _titled, beside, bill, bill_csv
 from tvimdesign.cad.build.build_plan import fits
+from tvimdesign.cad.build.main import _titles
+from tvimdesign.cad.drawing.spring_sheet import spring_lines
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
 
@@ -46,6 +48,18 @@ def test_every_solid_is_on_the_bill_with_its_count_and_the_reverse(
         assert bearing["title"].endswith("sealed on both sides (2RS)")
     grams = 1e3 * design.values["pcl_volume"] * design.values["pcl_density"]
     assert any(f"{grams:.2f} g for all of it" in row["title"] for row in rows if row["part"] == "polymer")
+
+
+def test_a_spring_from_stock_is_ordered_by_its_maker_s_number() -> None:
+    small = {"placement_radius": 16e-3, "leg_overhang": 1.5e-3, "pin_diameter": 1.5e-3}
+    mode, overrides = "shear", {"stock_spring": "central_t10180", **small}
+    design = design_of("from stock", overrides, mode)
+    left, right = (_titled(design, kind, _titles(design)["stock_spring"]) for kind in ("spring_left", "spring_right"))
+    assert left.startswith("Torsion spring T10180: wire 0.51 mm, 6 mm outside")
+    assert "(Central Springs), wound left" in left
+    assert "wound right" in right
+    (line,) = (one for one in spring_lines(design, dimensions(design), _titles(design)) if one.name == "from stock")
+    assert "T10180" in line.value
 
 
 def test_a_bearing_s_seats_and_what_locks_screws_are_on_the_bill_of_a_milled_module() -> None:

@@ -185,7 +185,7 @@ def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
     assert (lines["body coils n"].value, lines["free angle"].value) == ("3.25", "90")
     assert lines["wire"].value == "Music wire, ASTM A228"
     assert lines["quantity for one module"].value == "2 wound right, 2 wound left"
-    # China Spring's and Apex Spring's charts: music wire 500 degF, 302 stainless 600 to 650 degF, both for half an hour.
+    # China Spring's and Apex Spring's charts: music wire 500 degF, 302 stainless 600 to 650 degF, half an hour.
     assert lines["stress relief after coiling"].value == "260 °C, 30 min"
     steel = design_of("stainless", {"spring_material": "stainless_302"})
     heated = by_name(spring_lines(steel, dimensions(steel), TITLES))["stress relief after coiling"]

@@ -68,7 +68,8 @@ def bill(
     for kind, solids in groups.items():
         what = product(design, kind)
         mass = solids[0].Volume() * what.density * 1e-6
-        title = _titled(design, kind, titles.get(KINDS[kind].material, what.material))
+        stock = titles.get("stock_spring") if kind in SPRINGS else None
+        title = _titled(design, kind, stock or titles.get(KINDS[kind].material, what.material))
         made = PRODUCTION[kind].down != "bought"
         fit = (fits or {}).get(kind, "")
         items.append(Item(kind, len(solids), made, what.material, title, mass, _papers(kind), (kind,), fit))
@@ -90,6 +91,8 @@ def as_ordered(items: Sequence[Item]) -> list[Item]:
 
 def _titled(design: Design, kind: str, title: str) -> str:
     """What a part is ordered by: a spring is no piece of wire, so its sizes go with the wire's name."""
+    if kind in _HANDS and design.choices.get("stock_spring", "none") != "none":
+        return f"{title}, wound {_HANDS[kind]}; one leg cut, the other one bent down, by the spring's sheet"
     if kind in _SEALED:
         return f"{title}, sealed on both sides (2RS)"
     if kind not in _HANDS:

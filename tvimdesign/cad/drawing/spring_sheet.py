@@ -47,6 +47,7 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
     material = design.choices["spring_material"]
     half = dims.count("spring_count") // 2
     return [
+        *_from_stock(design, titles),
         SpringLine("wire", titles.get("spring_material", material), note=f"record {material}"),
         SpringLine("wire diameter d", _figure(d, 3), "mm", "of the wire's standard"),
         SpringLine("mean coil diameter D", _figure(mean), "mm", f"± {_figure(spread)}", _DIN),
@@ -80,6 +81,14 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
         SpringLine("wire length", _figure(coil.wire_length, 1), "mm"),
         SpringLine("mass of one", _figure(1e3 * design.value("spring_volume") * design.value("spring_density")), "g"),
     ]  # fmt: skip
+
+
+def _from_stock(design: Design, titles: Mapping[str, str]) -> list[SpringLine]:
+    """What is bought from stock, before what is bent of it; nothing for a spring that is wound to order."""
+    record = str(design.choices.get("stock_spring", "none"))
+    if record == "none":
+        return []
+    return [SpringLine("from stock", titles.get("stock_spring", record), note="cut one leg, bend the other one down")]
 
 
 def _stress_relief(design: Design) -> SpringLine:
