@@ -55,7 +55,7 @@ def test_a_spring_from_stock_is_ordered_by_its_maker_s_number() -> None:
     mode, overrides = "shear", {"stock_spring": "central_t10180", **small}
     design = design_of("from stock", overrides, mode)
     left, right = (_titled(design, kind, _titles(design)["stock_spring"]) for kind in ("spring_left", "spring_right"))
-    assert left.startswith("Torsion spring T10180: wire 0.51 mm, 6 mm outside")
+    assert left.startswith("Torsion spring T10180, wire 0.51 mm, 6 mm outside")
     assert "(Central Springs), wound left" in left
     assert "wound right" in right
     (line,) = (one for one in spring_lines(design, dimensions(design), _titles(design)) if one.name == "from stock")
