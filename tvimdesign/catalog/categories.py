@@ -83,6 +83,19 @@ CATEGORIES: Mapping[str, Category] = {
             )
         },
     ),
+    "torsion_springs": Category(
+        values={
+            "wire_diameter": "mm",
+            "outer_diameter": "mm",
+            "coil_diameter": "mm",
+            "coil_count": "1",
+            "leg_length": "mm",
+            "largest_torque": "mN*m",
+            "deflection": "deg",
+        },
+        words={"spring_material": (), "hands": ("both",), "number": ()},
+        rising=(("wire_diameter", "coil_diameter", "outer_diameter"),),
+    ),
     "structure_materials": Category(
         values={
             "youngs_modulus": "GPa",

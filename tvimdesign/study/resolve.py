@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tvimdesign.base.errors import CatalogError, InputError
+from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
@@ -45,6 +46,8 @@ def words_of(choice: Choice) -> list[str]:
 
 def _chosen(row: Choice, study: Study, chosen: dict[str, Any]) -> Any:
     word, allowed = study.module.get(row.name), study.vary.get(row.name)
+    if stock := _stock(row, study, chosen):
+        word = stock.word(row.stock_record[1] if row.stock_record else "")
     if word is None:
         word = chosen[row.record[0]].word(row.record[1]) if row.record else row.default
     if isinstance(allowed, Options) and word not in allowed.values:
@@ -54,6 +57,8 @@ def _chosen(row: Choice, study: Study, chosen: dict[str, Any]) -> Any:
 
 def _started(row: Input, study: Study, chosen: dict[str, Any]) -> float:
     own, allowed = study.module.get(row.name), study.vary.get(row.name)
+    if stock := _stock(row, study, chosen):
+        return stock.value(row.stock_record[1] if row.stock_record else "")
     if allowed is None:
         return _or_default(row, row.name, own, chosen)
     if isinstance(allowed, Range) and allowed.start is not None:
@@ -63,6 +68,22 @@ def _started(row: Input, study: Study, chosen: dict[str, Any]) -> float:
     except InputError:
         return _middle(allowed)
     return _nearest(allowed, value)
+
+
+def _stock(row: Choice | Input, study: Study, chosen: dict[str, Any]) -> Record | None:
+    """The record that is bought whole and brings a quantity along, if the study chooses one.
+
+    Raises InputError where the study sets or varies the quantity beside it.
+    """
+    record = chosen.get(row.stock_record[0]) if row.stock_record else None
+    if not isinstance(record, Record):
+        return None
+    if row.name in study.module or row.name in study.vary:
+        raise InputError(
+            f"{row.name} is that of {record.category}/{record.name}, which {record.title} brings along; "
+            f"leave {row.name} out, or set {row.stock_record[0] if row.stock_record else ''}: none"
+        )
+    return record
 
 
 def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str, Any]) -> float:

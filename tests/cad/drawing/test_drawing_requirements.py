@@ -100,9 +100,13 @@ def test_drawings_of_a_milled_module_tell_fits_threads_and_edges() -> None:
         dimensioned = [one.dxf.text for one in document.modelspace().query("DIMENSION")]
         assert {"motor_housing": "⌀24 H6", "rotor": "⌀15 h5"}[kind] in dimensioned
     # Bearing 6802: 15 x 24 mm; ISO 286-2: H6 at 24 mm is +13 / 0, h5 at 15 mm is 0 / -8; IT5 9 and 8.
-    assert {"B", "⌀24 H6", "+13 / 0", "24.000 to 24.013", "/○/ 0.0045  ↗ 0.009 B"} <= set(said["motor_housing"])
-    assert {"B", "⌀15 h5", "0 / -8", "14.992 to 15.000", "/○/ 0.004  ↗ 0.008 B", "M4"} <= set(said["rotor"])
-    assert any(text.startswith("4× M3 ⌀2.5 hole") for text in said["rotor"])
+    assert {"B", "⌀24 H6", "+13 / 0", "24.000 to 24.013", "0.0045", "0.009", "⌀0.009 CZ"} <= set(said["motor_housing"])
+    assert {"B", "⌀15 h5", "0 / -8", "14.992 to 15.000", "0.004", "0.008", "⌀0.008 CZ"} <= set(said["rotor"])
+    # ISO 6410-1 writes thread and length, then hole and depth.
+    assert any(text.startswith("4× thread M3-6H × ") and " / ⌀2.5 × " in text for text in said["rotor"])
+    assert any(text.startswith("thread M4-6H × ") for text in said["rotor"])
+    assert "Sizes ISO 2768-1 m; ISO 22081" in said["rotor"]  # which stands where ISO 2768-2 stood
+    assert not any("2768-2" in text for text in said["rotor"])
     assert any("ISO 13715" in text for text in said["rotor"])
     assert not any(text.startswith("Printing") for text in said["rotor"])
 

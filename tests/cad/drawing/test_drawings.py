@@ -99,12 +99,12 @@ def test_holes_are_called_out_with_number_size_and_place(
     design, _ = module
     radius = 2e3 * design.values["placement_radius"]
     figure = f"{radius:.2f}".rstrip("0").rstrip(".")
-    assert f"4× ⌀3.4 hole, on ⌀{figure} from 45°, h 0 to 10" in texts(drawings["housing"])
+    assert f"4× hole ⌀3.4, on ⌀{figure} every 90° from 45°, h 0 to 10 (10)" in texts(drawings["housing"])
     assert any(
-        text.startswith("4× ⌀") and f"boss, on ⌀{figure} from 0°, h 10 to" in text
+        text.startswith("4× boss ⌀") and f", on ⌀{figure} every 90° from 0°, h 10 to" in text
         for text in texts(drawings["housing"])
     )
-    assert any(text.startswith("4× ⌀3.4 hole") and text.endswith("through") for text in texts(drawings["link"]))
+    assert any(text.startswith("4× hole ⌀3.4") and text.endswith("through") for text in texts(drawings["link"]))
 
 
 def test_the_title_block_says_what_the_part_is(module: tuple[Design, Solids], drawings: dict[str, Drawing]) -> None:
@@ -112,8 +112,9 @@ def test_the_title_block_says_what_the_part_is(module: tuple[Design, Solids], dr
     for kind in DRAWN:
         said = set(texts(drawings[kind]))
         mass = 1e3 * design.values[KINDS[kind].volume] * design.values["structure_density"]
-        assert {kind, "petg", design.name, f"{mass:.2f} g", "A3, first angle", "A – A"} <= said
-        assert any("ISO 2768-m" in text for text in said)  # a print that is milled instead
+        assert {kind, "petg", design.name, f"{mass:.2f} g", "A – A"} <= said
+        assert said & {"A3, first angle", "A2, first angle"}
+        assert any("ISO 2768-1 m" in text for text in said)  # a print that is milled instead
 
 
 def test_a_drawing_is_sound_dxf_in_millimetres_at_true_size(drawings: dict[str, Drawing]) -> None:
@@ -184,6 +185,12 @@ def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
     assert (lines["body coils n"].value, lines["free angle"].value) == ("3.25", "90")
     assert lines["wire"].value == "Music wire, ASTM A228"
     assert lines["quantity for one module"].value == "2 wound right, 2 wound left"
+    # China Spring's and Apex Spring's charts: music wire 500 degF, 302 stainless 600 to 650 degF, half an hour.
+    assert lines["stress relief after coiling"].value == "260 °C, 30 min"
+    steel = design_of("stainless", {"spring_material": "stainless_302"})
+    heated = by_name(spring_lines(steel, dimensions(steel), TITLES))["stress relief after coiling"]
+    assert heated.value == "316 to 343 °C, 30 min"
+    assert "China Spring Corp" in heated.note
     # DIN 2194, grade 2: 2.4 x 3.25^0.76 x sqrt(10.116) = 18.70 deg; 0.025 x 24.409 x 2.413^-0.17 = 0.525 mm.
     assert lines["free angle"].tolerance == "± 18.7"
     assert lines["mean coil diameter D"].tolerance == "± 0.53"
@@ -282,10 +289,10 @@ def test_a_supply_is_asked_for_by_the_highest_voltage_and_current_of_the_whole_c
     design = design_of("fed", {})
     switch = {"peak_voltage": 3.21, "stiffening_peak_voltage": -4.01, "peak_current": 1.5, "cooling_current": 0.2}
     fed = design.model_copy(update={"values": design.values | switch | {"stiffening_peak_current": math.nan}})
-    (supply,) = [one for one in beside(fed, {}) if one.kind == "supply"]
-    assert "both ways round" in supply.title
-    assert "at least 4.1 V and 1.5 A" in supply.title
-    assert [one.kind for one in beside(design, {}) if one.kind == "supply"] == []
+    supply, driver = (one for one in beside(fed, {}) if one.kind in ("supply", "driver"))
+    assert driver.title.startswith("H-bridge with a controlled current both ways round, ")
+    assert all("at least 4.1 V and 1.5 A" in one.title for one in (supply, driver))
+    assert [one.kind for one in beside(design, {}) if one.kind in ("supply", "driver")] == []
 
 
 def test_the_note_says_how_parts_are_made_by_the_process() -> None:
@@ -347,7 +354,8 @@ print(hashlib.sha256(sheet.dxf()).hexdigest())
 @pytest.mark.parametrize(
     ("azimuths", "words"),
     [
-        ([45.0, 135.0, 225.0, 315.0], "from 45°"),
+        ([45.0, 135.0, 225.0, 315.0], "every 90° from 45°"),
+        ([315.0], "at 315°"),
         ([28.68, 45.0, 61.32, 118.68, 135.0, 151.32, 208.68, 225.0, 241.32, 298.68, 315.0, 331.32],
          "at 28.68°, 45°, 61.32°, 4 times around"),
         ([*range(10, 70, 10), *range(190, 250, 10)], "from 10° every 10° to 60°, 2 times around"),

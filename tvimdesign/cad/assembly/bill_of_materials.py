@@ -6,7 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cadquery as cq
 
@@ -28,6 +28,11 @@ _WIRED = {
     "all_parallel": "all pads in parallel",
 }
 """By the word of `heater_wiring`."""
+_RINGS = ("bearing_inner", "bearing_outer")
+_SEALED = (*_RINGS, "motor_bearing")
+"""Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
+_NOT_KNOWN = "not known"
+"""Price of what no source with a price was read for."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
 
 
@@ -46,10 +51,16 @@ class Item:
     """Of one [g]."""
     papers: tuple[str, ...]
     """Files it is made or bought from."""
+    solids: tuple[str, ...] = ()
+    """Kinds of solid of the assembly that each of them is; none for what is drawn in no file."""
+    fit: str = ""
+    """Tolerance classes of what it sits in and on."""
 
 
-def bill(design: Design, titles: Mapping[str, str], placed: Mapping[str, cq.Solid]) -> list[Item]:
-    """Count the placed parts by kind; masses are those of the solids."""
+def bill(
+    design: Design, titles: Mapping[str, str], placed: Mapping[str, cq.Solid], fits: Mapping[str, str] | None = None
+) -> list[Item]:
+    """Count the placed parts by kind; masses are those of the solids, `fits` are tolerance classes by kind."""
     groups: dict[str, list[cq.Solid]] = {}
     for name, solid in placed.items():
         groups.setdefault(kind_of(name), []).append(solid)
@@ -57,10 +68,25 @@ def bill(design: Design, titles: Mapping[str, str], placed: Mapping[str, cq.Soli
     for kind, solids in groups.items():
         what = product(design, kind)
         mass = solids[0].Volume() * what.density * 1e-6
-        title = _titled(design, kind, titles.get(KINDS[kind].material, what.material))
+        stock = titles.get("stock_spring") if kind in SPRINGS else None
+        title = _titled(design, kind, stock or titles.get(KINDS[kind].material, what.material))
         made = PRODUCTION[kind].down != "bought"
-        items.append(Item(kind, len(solids), made, what.material, title, mass, _papers(kind)))
+        fit = (fits or {}).get(kind, "")
+        items.append(Item(kind, len(solids), made, what.material, title, mass, _papers(kind), (kind,), fit))
     return items
+
+
+def as_ordered(items: Sequence[Item]) -> list[Item]:
+    """The items as a shop sells them: a bearing's two rings are one bearing."""
+    by_kind = {one.kind: one for one in items}
+    inner, outer = (by_kind.get(kind) for kind in _RINGS)
+    if not (inner and outer):
+        return list(items)
+    whole = replace(
+        inner, kind="bearing", mass=inner.mass + outer.mass, papers=(*inner.papers, *outer.papers), solids=_RINGS,
+        fit="; ".join(filter(None, (outer.fit, inner.fit))),
+    )  # fmt: skip
+    return [whole if one is inner else one for one in items if one is not outer]
 
 
 def _titled(design: Design, kind: str, title: str) -> str:
@@ -69,6 +95,10 @@ def _titled(design: Design, kind: str, title: str) -> str:
         return thermistor_in_words(design)
     if kind == "peltier_pad" and design.values.get("peltier_seebeck") == 0.0:
         return f"{title}, {_resistance(design):.3g} ohm each, made to the outline of its STEP file"
+    if kind in _HANDS and design.choices.get("stock_spring", "none") != "none":
+        return f"{title}, wound {_HANDS[kind]}; one leg cut, the other one bent down, by the spring's sheet"
+    if kind in _SEALED:
+        return f"{title}, sealed on both sides (2RS)"
     if kind not in _HANDS:
         return title
     wire, coil = 1e3 * design.value("wire_diameter"), 1e3 * design.value("coil_diameter")
@@ -86,12 +116,32 @@ def _resistance(design: Design) -> float:
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """What is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the pads."""
     grease = "Thermal grease, a film under each pad, and above it where the PCL is not cast on"
-    items = [Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_with_spreaders(design)]
-    items += [*_of_the_heater(design, titles), *_supply(design)]
+    items = [_polymer(design, titles), Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_with_spreaders(design)]
+    items += [*_of_the_heater(design, titles), *_supply(design), *_glues(design)]
     if design.choices.get("tang_hold") == BONDED:
         mass = 1e3 * design.value("tang_adhesive_mass")
         record = str(design.choices["tang_adhesive"])
         items.append(Item("tang_adhesive", 1, False, record, titles.get("tang_adhesive", record), mass, ()))
+    return items
+
+
+def _polymer(design: Design, titles: Mapping[str, str]) -> Item:
+    """The polymer that arcs or blocks are cut or cast from."""
+    record = str(design.choices["pcl_grade"])
+    grams = 1e3 * design.value("pcl_volume") * design.value("pcl_density")
+    title = f"{titles.get('pcl_grade', record)}, sheet or granulate: {grams:.2f} g for all of it, order twice as much"
+    return Item("polymer", 1, False, record, title, 0.0, ())
+
+
+def _glues(design: Design) -> list[Item]:
+    """What else holds: the locking of screws in metal, and the motor's bonded parts."""
+    items = []
+    if design.choices["making_method"] == "milled":
+        text = "Thread-locking compound of medium strength, for all screws in tapped metal"
+        items.append(Item("thread_locker", 1, False, "", text, 0.0, ()))
+    if design.values.get("drive_height", 0.0) > 0.0:
+        text = "Structural adhesive for the motor's rotor, stator and magnet"
+        items.append(Item("motor_adhesive", 1, False, "", text, 0.0, ()))
     return items
 
 
@@ -134,7 +184,11 @@ def _supply(design: Design) -> list[Item]:
     both = " both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else ""
     wired = _WIRED[design.choices.get("heater_wiring", "series")]
     asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
-    return [Item("supply", 1, False, "", f"DC supply with a controlled current{both}, {asked}", 0.0, ())]
+    bridge = "H-bridge" if both else "Switch"
+    return [
+        Item("supply", 1, False, "", f"DC supply, {asked}", 0.0, ()),
+        Item("driver", 1, False, "", f"{bridge} with a controlled current{both}, {asked}", 0.0, ()),
+    ]
 
 
 def _papers(kind: str) -> tuple[str, ...]:
@@ -148,14 +202,15 @@ def _papers(kind: str) -> tuple[str, ...]:
 
 
 def bill_csv(items: Sequence[Item]) -> bytes:
-    """The bill as CSV, a row for each kind of part."""
+    """The bill as CSV, a row for each thing made or bought; `solids` names what it is in the assembly."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["item", "part", "quantity", "made_or_bought", "catalogue_record", "title", "mass_each_g",
-                     "mass_all_g", "files"])  # fmt: skip
-    for number, one in enumerate(items, start=1):
+    writer.writerow(["item", "part", "quantity", "made_or_bought", "catalogue_record", "title", "fit", "mass_each_g",
+                     "mass_all_g", "price", "solids", "files"])  # fmt: skip
+    for number, one in enumerate(as_ordered(items), start=1):
         writer.writerow([
             number, one.kind, one.quantity, "made" if one.made else "bought", one.material, one.title,
-            f"{one.mass:.3f}", f"{one.mass * one.quantity:.3f}", " ".join(one.papers),
+            one.fit, f"{one.mass:.3f}", f"{one.mass * one.quantity:.3f}", _NOT_KNOWN, " ".join(one.solids),
+            " ".join(one.papers),
         ])  # fmt: skip
     return stream.getvalue().encode(TABLE_ENCODING)

@@ -26,12 +26,13 @@ from tvimdesign.cad.export.mesh import CHORD, spring_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import SPRINGS, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.cad.geometry.spring_solids import free_coil
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.parts import dowel_parts
+from tvimdesign.study.design import Design
 
 PICTURES = "pictures"
 """The work without which a module can still be made: a machine may not be able to render."""
@@ -76,7 +77,7 @@ def _part(kind: str, job: Job) -> list[SolidCheck]:
     checks = _step(job.folder, solid, what)
     if PRODUCTION[kind].drawn:
         asked = drawing_requirements(kind, job.dims, job.design.choices)
-        sheet = part_sheet(kind, solid, what, job.design.name, asked)
+        sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(KINDS[kind].material, ""))
         _write(job.folder, file_names.drawing_dxf(kind), sheet.dxf())
         _write(job.folder, file_names.drawing_pdf(kind), sheet.pdf())
     if PRODUCTION[kind].down == "bought":
@@ -163,11 +164,22 @@ def _spring_sheet(job: Job) -> list[SolidCheck]:
 
 def _bill_and_note(job: Job) -> list[SolidCheck]:
     """What there is of each part, and how they go together."""
-    items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)))
+    items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)), fits(job.design, job.dims))
     extra = beside(job.design, job.titles)
     _write(job.folder, file_names.BILL_OF_MATERIALS, bill_csv([*items, *extra]))
     _write(job.folder, file_names.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items, extra))
     return []
+
+
+def fits(design: Design, dims: Dimensions) -> dict[str, str]:
+    """Tolerance classes of the seats that bearings and dowel pins go into, by kind, as the drawings have them."""
+    found: dict[str, list[str]] = {}
+    for kind in MODULES[dims.mode].drawn(dims):
+        if PRODUCTION[kind].drawn:
+            for seat in drawing_requirements(kind, dims, design.choices).seats:
+                if seat.mates and seat.fit:
+                    found.setdefault(seat.mates, []).append(f"{kind.replace('_', ' ')} ⌀{seat.size:.4g} {seat.fit}")
+    return {kind: ", ".join(seats) for kind, seats in found.items()}
 
 
 def _pictures(job: Job) -> list[SolidCheck]:

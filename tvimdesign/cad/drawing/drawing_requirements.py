@@ -5,21 +5,29 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from math import floor
 from pathlib import Path
 from typing import Any
 
 import yaml
 
 from tvimdesign.cad.drawing.iso_286 import Limits, limit_deviations, standard_tolerance
+from tvimdesign.cad.drawing.iso_1101 import Frame
+from tvimdesign.cad.drawing.number_text import figure
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import Cylinder
 
 _DATA = Path(__file__).with_name("drawing_requirements.yaml")
+TAPPED = "tapped"
+_ZONE = 0.05
+"""Step [mm] in which zones of position are told."""
 _SAME = 1e-5
 """Lengths [mm] that differ by less are one."""
 DATUM = "B"
 """Letter of the datum; A is the section's."""
-_BEARINGS = "At bearings: /○/ of the seat, ↗ of the shoulder; its fillet R 0.1 at most."
+GROUND = "C"
+"""Letter of the lowest face."""
+_BEARINGS = "At bearings: run-out of the shoulder; its fillet R 0.1 at most."
 """0.1 mm is the least chamfer of the rings in the catalogue, with which every bearing comes to its shoulder."""
 
 
@@ -38,9 +46,13 @@ class Seat:
     roughness: float
     """Ra [µm]."""
     form: str
-    """What is asked of its form and of the shoulder beside it, in words."""
+    """What else is asked, in words."""
+    frames: tuple[Frame, ...] = ()
+    """What is asked of its form, its place and of the shoulder beside it."""
     letter: str = ""
     """Of the datum its axis is."""
+    mates: str = ""
+    """Kind of the bought part that sits there, if any."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +68,26 @@ class ThreadCallout:
     depth: float
     length: float
     """Of the thread, or of the insert."""
+    frames: tuple[Frame, ...] = ()
+
+    @property
+    def designation(self) -> str:
+        """Thread, its length, its hole and that one's depth, as ISO 6410-1 writes them; of other screws in words."""
+        hole = f"⌀{figure(self.hole)} × {figure(self.depth)}"
+        if self.made == TAPPED:
+            return f"{self.screw}-6H × {figure(self.length)} / {hole}"
+        return f"{hole} for {self.screw}, {self.made}"
+
+
+@dataclass(frozen=True)
+class ClearanceHole:
+    """Holes that screws pass through; lengths in mm."""
+
+    about: str
+    diameter: float
+    depth: float
+    """Of the hole; 0 where any hole of its diameter is meant."""
+    frames: tuple[Frame, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -68,6 +100,17 @@ class DrawingRequirements:
     notes: Sequence[str] = ()
     seats: Sequence[Seat] = ()
     threads: Sequence[ThreadCallout] = ()
+    clearance_holes: Sequence[ClearanceHole] = ()
+    general: tuple[Frame, ...] = ()
+    """What holds for every face without a tolerance of its own: ISO 22081."""
+
+    def clearance_hole(self, hole: Cylinder) -> ClearanceHole | None:
+        """What passes through a hole, if it is one for a screw."""
+        wide, deep = 2.0 * hole.radius, hole.top - hole.bottom
+        for one in self.clearance_holes:
+            if hole.concave and abs(one.diameter - wide) < _SAME and (not one.depth or abs(one.depth - deep) < _SAME):
+                return one
+        return None
 
     def seat(self, diameter: float) -> Seat | None:
         """The seat that is drawn with a diameter, if any."""
@@ -90,7 +133,8 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         if _is_there(one, dims) and (method == "milled" or one.get("printed"))
     ]  # fmt: skip
     threads = [one for one in reported["threads"].get(kind, ()) if _is_there(one, dims)]
-    general = reported["general"][method]
+    holes = [one for one in reported["clearance_holes"].get(kind, ()) if _is_there(one, dims)]
+    general, is_milled = reported["general"][method], method == "milled"
     return DrawingRequirements(
         tolerances=general["tolerances"],
         surface=general["surface"],
@@ -101,8 +145,30 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         ],
         printed=method == "printed",
         seats=[_seat(one, dims, DATUM if index == 0 and "radius" in one else "") for index, one in enumerate(seats)],
-        threads=[_thread(one, dims, method) for one in threads],
+        threads=[_thread(one, dims, is_milled) for one in threads],
+        clearance_holes=[_clearance_hole(one, dims, is_milled) for one in holes],
+        general=(Frame("profile", general["profile"], GROUND + DATUM),) if is_milled else (),
     )
+
+
+def _clearance_hole(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ClearanceHole:
+    """A hole for a screw to pass, told by its depth from others of its diameter where it has to be."""
+    depth = getattr(dims, reported["depth"]) - getattr(dims, reported["less"]) if "depth" in reported else 0.0
+    diameter = getattr(dims, reported["hole"])
+    return ClearanceHole(reported["about"], diameter, depth, _place(reported, dims, is_milled))
+
+
+def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tuple[Frame, ...]:
+    """Position of milled screw holes: a screw in a hole of its clearance may be off by half the play in either part.
+
+    The tapped hole may stand half of its zone off its place, the other hole half of its own the other way: zones as
+    wide as half of the play (hole less screw) each use all of it up.
+    """
+    if not is_milled or "clearance" not in reported:
+        return ()
+    play = getattr(dims, reported["clearance"]) - getattr(dims, reported["screw"])
+    zone = _ZONE * floor(0.5 * play / _ZONE + 1e-6)
+    return (Frame("position", f"⌀{figure(zone)}", f"{GROUND}{DATUM}"),) if zone > 0.0 else ()
 
 
 def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[str]:
@@ -117,38 +183,56 @@ def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[st
 
 def _is_there(reported: Mapping[str, Any], dims: Dimensions) -> bool:
     """Whether the module has a seat or a thread."""
-    return not ("where" in reported and not getattr(dims, reported["where"])) and not (
-        "unless" in reported and getattr(dims, reported["unless"])
-    )
+    where, unless = reported.get("where", ()), reported.get("unless", ())
+    return all(getattr(dims, row) for row in _rows(where)) and not any(getattr(dims, row) for row in _rows(unless))
+
+
+def _rows(reported: str | Sequence[str]) -> Sequence[str]:
+    return [reported] if isinstance(reported, str) else reported
 
 
 def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
     """A seat with its fit, or as it is drawn where its study has another gap than the fit."""
     drawn = getattr(dims, reported["diameter"]) if "diameter" in reported else 2.0 * getattr(dims, reported["radius"])
+    drawn += 2.0 * getattr(dims, reported["plus"]) if "plus" in reported else 0.0
     inside = reported["class"][0].isupper()
     gap = 2.0 * getattr(dims, reported["gap"]) if "gap" in reported else 0.0
     size, fit = drawn - gap if inside else drawn + gap, reported["class"]
     limits = limit_deviations(fit, size)
     if not limits.lower - _SAME <= drawn - size <= limits.upper + _SAME:
         size, fit, limits = drawn, "", Limits(0.0, 0.0)
-    form = _bearing_form(size) if "bearing" in reported else reported.get("form", "")
-    return Seat(reported["about"], size, drawn, fit, limits, reported["roughness"], form, letter)
+    frames = [Frame(*map(str, frame)) for frame in reported.get("frames", ())]
+    if "bearing" in reported:
+        frames = _bearing_frames(size)
+    return Seat(
+        reported["about"], size, drawn, fit, limits, reported["roughness"], reported.get("form", ""), tuple(frames),
+        letter, reported.get("mates", ""),
+    )  # fmt: skip
 
 
-def _bearing_form(size: float) -> str:
-    """Form of a bearing's seat: cylindrical within half of IT5, run-out of the shoulder IT5, as catalogues ask."""
+def _bearing_frames(size: float) -> list[Frame]:
+    """Of a bearing's seat: cylindrical within half of IT5, run-out of the shoulder IT5, as bearing catalogues ask.
+
+    Both seats lie in one zone (CZ, ISO 5458) as wide as IT5: so they are coaxial, though cut from two sides. Assumed,
+    as wide as the run-out of the shoulder.
+    """
     grade = standard_tolerance(5, size)
-    return f"/○/ {0.5 * grade:.4g}  ↗ {grade:.4g} {DATUM}"
+    return [
+        Frame("cylindrical", f"{0.5 * grade:.4g}"), Frame("run-out", f"{grade:.4g}", DATUM),
+        Frame("position", f"⌀{grade:.4g} CZ"),
+    ]  # fmt: skip
 
 
-def _thread(reported: Mapping[str, Any], dims: Dimensions, method: str) -> ThreadCallout:
+def _thread(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ThreadCallout:
     """A thread: tapped, cut by its screw in plastic, or that of an insert."""
     depth = getattr(dims, reported["depth"])
     length = depth - (getattr(dims, reported["runout"]) if "runout" in reported else 0.0)
     insert = getattr(dims, reported["insert"]) if "insert" in reported else 0.0
-    made = "insert melted in" if insert else "tapped 6H" if method == "milled" else "cut by its screw"
+    made = "insert melted in" if insert else TAPPED if is_milled else "cut by its screw"
     screw = f"M{getattr(dims, reported['screw']):g}"
-    return ThreadCallout(reported["about"], screw, made, getattr(dims, reported["hole"]), depth, insert or length)
+    frames = _place(reported, dims, is_milled)
+    hole = getattr(dims, reported["hole"])
+    return ThreadCallout(reported["about"], screw, made, hole, depth, insert or length, frames)
 
 
 @cache

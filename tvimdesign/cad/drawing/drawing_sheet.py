@@ -1,4 +1,4 @@
-"""A drawing sheet: A3 with frame, title block and dimension style, geometry at its true size, as DXF and PDF."""
+"""A drawing sheet: A3 or A2 with frame, title block and dimension style, geometry at its true size, as DXF and PDF."""
 
 from __future__ import annotations
 
@@ -26,14 +26,18 @@ from matplotlib.patches import PathPatch
 Point = tuple[float, float]
 SIZE = (420.0, 297.0)
 """A3, landscape [mm]."""
+SIZES = {"A3": SIZE, "A2": (594.0, 420.0)}
+"""Sheets by ISO 216, landscape [mm]."""
 _FONT = "DejaVuSans.ttf"
 """Comes with matplotlib, so that a drawing looks the same on every machine."""
 _LAYERS = {"OUTLINE": 50, "FINE": 25, "HATCH": 18, "CENTRE": 18, "HIDDEN": 18, "DIMENSION": 25, "TEXT": 25, "FRAME": 50}
 """Line widths by layer, 1/100 mm."""
-_DASHES = {"CENTRE": "CENTER", "HIDDEN": "DASHED"}
+_DASHES = {"CENTRE": [6.5, 5.0, -0.6, 0.3, -0.6], "HIDDEN": [2.7, 2.1, -0.6]}
+"""Line types by layer, in mm on paper: their whole length, then lines (above zero) and gaps (below). ISO 128-2 has gaps
+of three widths of the line; lines are shortened to what a small part has room for."""
 TITLE_WIDTH, MARGIN = 180.0, 10.0
 """Of the title block, and around the frame [mm]."""
-_ROW = 8.0
+TITLE_ROW = 8.0
 _TEXT = 2.5
 """Height of letters and figures on paper [mm]."""
 _INCH = 25.4
@@ -57,22 +61,25 @@ def to_fill_in(*labels: str) -> list[Field]:
 class DrawingSheet:
     """A sheet at a scale. Places are in mm on paper; geometry keeps its size, and the frame is scaled."""
 
-    def __init__(self, scale: float) -> None:
-        """`scale` is paper over part: 2 for 2:1."""
+    def __init__(self, scale: float, form: str = "A3") -> None:
+        """`scale` is paper over part: 2 for 2:1; `form` is a name of `SIZES`."""
         self.scale = scale
+        self.form, self.size = form, SIZES[form]
         _use_own_font()
         with _no_time():
-            self.document = ezdxf.new("R2010", setup=["linetypes"])
+            self.document = ezdxf.new("R2010")
         self.document.header["$INSUNITS"] = 4
         self.document.header["$MEASUREMENT"] = 1
-        self.document.header["$LTSCALE"] = 0.35 / scale
+        self.document.header["$LTSCALE"] = 1.0 / scale
         self.space = self.document.modelspace()
         self.document.styles.add("SHEET", font=_FONT)
+        for name, pattern in _DASHES.items():
+            self.document.linetypes.add(name, pattern)
         for name, width in _LAYERS.items():
-            self.document.layers.add(name, lineweight=width, linetype=_DASHES.get(name, "CONTINUOUS"))
+            self.document.layers.add(name, lineweight=width, linetype=name if name in _DASHES else "CONTINUOUS")
         self._dimension_style()
-        self.lines([(MARGIN, MARGIN), (SIZE[0] - MARGIN, MARGIN), (SIZE[0] - MARGIN, SIZE[1] - MARGIN),
-                    (MARGIN, SIZE[1] - MARGIN), (MARGIN, MARGIN)], "FRAME")  # fmt: skip
+        right, top = self.size[0] - MARGIN, self.size[1] - MARGIN
+        self.lines([(MARGIN, MARGIN), (right, MARGIN), (right, top), (MARGIN, top), (MARGIN, MARGIN)], "FRAME")
 
     def _dimension_style(self) -> None:
         style = self.document.dimstyles.new("SHEET").dxf
@@ -106,21 +113,21 @@ class DrawingSheet:
 
     def title_block(self, title: str, rows: Sequence[Sequence[Field]]) -> None:
         """Title block in the lower right corner: a title, and rows of fields from the bottom up."""
-        left, bottom = SIZE[0] - MARGIN - TITLE_WIDTH, MARGIN
-        top = bottom + _ROW * len(rows) + 1.5 * _ROW
+        left, bottom = self.size[0] - MARGIN - TITLE_WIDTH, MARGIN
+        top = bottom + TITLE_ROW * len(rows) + 1.5 * TITLE_ROW
         self.lines([(left, bottom), (left, top), (left + TITLE_WIDTH, top)], "FRAME")
         for index, row in enumerate(rows):
-            level = bottom + _ROW * (index + 1)
+            level = bottom + TITLE_ROW * (index + 1)
             self.lines([(left, level), (left + TITLE_WIDTH, level)], "FINE")
             x = left
             for one in row:
                 if x > left:
-                    self.lines([(x, level - _ROW), (x, level)], "FINE")
+                    self.lines([(x, level - TITLE_ROW), (x, level)], "FINE")
                 self.text(one.label, (x + 1.5, level - 0.8), 1.6, "TOP_LEFT")
-                self.text(one.text, (x + 1.5, level - _ROW + 1.4), _TEXT)
+                self.text(one.text, (x + 1.5, level - TITLE_ROW + 1.4), _TEXT)
                 x += one.share * TITLE_WIDTH
-        self.text(title, (left + 3.0, top - 1.0 * _ROW), 5.0)
-        self._first_angle((left + TITLE_WIDTH - 28.0, top - 0.75 * _ROW))
+        self.text(title, (left + 3.0, top - 1.0 * TITLE_ROW), 5.0)
+        self._first_angle((left + TITLE_WIDTH - 28.0, top - 0.75 * TITLE_ROW))
 
     def _first_angle(self, at: Point) -> None:
         """The symbol of first-angle projection, ISO 5456-2: a cone, and to its right what is seen from its left."""
@@ -144,7 +151,7 @@ class DrawingSheet:
 
     def pdf(self) -> bytes:
         """The sheet as PDF in its true size."""
-        figure = Figure(figsize=(SIZE[0] / _INCH, SIZE[1] / _INCH))
+        figure = Figure(figsize=(self.size[0] / _INCH, self.size[1] / _INCH))
         FigureCanvasPdf(figure)
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set_axis_off()
@@ -156,8 +163,8 @@ class DrawingSheet:
         with _fixed_chance():
             Frontend(RenderContext(self.document), backend, config=look).draw_layout(self.space, finalize=True)
         axes.set_aspect("auto")
-        axes.set_xlim(0.0, SIZE[0] / self.scale)
-        axes.set_ylim(0.0, SIZE[1] / self.scale)
+        axes.set_xlim(0.0, self.size[0] / self.scale)
+        axes.set_ylim(0.0, self.size[1] / self.scale)
         stream = io.BytesIO()
         says: dict[str, Any] = {"CreationDate": None, "Creator": "tvimdesign", "Producer": "tvimdesign"}
         figure.savefig(stream, format="pdf", metadata=says)

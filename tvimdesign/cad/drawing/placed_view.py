@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import cos, hypot, sin
 
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
-from tvimdesign.cad.drawing.projection import View
+from tvimdesign.cad.drawing.projection import Arc, Chain, View
 from tvimdesign.cad.geometry.features import Cylinder
 
 
@@ -30,22 +30,29 @@ class PlacedView:
 
     def draw(self) -> None:
         """Draw outlines and hatching."""
-        space, outline = self.sheet.space, {"layer": "OUTLINE"}
-        for chain in self.view.hidden:
-            space.add_lwpolyline([self.at(*point) for point in chain.points], dxfattribs={"layer": "HIDDEN"})
+        space = self.sheet.space
+        for behind in self.view.hidden:
+            self._curve(behind, "HIDDEN")
         for arc in self.view.arcs:
-            if arc.end - arc.start == 360.0:
-                space.add_circle(self.at(*arc.centre), arc.radius, dxfattribs=outline)
-            else:
-                space.add_arc(self.at(*arc.centre), arc.radius, arc.start, arc.end, dxfattribs=outline)
+            self._curve(arc, "OUTLINE")
         for chain in self.view.chains:
-            space.add_lwpolyline([self.at(*point) for point in chain.points], dxfattribs=outline)
+            self._curve(chain, "OUTLINE")
         for outlines in self.view.cut:
             hatch = space.add_hatch(dxfattribs={"layer": "HATCH"})
             hatch.set_pattern_fill("ANSI31", scale=0.8 / self.sheet.scale)
             for index, one in enumerate(outlines):
                 points = [self.at(*point) for point in one.points]
                 hatch.paths.add_polyline_path(points, is_closed=True, flags=1 if index == 0 else 16)
+
+    def _curve(self, curve: Arc | Chain, layer: str) -> None:
+        space, of = self.sheet.space, {"layer": layer}
+        if isinstance(curve, Chain):
+            # Bit 128: dashes run on through the corners.
+            space.add_lwpolyline([self.at(*point) for point in curve.points], dxfattribs=of | {"flags": 128})
+        elif curve.end - curve.start == 360.0:
+            space.add_circle(self.at(*curve.centre), curve.radius, dxfattribs=of)
+        else:
+            space.add_arc(self.at(*curve.centre), curve.radius, curve.start, curve.end, dxfattribs=of)
 
     def line(self, start: tuple[float, float], end: tuple[float, float], layer: str = "CENTRE") -> None:
         """Draw a line between two points of the view."""
@@ -71,20 +78,60 @@ class PlacedView:
             self.line((x - arm, y), (x + arm, y))
             self.line((x, y - arm), (x, y + arm))
 
-    def cutting_line(self) -> None:
-        """Mark where the section above is taken, with arrows in the direction of view."""
-        left, right = self.view.bounds[:2]
-        for x, side in ((left, -1.0), (right, 1.0)):
-            start, end = x + side * self.paper(3.0), x + side * self.paper(8.0)
-            self.line((start, 0.0), (end, 0.0), "OUTLINE")
-            tip, half = self.paper(5.0), self.paper(0.8)
-            self.line((end, 0.0), (end, tip), "FINE")
-            self.sheet.space.add_solid(
-                [self.at(end - half, 0.55 * tip), self.at(end + half, 0.55 * tip), self.at(end, tip)],
-                dxfattribs={"layer": "FINE"},
-            )
-            paper_x = self.origin[0] + end * self.sheet.scale
-            self.sheet.text("A", (paper_x, self.origin[1] - 3.5), 3.5, "MIDDLE_CENTER")
+    def cutting_mark(self, letter: str, azimuth: float, reach: float) -> tuple[float, float]:
+        """Mark where a section is taken, `reach` from the axis at an azimuth [rad], with an arrow as it is looked at.
+
+        Returns where on paper its letter stands.
+        """
+        out, beside = (cos(azimuth), sin(azimuth)), (-sin(azimuth), cos(azimuth))
+        if cos(azimuth) < -0.5:  # the far end of a section across the axis is looked at the same way
+            beside = (sin(azimuth), -cos(azimuth))
+
+        def at(along: float, aside: float) -> tuple[float, float]:
+            far = reach + self.paper(along)
+            return far * out[0] + self.paper(aside) * beside[0], far * out[1] + self.paper(aside) * beside[1]
+
+        self.line(at(3.0, 0.0), at(8.0, 0.0), "OUTLINE")
+        self.line(at(8.0, 0.0), at(8.0, 5.0), "FINE")
+        arrow = [self.at(*at(8.0 + half, 2.75)) for half in (-0.8, 0.8)]
+        self.sheet.space.add_solid([*arrow, self.at(*at(8.0, 5.0))], dxfattribs={"layer": "FINE"})
+        x, y = at(8.0, -3.5)
+        place = self.origin[0] + x * self.sheet.scale, self.origin[1] + y * self.sheet.scale
+        self.sheet.text(letter, place, 3.5, "MIDDLE_CENTER")
+        return place
+
+    def threads(self, screws: Sequence[tuple[float, float, float]]) -> None:
+        """Draw threads of holes from above, three quarters of a thin circle each (ISO 6410-1).
+
+        Of each hole: x, y and the screw's diameter.
+        """
+        for x, y, wide in screws:
+            centre = self.at(x, y)
+            self.sheet.space.add_arc(centre, 0.5 * wide, 100.0, 10.0, dxfattribs={"layer": "FINE"})
+
+    def cut_thread(self, x: float, wide: float, mouth: float, end: float) -> None:
+        """Draw the thread of a hole in the plane of a section: thin lines to its end, a thick one there."""
+        half = 0.5 * wide
+        for side in (-half, half):
+            self.line((x + side, mouth), (x + side, end), "FINE")
+        self.line((x - half, end), (x + half, end), "OUTLINE")
+
+    def ground(self, letter: str) -> None:
+        """Mark the lowest face as a datum by ISO 5459, on its extension to the left."""
+        left, bottom = self.view.bounds[0], self.view.bounds[2]
+        x, half, tall = left - self.paper(3.5), self.paper(1.2), self.paper(2.0)
+        self.line((left, bottom), (left - self.paper(6.0), bottom), "FINE")
+        self.sheet.space.add_solid(
+            [self.at(x - half, bottom - tall), self.at(x + half, bottom - tall), self.at(x, bottom)],
+            dxfattribs={"layer": "FINE"},
+        )
+        box, middle = self.paper(2.2), bottom - self.paper(6.2)
+        self.line((x, bottom - tall), (x, middle + box), "FINE")
+        corners = [(x + right * box, middle + up * box) for right, up in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))]
+        self.sheet.space.add_lwpolyline([self.at(*corner) for corner in corners], dxfattribs={"layer": "FINE"})
+        scale = self.sheet.scale
+        place = self.origin[0] + x * scale, self.origin[1] + middle * scale
+        self.sheet.text(letter, place, 2.8, "MIDDLE_CENTER")
 
     def datum(self, letter: str, end: tuple[float, float], x: float) -> None:
         """Mark what is dimensioned with an arrow at `end` as a datum by ISO 5459: its letter in a box at `x`."""

@@ -47,8 +47,8 @@ class View:
 
     arcs: tuple[Arc, ...]
     chains: tuple[Chain, ...]
-    hidden: tuple[Chain, ...] = ()
-    """What lies behind, as lines."""
+    hidden: tuple[Arc | Chain, ...] = ()
+    """What lies behind: arcs as arcs, so that their dashes do not begin anew at every point of a chain."""
     cut: tuple[tuple[Chain, ...], ...] = ()
     """Faces in the plane of a section, each its outline and then its holes."""
 
@@ -70,15 +70,36 @@ def from_above(solid: cq.Solid) -> View:
     """Plan view, with what lies behind."""
     visible, hidden = _edges(solid, (0, 0, 1))
     arcs, chains = _curves(visible)
-    behind = {_chain(edge) for edge in hidden} - {_chain(edge) for edge in visible}
-    return View(arcs, chains, tuple(sorted(behind)))
+    hidden_arcs, hidden_chains = _curves(hidden)
+    behind: tuple[Arc | Chain, ...] = (*hidden_arcs, *hidden_chains)
+    in_front: set[Arc | Chain] = {*arcs, *chains}
+    return View(arcs, chains, tuple(one for one in behind if one not in in_front))
 
 
 def section(solid: cq.Solid) -> View:
     """Front view of the half behind the plane y = 0, with its faces in that plane."""
+    size = _room(solid)
+    return _front(solid.intersect(cq.Solid.makeBox(size, size, size, cq.Vector(-0.5 * size, 0, -0.5 * size))))
+
+
+def half_section(solid: cq.Solid, azimuth: float) -> View:
+    """What `section` shows from the axis to the right, of the solid cut at an azimuth [rad] instead of along x."""
+    size = _room(solid)
+    turned = solid.rotate(cq.Vector(), cq.Vector(0, 0, 1), -degrees(azimuth))
+    view = _front(turned.intersect(cq.Solid.makeBox(size, size, size, cq.Vector(0, 0, -0.5 * size))))
+    # The cut along the axis is no edge of the part: the axis is drawn there.
+    edges = tuple(chain for chain in view.chains if any(abs(x) > 1e-4 for x, _ in chain.points))
+    return View(view.arcs, edges, cut=view.cut)
+
+
+def _room(solid: cq.Solid) -> float:
+    """The side of a cube about the origin that holds the solid with room to spare."""
     box = solid.BoundingBox()
-    size = 2.0 * (box.DiagonalLength + box.center.Length)
-    behind = solid.intersect(cq.Solid.makeBox(size, size, size, cq.Vector(-0.5 * size, 0, -0.5 * size)))
+    return float(2.0 * (box.DiagonalLength + box.center.Length))
+
+
+def _front(behind: cq.Shape) -> View:
+    """Front view of what is behind the plane y = 0, with its faces in that plane."""
     arcs, chains = _curves(edge for half in behind.Solids() for edge in _edges(half, (0, -1, 0))[0])
     faces = [face for face in behind.Faces() if _lies_in_section(face)]
     cut = sorted(

@@ -5,18 +5,22 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from math import atan2, cos, degrees, radians, sin, tan
 
 from tvimdesign import __version__
+from tvimdesign.base.errors import CatalogError
+from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio, to_fill_in
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
 from tvimdesign.device.fixtures.tang import BONDED
-from tvimdesign.study.design import Design
+from tvimdesign.study.design import Design, catalog_of
 
 _N_MM = 1e3
+_TIGHT = "inside radius, tight: makers advise 1.5 d (Newcomb Spring)"
 _DIN = "DIN 2194 grade 2"
 _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2)
 
@@ -43,6 +47,7 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
     material = design.choices["spring_material"]
     half = dims.count("spring_count") // 2
     return [
+        *_from_stock(design, titles),
         SpringLine("wire", titles.get("spring_material", material), note=f"record {material}"),
         SpringLine("wire diameter d", _figure(d, 3), "mm", "of the wire's standard"),
         SpringLine("mean coil diameter D", _figure(mean), "mm", f"± {_figure(spread)}", _DIN),
@@ -56,7 +61,7 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
              "right: coils leave the eye clockwise"),
         SpringLine("leg, tangential", _figure(coil.leg_length / cos(coil.rise)), "mm", "± 0.5", "straight; assumed"),
         SpringLine("tang, parallel to the axis", _figure(coil.tang_length), "mm", "+ 0 / - 0.3", "assumed"),
-        SpringLine("bend between coils and tang", _figure(d), "mm", "", "radius at the wire's centre"),
+        SpringLine("bend between coils and tang", _figure(0.5 * d), "mm", "", _TIGHT),
         SpringLine("free angle", _figure(_free_angle(coil)), "deg", f"± {_figure(angle)}",
              f"from tang to leg around the axis; {_DIN}"),
         SpringLine("rate", _figure(rate, 3), "N.mm/deg"),
@@ -70,12 +75,33 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
         SpringLine("mandrel, at most", _figure(2.0 * dims.post_radius), "mm", "", "the post the spring stands on"),
         SpringLine("stress at M2, inner fibre", _figure(1e-6 * design.value("spring_stress"), 0), "MPa"),
         SpringLine("tensile strength taken", _figure(1e-6 * design.value("spring_tensile_strength"), 0), "MPa"),
-        SpringLine("heat treatment", "stress relieved after coiling", "", "", "the free angle is that after it"),
+        _stress_relief(design),
         SpringLine("finish", "bright, oiled", "", "", _finish(design)),
         SpringLine("to be measured", "free angle, torque at M1 and M2", "", "", "of each, on such a mandrel"),
         SpringLine("wire length", _figure(coil.wire_length, 1), "mm"),
         SpringLine("mass of one", _figure(1e3 * design.value("spring_volume") * design.value("spring_density")), "g"),
     ]  # fmt: skip
+
+
+def _from_stock(design: Design, titles: Mapping[str, str]) -> list[SpringLine]:
+    """What is bought from stock, before what is bent of it; nothing for a spring that is wound to order."""
+    record = str(design.choices.get("stock_spring", "none"))
+    if record == "none":
+        return []
+    return [SpringLine("from stock", titles.get("stock_spring", record), note="cut one leg, bend the other one down")]
+
+
+def _stress_relief(design: Design) -> SpringLine:
+    """How the coiled spring is heated, as the record of its wire has it."""
+    note = "the free angle is that after it"
+    with suppress(CatalogError):
+        wire = catalog_of(design).record("spring_materials", str(design.choices["spring_material"]))
+        heat, minutes = wire.entry("stress_relief_temperature"), wire.value("stress_relief_time") / 60.0
+        low, high = (one - ZERO_CELSIUS for one in (heat.low or heat.value, heat.high or heat.value))
+        warm = f"{low:.0f}" if high - low < 0.5 else f"{low:.0f} to {high:.0f}"
+        maker = heat.source.split(",")[0]
+        return SpringLine("stress relief after coiling", f"{warm} °C, {minutes:.0f} min", "", "", f"{note}; {maker}")
+    return SpringLine("stress relief after coiling", "as for this wire", "", "", note)
 
 
 def _finish(design: Design) -> str:

@@ -6,7 +6,14 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 
 quantities = QuantityGroup("Materials")
 
-quantities.record("spring_material", "spring_materials", "music_wire", "Spring steel of the torsion springs")
+quantities.record(
+    "stock_spring", "torsion_springs", "none",
+    "Torsion spring from stock: its wire, coil and material as a whole; or none, wound to order", others=("none",),
+)  # fmt: skip
+quantities.record(
+    "spring_material", "spring_materials", "music_wire", "Spring steel of the torsion springs",
+    stock_record=("stock_spring", "spring_material"),
+)  # fmt: skip
 quantities.record("process", "processes", "print_petg", "How housing, rotor, link and retainer are made")
 quantities.record(
     "structure_material",

@@ -79,6 +79,8 @@ class Input:
     """(choice, field) of the chosen record's value that the quantity is a factor of: its range is the factor's."""
     record: tuple[str, str] | None = None
     """(choice, field): where the default comes from when the study does not set it."""
+    stock_record: tuple[str, str] | None = None
+    """(choice, field): where the value comes from, and from nowhere else, in a study that chooses such a record."""
     stock: tuple[str, str, str] | None = None
     """(category, table, column) of the records that list the sizes one can buy; the sizes of wires where not told."""
     mode: str | None = None
@@ -110,6 +112,8 @@ class Choice:
     """The words there are; of a category, those beside its records."""
     record: tuple[str, str] | None = None
     """(choice, word): where the default comes from, of a choice that stands before this one."""
+    stock_record: tuple[str, str] | None = None
+    """(choice, word): where it comes from, and from nowhere else, in a study that chooses such a record before."""
     only: tuple[str, str, str] | None = None
     """(word, value, reason): a record fits only if its word has that value."""
     unless: str = ""

@@ -52,6 +52,7 @@ class QuantityGroup:
         for name, entry in _all_inputs()[self.group].items():
             unit = str(entry["unit"])
             record = (str(entry["record"][0]), str(entry["record"][1])) if "record" in entry else None
+            whole = (str(entry["stock_record"][0]), str(entry["stock_record"][1])) if "stock_record" in entry else None
             self.quantities.append(
                 Input(
                     name=name,
@@ -71,6 +72,7 @@ class QuantityGroup:
                     range_of=(str(entry["range_of"][0]), str(entry["range_of"][1])) if "range_of" in entry else None,
                     source=_of_record(record) if record and "value" not in entry else _said(entry),
                     record=record,
+                    stock_record=whole,
                     stock=_listed_in(*entry["stock"]) if "stock" in entry else None,
                     mode=entry.get("mode"),
                     requires=(Feature(*entry["feature"]),) if "feature" in entry else (),
@@ -106,12 +108,13 @@ class QuantityGroup:
         unless: str = "",
         others: tuple[str, ...] = (),
         requires: tuple[Feature, ...] = (),
+        stock_record: tuple[str, str] | None = None,
     ) -> None:
         """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit,
         in modes that do not have the choice `unless`.
 
         `default` is the name of one, or (choice, word) of the chosen record that names it. `others` are words that may
-        stand for no record at all.
+        stand for no record at all. `stock_record` is (choice, word) of a record that brings this one along.
         """
         word, record = (default, None) if isinstance(default, str) else ("", default)
         quantity = Choice(
@@ -125,6 +128,7 @@ class QuantityGroup:
             unless=unless,
             options=others,
             requires=requires,
+            stock_record=stock_record,
         )
         self.quantities.append(quantity)
 

@@ -36,10 +36,20 @@ def provenance(name: str, design: Design, table: Table, find_record: FindRecord)
         return Provenance("study", "set by the study")
     if row.per_point:
         return Provenance("study", "an operating point of the study")
-    if row.record:
-        return _of_record(*row.record, row, design, table, find_record)
+    if record := _record_of(row, design, table):
+        return _of_record(*record, row, design, table, find_record)
     status, _, source = row.source.partition(": ")
     return Provenance(status, source, *(_of_factor(row, design, table, find_record) or (row.low, row.high)))
+
+
+def _record_of(row: Input, design: Design, table: Table) -> tuple[str, str] | None:
+    """(choice, field) that an input comes from, if from a record: one bought whole before any other."""
+    if row.stock_record is None:
+        return row.record
+    chosen = table.quantity(row.stock_record[0])
+    assert isinstance(chosen, Choice)
+    is_whole = design.choices.get(chosen.name, "none") not in chosen.options
+    return row.stock_record if is_whole else row.record
 
 
 def _of_factor(row: Input, design: Design, table: Table, find_record: FindRecord) -> Ends | None:

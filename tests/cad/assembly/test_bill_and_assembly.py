@@ -1,0 +1,73 @@
+"""The bill of materials and the assembly's solids agree, one for one; what is bought says what it is ordered by."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Mapping
+
+import pytest
+from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, TILES, design_of
+
+from tvimdesign.cad.assembly.assembly import drawn_parts, place
+from tvimdesign.cad.assembly.bill_of_materials import _titled, beside, bill, bill_csv
+from tvimdesign.cad.build.build_plan import fits
+from tvimdesign.cad.build.main import _titles
+from tvimdesign.cad.drawing.spring_sheet import spring_lines
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
+
+DESIGNS = [
+    pytest.param("shear", BEARINGS, id="bearings"),
+    pytest.param("shear", CASES["paper"][1], id="paper", marks=pytest.mark.slow),
+    pytest.param("shear", DRIVEN, id="driven", marks=pytest.mark.slow),
+    pytest.param("shear", TILES, id="tiles", marks=pytest.mark.slow),
+    pytest.param("compression", BEARING_BLOCKS, id="bearing blocks", marks=pytest.mark.slow),
+]
+
+
+@pytest.mark.parametrize(("mode", "changes"), DESIGNS)
+def test_every_solid_is_on_the_bill_with_its_count_and_the_reverse(
+    mode: str, changes: Mapping[str, float | str]
+) -> None:
+    design = design_of("listed", changes, mode)
+    placed = place(dimensions(design), drawn_parts(dimensions(design)))
+    there = Counter(kind_of(name) for name in placed)
+    reported = bill_csv([*bill(design, {}, placed), *beside(design, {})]).decode("utf-8-sig")
+    rows = list(csv.DictReader(io.StringIO(reported)))
+    listed = Counter({kind: int(row["quantity"]) for row in rows for kind in row["solids"].split()})
+    assert listed == there
+    named = [kind for row in rows for kind in row["solids"].split()]
+    assert len(named) == len(set(named))
+    assert all(row["title"] and int(row["quantity"]) > 0 and row["price"] for row in rows)
+    if "bearing" in changes:  # one bearing is two solids, and is bought once
+        (bearing,) = (row for row in rows if row["part"] == "bearing")
+        assert bearing["solids"] == "bearing_inner bearing_outer"
+        assert bearing["quantity"] == "2"
+        assert bearing["title"].endswith("sealed on both sides (2RS)")
+    grams = 1e3 * design.values["pcl_volume"] * design.values["pcl_density"]
+    assert any(f"{grams:.2f} g for all of it" in row["title"] for row in rows if row["part"] == "polymer")
+
+
+def test_a_spring_from_stock_is_ordered_by_its_maker_s_number() -> None:
+    small = {"placement_radius": 16e-3, "leg_overhang": 1.5e-3, "pin_diameter": 1.5e-3}
+    mode, overrides = "shear", {"stock_spring": "central_t10180", **small}
+    design = design_of("from stock", overrides, mode)
+    left, right = (_titled(design, kind, _titles(design)["stock_spring"]) for kind in ("spring_left", "spring_right"))
+    assert left.startswith("Torsion spring T10180, wire 0.51 mm, 6 mm outside")
+    assert "(Central Springs), wound left" in left
+    assert "wound right" in right
+    (line,) = (one for one in spring_lines(design, dimensions(design), _titles(design)) if one.name == "from stock")
+    assert "T10180" in line.value
+
+
+def test_a_bearing_s_seats_and_what_locks_screws_are_on_the_bill_of_a_milled_module() -> None:
+    design = design_of("milled", BEARING_BLOCKS, "compression")
+    found = fits(design, dimensions(design))
+    # Bearing 6802: 24 mm outside in H6, 15 mm inside on h5.
+    assert found["bearing_outer"] == "housing ⌀24 H6"
+    assert found["bearing_inner"] == "rotor ⌀15 h5"
+    assert {"rotor ⌀2 H7", "link ⌀2 H7"} == set(found["link_dowel"].split(", "))
+    assert "thread_locker" in [one.kind for one in beside(design, {})]
+    assert "thread_locker" not in [one.kind for one in beside(design_of("paper", {}), {})]

@@ -1,0 +1,180 @@
+"""Every upright face of a part is on its drawing with size, place and heights: on a plate by hand, and on designs."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Mapping
+from itertools import combinations
+from math import atan2, degrees, hypot, pi
+
+import cadquery as cq
+import ezdxf
+import pytest
+from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, design_of
+from ezdxf.document import Drawing
+from test_drawings import measured, no_text_lies_on_another, sheet_of, texts
+
+from tvimdesign.cad.assembly.assembly import drawn_part
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, drawing_requirements
+from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows
+from tvimdesign.cad.drawing.number_text import figure
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.geometry.solids import block, cylinder, sector, turned
+
+BARE = DrawingRequirements("", "", printed=True)
+LONG = pytest.mark.slow
+DESIGNS = [
+    pytest.param("compression", BEARING_BLOCKS, id="bearing blocks"),
+    pytest.param("shear", CASES["paper"][1], id="paper", marks=LONG),
+    pytest.param("shear", BEARINGS, id="bearings", marks=LONG),
+    pytest.param("shear", DRIVEN, id="driven", marks=LONG),
+    pytest.param("shear", TILES, id="tiles", marks=LONG),
+    pytest.param("compression", BLOCKS, id="blocks", marks=LONG),
+]
+
+
+def told(solid: cq.Shape) -> list[str]:
+    return [row.text for row in feature_rows(solid.Solids()[0], BARE)]
+
+
+def test_a_plate_s_pockets_slots_and_holes_are_told_with_width_depth_and_azimuth() -> None:
+    # A disc of 80 mm, 10 high: three pockets of 60 degrees, 3 deep, two notches of 8 mm, four holes, a slot.
+    pockets = [
+        turned(sector(12.0, 20.0, pi / 3.0, 7.0, 10.0), azimuth) for azimuth in (pi / 6.0, 5.0 * pi / 6.0, -pi / 2.0)
+    ]
+    notches = [turned(block((35.0, 41.0), 8.0, 0.0, 4.0), azimuth) for azimuth in (0.0, pi)]
+    holes = [cylinder(2.0, 0.0, 10.0, place) for place in ((24.0, 24.0), (-24.0, 24.0), (-24.0, -24.0), (24.0, -24.0))]
+    beside = block((-3.0, 3.0), 5.0, 8.0, 10.0).moved(cq.Location(cq.Vector(0.0, 30.0, 0.0)))
+    plate = cylinder(40.0, 0.0, 10.0).cut(*pockets, *notches, *holes, beside)
+    assert sorted(told(plate)) == sorted((
+        "3× pocket R12 to R20, 60° between ends, middle every 120° from 30°, h 7 to 10 (3)",
+        "2× slot 8 wide, mid-plane through the axis, every 180° from 0°, h 0 to 4 (4)",
+        "4× hole ⌀4, on ⌀67.88 every 90° from 45°, through",
+        # Open nowhere: its two pairs of walls stand 5 apart about y = 30, and 6 apart about x = 0.
+        "slot 5 wide, mid-plane 30 from the axis, square to it at 90°, h 8 to 10 (2)",
+        "slot 6 wide, mid-plane through the axis, at 90°, h 8 to 10 (2)",
+        "flats 70 wide, mid-plane through the axis, along 90°, h 0 to 4 (4)",  # the notches' ends
+    ))  # fmt: skip
+
+
+@pytest.mark.parametrize(("mode", "changes"), DESIGNS)
+def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Mapping[str, float | str]) -> None:
+    design = design_of("dimensioned", changes, mode)
+    dims = dimensions(design)
+    for kind in MODULES[mode].drawn(dims):
+        if PRODUCTION[kind].drawn:
+            solid = drawn_part(dims, kind)
+            rows = feature_rows(solid, drawing_requirements(kind, dims, design.choices))
+            document = ezdxf.read(io.StringIO(sheet_of(design, kind, solid).dxf().decode()))
+            said = texts(document)
+            assert all(row.text in said for row in rows), kind
+            for index, row in enumerate(rows, start=1):
+                assert said.count(str(index)) >= (2 if row.points else 1), (
+                    f"{kind}: {row.text} has no number in the plan"
+                )
+            faces_are_told(kind, solid, rows, document)
+            no_text_lies_on_another(kind, document)
+            no_leader_crosses_another(kind, document)
+
+
+def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document: Drawing) -> None:
+    """Hold every upright face against the figures in the rows' texts, those about the axis against dimensions."""
+    lowest, dimensioned = solid.BoundingBox().zmin, measured(document)
+    for face in solid.Faces():
+        box = face.BoundingBox()
+        heights = f"h {figure(box.zmin - lowest)} to {figure(box.zmax - lowest)} ("
+        level = [row for row in rows if heights in row.text or row.through or row.what == "corners"]
+        if face.geomType() == "CYLINDER":
+            axis = face._geomAdaptor().Cylinder()
+            radius, place = axis.Radius(), axis.Location()
+            from_axis = hypot(place.X(), place.Y())
+            if from_axis < 1e-6 and min(abs(2.0 * radius - size) for size in dimensioned) < 1e-4:
+                continue
+            assert any(cylinder_is_told(row, radius, from_axis) for row in level), (
+                f"{kind}: cylinder R{radius} {heights}"
+            )
+        elif abs(face.normalAt().z) < 1e-9:
+            assert any(wall_is_told(row, face) for row in level), f"{kind}: wall at {face.Center()} {heights}"
+
+
+def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
+    sizes = {f"⌀{figure(2.0 * radius)}", f"R{figure(radius)}"}
+    is_sized = any(re.search(rf"{re.escape(size)}(?![\d.])", row.size) for size in sizes)
+    if row.what in ("corners", "pocket", "vane") or from_axis < 1e-6:
+        return is_sized
+    return is_sized and (f"on ⌀{figure(2.0 * from_axis)} " in row.place or row.place.startswith(("x ", "over")))
+
+
+def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
+    middle, normal = face.Center(), face.normalAt()
+    offset = middle.x * normal.x + middle.y * normal.y
+    if row.what in ("pocket", "vane"):
+        (between,) = re.findall(r"([\d.]+)° between ends", row.size)
+        azimuth = degrees(atan2(middle.y, middle.x))
+        return any(
+            abs(abs((azimuth - one + 180.0) % 360.0 - 180.0) - 0.5 * float(between)) < 0.02 for one in row.azimuths
+        )
+    if row.what in ("slot", "flats"):
+        (width,) = re.findall(r"([\d.]+) wide", row.size)
+        away = re.findall(r"mid-plane (-?[\d.]+) from", row.place) or ["0"]
+        return any(
+            abs(abs(offset) - abs(abs(float(away[0])) + side * 0.5 * float(width))) < 0.02 for side in (-1.0, 1.0)
+        )
+    return row.what == "wall" and row.size == f"{figure(offset)} from the axis"
+
+
+def no_leader_crosses_another(kind: str, document: Drawing) -> None:
+    lines = [one for one in document.modelspace().query("LINE") if one.dxf.layer == "DIMENSION"]
+    ends = [((one.dxf.start.x, one.dxf.start.y), (one.dxf.end.x, one.dxf.end.y)) for one in lines]
+    for (start, end), (other, far) in combinations(ends, 2):
+        along, across = (end[0] - start[0], end[1] - start[1]), (far[0] - other[0], far[1] - other[1])
+        turn = along[0] * across[1] - along[1] * across[0]
+        if turn:
+            gap = other[0] - start[0], other[1] - start[1]
+            first = (gap[0] * across[1] - gap[1] * across[0]) / turn
+            second = (gap[0] * along[1] - gap[1] * along[0]) / turn
+            assert not (0.0 <= first <= 1.0 and 0.0 <= second <= 1.0), f"{kind}: leaders cross at {start}, {other}"
+
+
+def test_one_height_is_told_alike_wherever_it_stands() -> None:
+    # A half is rounded up, and what two faces make of 23.155 differs by less than a nanometre.
+    assert {figure(23.155), figure(23.155 - 1e-9), figure(23.155 + 1e-9)} == {"23.16"}
+    assert figure(-0.001) == "0"
+    design = design_of("heights", CASES["paper"][1])
+    solid = drawn_part(dimensions(design), "rotor")
+    document = ezdxf.read(io.StringIO(sheet_of(design, "rotor", solid).dxf().decode()))
+    said = {one.dxf.text for one in document.modelspace().query("DIMENSION")}
+    told_of = {height for text in texts(document) for height in re.findall(r"h ([\d.]+) to ([\d.]+) \(", text)}
+    assert told_of
+    assert {height for pair in told_of for height in pair} <= said
+
+
+def test_hidden_lines_are_dashed_along_circles_and_corners() -> None:
+    design = design_of("hidden", BEARINGS)
+    solid = drawn_part(dimensions(design), "housing")
+    document = ezdxf.read(io.StringIO(sheet_of(design, "housing", solid).dxf().decode()))
+    hidden = [one for one in document.modelspace() if one.dxf.layer == "HIDDEN"]
+    assert document.layers.get("HIDDEN").dxf.linetype == "HIDDEN"
+    assert sum(one.dxftype() in ("CIRCLE", "ARC") for one in hidden) >= 4  # the feet, at the least
+    assert all(one.dxf.flags & 128 for one in hidden if one.dxftype() == "LWPOLYLINE")
+
+
+def test_threads_are_drawn_as_three_quarters_of_their_diameter_and_placed_by_half_of_their_screws_play() -> None:
+    design = design_of("threads", BEARING_BLOCKS, "compression")
+    dims = dimensions(design)
+    solid = drawn_part(dims, "rotor")
+    document = ezdxf.read(io.StringIO(sheet_of(design, "rotor", solid).dxf().decode()))
+    arcs = [one for one in document.modelspace().query("ARC") if one.dxf.layer == "FINE"]
+    threads = [one.dxf for one in arcs if (one.dxf.end_angle - one.dxf.start_angle) % 360.0 == pytest.approx(270.0)]
+    screw = dims.link_screw_diameter
+    assert sum(one.radius == pytest.approx(0.5 * screw) for one in threads) == 4
+    play = dims.link_screw_clearance - screw
+    rows = feature_rows(solid, drawing_requirements("rotor", dims, design.choices))
+    (frame,) = next(row.frames for row in rows if row.asks == "link's screws")
+    zone = float(frame.within.removeprefix("⌀"))
+    # Both patterns at the ends of their zones leave the screw just free.
+    assert zone <= 0.5 * play + 1e-9 < zone + 0.05
+    assert frame.datums == "CB"

@@ -1,0 +1,254 @@
+"""What a drawing tells of every upright face of a part: one numbered row for all that are alike around the axis."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from math import atan2, cos, degrees, hypot, pi, sin
+from typing import TypeVar
+
+import cadquery as cq
+
+from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements
+from tvimdesign.cad.drawing.iso_1101 import Frame
+from tvimdesign.cad.drawing.number_text import around, figure
+from tvimdesign.cad.drawing.sectors import Sector, sectors
+from tvimdesign.cad.geometry.features import Cylinder, upright_cylinders
+from tvimdesign.cad.geometry.upright_walls import Pair, Wall, pairs, upright_walls
+
+Point = tuple[float, float]
+T = TypeVar("T")
+_CORNER = 2.0
+"""Radius [mm] up to which an arc is the corner of a pocket, whose place its walls say."""
+_SAME = 1e-3
+"""Distance [mm] below which two places are one."""
+
+
+@dataclass(frozen=True)
+class FeatureRow:
+    """All features that are alike; texts as they stand on the sheet."""
+
+    what: str
+    size: str
+    place: str
+    bottom: float
+    top: float
+    """Heights between which it is, over the lowest face [mm]."""
+    asks: str = ""
+    """Fit, thread or who needs it."""
+    frames: tuple[Frame, ...] = ()
+    points: tuple[Point, ...] = ()
+    """Where each can be pointed at in the plan."""
+    count: int = 1
+    azimuths: tuple[float, ...] = ()
+    """Where each is cut through its middle by a plane that holds the axis [deg]."""
+    through: bool = False
+    of: tuple[Cylinder | Wall, ...] = ()
+    """The faces that it tells of."""
+
+    @property
+    def text(self) -> str:
+        """The line of the table."""
+        many = f"{self.count}× " if self.count > 1 else ""
+        return f"{many}{self.what} {self.size}, {self.place}, {self.heights}"
+
+    @property
+    def heights(self) -> str:
+        """From where to where, and how deep or high that is."""
+        if self.through:
+            return "through"
+        return f"h {figure(self.bottom)} to {figure(self.top)} ({figure(self.top - self.bottom)})"
+
+
+def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow]:
+    """Rows for all upright faces but the round ones about the axis without a thread: the section has these."""
+    box = solid.BoundingBox()
+    cylinders, walls = upright_cylinders(solid), upright_walls(solid)
+    bounded, arcs, ends = sectors(cylinders, walls)
+    beside, alone = pairs(ends)
+    rows = [
+        *_like(_told_of_hole(asked), _holes(cylinders, asked), _hole_key),
+        *_like(_told_of_sector, bounded, _sector_key),
+        *_like(_told_of_pair, beside, _pair_key),
+        *_like(_told_of_wall, alone, _wall_key),
+        *_like(_told_of_arc(asked), [one for one in arcs if not is_corner(one)], _arc_key),
+        *_like(_told_of_corners, [one for one in arcs if is_corner(one)], lambda one: round(one.radius, 4)),
+    ]
+    return [_over(row, box.zmin, box.zmax) for row in rows]
+
+
+def is_corner(one: Cylinder) -> bool:
+    """Whether it is the rounded corner of a pocket."""
+    return one.concave and not one.is_round and one.radius <= _CORNER
+
+
+def _like(told: Callable[[list[T]], FeatureRow], found: Iterable[T], key: Callable[[T], Hashable]) -> list[FeatureRow]:
+    """A row for each group of features that are alike."""
+    groups: dict[Hashable, list[T]] = {}
+    for one in found:
+        groups.setdefault(key(one), []).append(one)
+    return [replace(told(group), count=len(group)) for group in groups.values()]
+
+
+def _over(row: FeatureRow, lowest: float, highest: float) -> FeatureRow:
+    """The row with its heights over the part's lowest face."""
+    through = row.what == "hole" and abs(row.bottom - lowest) < _SAME and abs(row.top - highest) < _SAME
+    return replace(row, bottom=row.bottom - lowest, top=row.top - lowest, through=through)
+
+
+# --- round holes and bosses ------------------------------------------------------------------------------------------
+
+
+def _holes(found: Sequence[Cylinder], asked: DrawingRequirements) -> list[Cylinder]:
+    return [one for one in found if one.is_round and (not one.is_central or asked.thread(one))]
+
+
+def _hole_key(one: Cylinder) -> Hashable:
+    return round(one.radius, 5), round(hypot(one.x, one.y), 4), one.bottom, one.top, one.concave
+
+
+def _told_of_hole(asked: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
+    def told(group: list[Cylinder]) -> FeatureRow:
+        one = group[0]
+        thread, seat, screw = asked.thread(one), asked.seat(2.0 * one.radius), asked.clearance_hole(one)
+        about = next((reported.about for reported in (thread, seat, screw) if reported), "")
+        frames = thread.frames if thread else screw.frames if screw else ()
+        size = thread.designation if thread else sized(one, asked)
+        place = "on the axis" if one.is_central else _circle(_centres(group))
+        what = ("thread" if thread else "hole") if one.concave else "boss"
+        points = tuple(
+            (other.x + other.radius * cos(0.25 * pi), other.y + other.radius * sin(0.25 * pi)) for other in group
+        )
+        return FeatureRow(what, size, place, one.bottom, one.top, about, tuple(frames), points, of=tuple(group),
+                          azimuths=() if one.is_central else tuple(_directions(_centres(group))))  # fmt: skip
+
+    return told
+
+
+def sized(one: Cylinder, asked: DrawingRequirements) -> str:
+    """A diameter with its fit."""
+    seat = asked.seat(2.0 * one.radius)
+    return f"⌀{figure(seat.size)} {seat.fit}" if seat and seat.fit else f"⌀{figure(2.0 * one.radius)}"
+
+
+def _centres(group: Sequence[Cylinder]) -> list[Point]:
+    return [(one.x, one.y) for one in group]
+
+
+# --- sectors between end walls through the axis ----------------------------------------------------------------------
+
+
+def _sector_key(one: Sector) -> Hashable:
+    return one.is_pocket, round(one.span, 4), one.radii, one.levels
+
+
+def _told_of_sector(group: list[Sector]) -> FeatureRow:
+    one = group[0]
+    size = f"{' to '.join(f'R{figure(radius)}' for radius in one.radii)}, {figure(degrees(one.span))}° between ends"
+    place = f"middle {around(_azimuths([other.middle for other in group]))}"
+    faces = tuple(face for other in group for face in other.faces)
+    points = tuple(other.point for other in group)
+    return FeatureRow("pocket" if one.is_pocket else "vane", size, place, *one.levels, points=points, of=faces,
+                      azimuths=tuple(_azimuths([other.middle for other in group])))  # fmt: skip
+
+
+# --- slots, ribs and single walls ------------------------------------------------------------------------------------
+
+
+def _pair_key(one: Pair) -> Hashable:
+    wall = one.walls[0]
+    along = round(abs(sum(one.ends)), 3)
+    return one.is_slot, round(one.width, 4), round(abs(one.mid_plane[1]), 3), along, wall.bottom, wall.top
+
+
+def _told_of_pair(group: list[Pair]) -> FeatureRow:
+    one = group[0]
+    wall, (normal, away) = one.walls[0], one.mid_plane
+    middles = [other.middle for other in group]
+    if abs(away) < _SAME:
+        at = around(_directions(middles)) if hypot(*middles[0]) > _SAME else f"along {figure(_along(normal))}°"
+        place = f"mid-plane through the axis, {at}"
+    elif abs(sum(one.ends)) < _SAME:
+        place = f"mid-plane {figure(abs(away))} from the axis, square to it {around(_directions(middles))}"
+    else:
+        square = around(_azimuths([other.mid_plane[0] for other in group]))
+        place = f"mid-plane {figure(away)} from the axis, square to azimuths {square}"
+    faces = tuple(face for other in group for face in other.walls)
+    what = "slot" if one.is_slot else "flats"
+    # Pointed at on a wall: the middle of a slot at the axis is the middle of everything.
+    points = tuple(other.walls[0].middle for other in group)
+    return FeatureRow(what, f"{figure(one.width)} wide", place, wall.bottom, wall.top, points=points, of=faces)
+
+
+def _along(normal: float) -> float:
+    """Azimuth [deg] of the line of a mid-plane, below 180."""
+    return round(degrees(normal + 0.5 * pi), 3) % 180.0
+
+
+def _wall_key(one: Wall) -> Hashable:
+    reach = sorted((round(abs(one.start), 3), round(abs(one.end), 3)))
+    return round(one.offset, 3), *reach, one.bottom, one.top
+
+
+def _told_of_wall(group: list[Wall]) -> FeatureRow:
+    one = group[0]
+    size = f"{figure(one.offset)} from the axis"
+    place = f"faces {around(_azimuths([other.outwards for other in group]))}"
+    points = tuple(other.middle for other in group)
+    return FeatureRow("wall", size, place, one.bottom, one.top, points=points, of=tuple(group))
+
+
+# --- arcs ------------------------------------------------------------------------------------------------------------
+
+
+def _arc_key(one: Cylinder) -> Hashable:
+    return round(one.radius, 5), round(hypot(one.x, one.y), 3), one.bottom, one.top, one.concave, round(one.span, 4)
+
+
+def _told_of_arc(asked: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
+    def told(group: list[Cylinder]) -> FeatureRow:
+        one = group[0]
+        size = sized(one, asked) if asked.seat(2.0 * one.radius) else f"R{figure(one.radius)}"
+        over = f"{figure(degrees(one.span))}°"
+        if one.is_central:
+            place = f"about the axis over {over}, middle {around(_azimuths([other.middle for other in group]))}"
+        else:
+            place = f"over {over}, {_circle(_centres(group))}"
+        points = tuple(
+            (other.x + other.radius * cos(way), other.y + other.radius * sin(way))
+            for other in group for way in (other.middle + share * other.span for share in (0.0, 0.3, -0.3))
+        )  # fmt: skip
+        what = "arc inside" if one.concave else "arc outside"
+        return FeatureRow(what, size, place, one.bottom, one.top, points=points, of=tuple(group))
+
+    return told
+
+
+def _told_of_corners(group: list[Cylinder]) -> FeatureRow:
+    one = group[0]
+    bottom, top = min(other.bottom for other in group), max(other.top for other in group)
+    points = tuple(
+        (other.x + other.radius * cos(other.middle), other.y + other.radius * sin(other.middle)) for other in group
+    )
+    return FeatureRow(
+        "corners", f"R{figure(one.radius)}", "where walls meet", bottom, top, points=points, of=tuple(group)
+    )
+
+
+# --- places ----------------------------------------------------------------------------------------------------------
+
+
+def _circle(places: Sequence[Point]) -> str:
+    """On which circle places are, and at which azimuths; or where the only one is."""
+    if len(places) == 1:
+        return f"x {figure(places[0][0])}, y {figure(places[0][1])}"
+    return f"on ⌀{figure(2.0 * hypot(*places[0]))} {around(_directions(places))}"
+
+
+def _directions(places: Sequence[Point]) -> list[float]:
+    return _azimuths([atan2(y, x) for x, y in places])
+
+
+def _azimuths(angles: Sequence[float]) -> list[float]:
+    """Azimuths [deg] from angles [rad], ascending."""
+    return sorted(round(degrees(angle) % 360.0, 3) % 360.0 for angle in angles)
