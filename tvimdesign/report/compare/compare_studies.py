@@ -69,7 +69,7 @@ def compare_studies(
     if as_json:
         print(json.dumps({**reported, "folder": str(folder.path), "not_done": troubles}, indent=2, allow_nan=False))
     else:
-        wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
+        wide_console().print(f"\nResults are in [bold]{escape(str(folder.path))}[/bold]", soft_wrap=True)
     if troubles:
         raise _trouble(outcome, troubles)
 

@@ -45,7 +45,7 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
 def summary_text(outcome: Outcome) -> str:
     """The same as plain text."""
     stream = io.StringIO()
-    print_comparison(outcome, Console(file=stream, width=WIDTH, highlight=False, color_system=None))
+    print_comparison(outcome, OwnMarkupConsole(file=stream, width=WIDTH, highlight=False, color_system=None))
     return stream.getvalue()
 
 

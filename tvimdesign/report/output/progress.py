@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.status import Status
 
 from tvimdesign.base.errors import TvimError
+from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.remaining_time import RemainingTime, clock
 
 Progress = Callable[[str], None]
@@ -24,9 +25,9 @@ _TICK = 0.25  # s
 
 def wide_console() -> Console:
     """Standard output: as wide as the terminal, and wide enough for a table where there is none."""
-    console = Console(highlight=False)
+    console = OwnMarkupConsole(highlight=False)
     wide = not console.is_terminal and "COLUMNS" not in os.environ
-    return Console(highlight=False, width=WIDTH) if wide else console
+    return OwnMarkupConsole(highlight=False, width=WIDTH) if wide else console
 
 
 @contextmanager

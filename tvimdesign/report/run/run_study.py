@@ -95,7 +95,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
             if as_json:
                 print(json.dumps(report, indent=2))
             else:
-                wide_console().print(f"Parts are in [bold]{out}[/bold]", soft_wrap=True)
+                wide_console().print(f"Parts are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
         folder.finish("parts failed" if failures else design.status, {"design": source}, design.study)
     if failures:
         raise done_in_part(failures)
