@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
+from rich.markup import escape
+
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.report.compare.comparison import Outcome

@@ -13,6 +13,7 @@ from rich.table import Table as Grid
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_table import Row
+from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.progress import WIDTH
 from tvimdesign.report.output.tables import number
 

@@ -8,6 +8,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rich.markup import escape
+
 from tvimdesign.base.errors import AboveRatingError, InfeasibleError, TvimError
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
@@ -44,7 +46,7 @@ def run_study(
         progress = stack.enter_context(progress_output())
         screen = stack.enter_context(RunScreen(study))
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        with leaving_the_reason(folder, tree, study, as_json=as_json):
+        with leaving_the_reason(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
                 tree, progress, prove=prove, sensitivities=sensitivities, folder=folder, early=screen.ask
             )
