@@ -91,15 +91,24 @@ def new(
     example: Annotated[
         str, typer.Option("--example", help="A shipped study to start from.", autocompletion=completions.examples)
     ] = "",
+    result: Annotated[
+        Path | None,
+        typer.Option(
+            "--from",
+            metavar="RESULT",
+            help="design.json or folder of a run: write its module as a study that `run` answers the same.",
+            autocompletion=completions.designs_and_studies,
+        ),
+    ] = None,
     list_all: Annotated[bool, typer.Option("--list", help="List the shipped studies.")] = False,
 ) -> None:
-    """Write a commented study to start from, or a copy of a shipped one."""
+    """Write a commented study to start from, a copy of a shipped one, or the module of a result."""
     from tvimdesign.report.study_files import list_examples, write_new_study
 
     if list_all:
         list_examples()
     else:
-        write_new_study(file, example)
+        write_new_study(file, example, result)
 
 
 @app.command()

@@ -15,6 +15,7 @@ from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, SolverEffort, Standard, YieldReached
 from tvimdesign.solve.nlp.solver_run import Progress, Run
+from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
@@ -61,6 +62,8 @@ def optimize(
         run, begun = _robust(relaxation, run), run
         recorded = [(one[0], run) if one[1] is begun else one for one in recorded]
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
+    settled = put_at_bounds(relaxation.optimizer, run)
+    recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
     if run.start.converged and all(run is not one for _, one in recorded):
         recorded.append((relaxation, run))
     for number, (_, one) in enumerate(recorded):
@@ -229,7 +232,7 @@ def _closest(relaxation: Relaxation) -> tuple[Relaxation, Run]:
 def _standard(relaxation: Relaxation, run: Run) -> Standard:
     """A design simulated, for what is told of it."""
     optimizer = relaxation.optimizer
-    cycle = optimizer.simulator.run(run.inputs, run.current_profiles)
+    cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
     values = optimizer.model.values(run.inputs, cycle.values)
     numbers: dict[str, str | float] = dict(relaxation.values(run))
     reported = {name: values[name] for name in optimizer.study.minimize}

@@ -147,7 +147,7 @@ class BranchAndBound:
                 continue
             below = int(np.searchsorted(listed[first : last + 1], values[name] * (1.0 + SAME_SIZE), side="right"))
             below = min(max(first + below - 1, first), last - 1)
-            distance = min(abs(math.log(values[name] / listed[place])) for place in (below, below + 1))
+            distance = min(_apart(values[name], listed[place], listed[-1]) for place in (below, below + 1))
             if distance > far:
                 chosen, cut, far = i, below, distance
         if chosen < 0 or far <= SAME_SIZE:
@@ -171,6 +171,13 @@ def _inside(relaxation: Relaxation, run: Run, box: Box) -> bool:
         low * (1.0 - SAME_SIZE) <= values[name] <= high * (1.0 + SAME_SIZE)
         for name, (low, high) in relaxation.sizes.ends(box).items()
     )
+
+
+def _apart(value: float, size: float, largest: float) -> float:
+    """How far a value is from a size, in shares of it; of the largest size where one of them is nothing."""
+    if value > 0.0 and size > 0.0:
+        return abs(math.log(value / size))
+    return abs(value - size) / (abs(largest) or 1.0)
 
 
 def _slices(box: Box) -> tuple[slice, ...]:
