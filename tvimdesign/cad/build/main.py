@@ -59,7 +59,19 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
         raise GeometryError("; ".join([*done.failed.values(), *without, kept]))
     checks = [asdict(check) for result in done.results.values() for check in result.checks]
     notes = [f"no pictures: {pictures}"] if pictures else []
+    notes += [f"what was kept of {name} is damaged: it is made anew" for name in store.damaged]
+    notes += _not_kept()
     say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
+
+
+def _not_kept() -> list[str]:
+    """A word where the user names a folder for kept results that cannot be one."""
+    from tvimdesign.cad.build.cache import FOLDER_VARIABLE, user_folder
+
+    named = os.environ.get(FOLDER_VARIABLE)
+    if not named or user_folder() is not None:
+        return []
+    return [f"nothing is kept for the next run: {named} ({FOLDER_VARIABLE}) is a link, no folder, or another user's"]
 
 
 def _titles(design: Design) -> dict[str, str]:
