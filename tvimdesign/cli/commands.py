@@ -55,6 +55,10 @@ def run(
     ] = False,
     prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
+    time_limit: Annotated[
+        str,
+        typer.Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min."),
+    ] = "",
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
@@ -63,7 +67,8 @@ def run(
 
     run_study(
         study, out or default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        prove=prove, resume=resume, full=full, as_json=json, settings=settings or (),
+        prove=prove, resume=resume, full=full, as_json=json,
+        settings=[*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])],
     )  # fmt: skip
 
 

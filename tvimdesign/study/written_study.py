@@ -12,7 +12,7 @@ from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import from_si, parse_quantity, si_unit
 from tvimdesign.device import Input, Table
 from tvimdesign.study.sections.tolerances import STANDARD, difference_unit, standard_tolerances
-from tvimdesign.study.study import Options, Robust, Study, Tolerance, Vary
+from tvimdesign.study.study import Options, Robust, Study, Tolerance, Vary, unit_of
 
 
 def written(study: Study) -> dict[str, Any]:
@@ -115,4 +115,6 @@ def _robust(asked: Robust) -> dict[str, float]:
 
 def _changed(options: BaseModel) -> dict[str, Any]:
     """The settings that are not as they are unless said."""
-    return options.model_dump(exclude_defaults=True)
+    fields = type(options).model_fields
+    changed = options.model_dump(exclude_defaults=True)
+    return {name: exactly(value, unit) if (unit := unit_of(fields[name])) else value for name, value in changed.items()}
