@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-front bench-designs check-cad docs pictures lint format types contracts schema units cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-front bench-designs fuzz kills random-studies check-cad docs pictures lint format types contracts schema units cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -56,6 +56,15 @@ bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hy
 
 bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
 	$(BENCH) benchmarks/random_designs.py
+
+fuzz: $(STAMP)  ## mutated studies, settings, records and designs: each is read or refused in words (minutes)
+	$(BIN)/python campaigns/fuzz.py
+
+kills: $(STAMP)  ## end runs, fronts and the making of parts at random moments, and look at what is left (Linux; minutes)
+	$(BIN)/python campaigns/kills.py
+
+random-studies: $(STAMP)  ## whole searches of random studies, each answer attacked by random search and evolution (minutes)
+	$(BIN)/python campaigns/random_studies.py
 
 lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
 	$(BIN)/ruff check .

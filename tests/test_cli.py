@@ -240,9 +240,12 @@ def test_results_are_not_replaced_without_being_asked(tvimdesign: Command, tmp_p
     assert tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out, "--overwrite").returncode == 0
 
 
-@pytest.mark.parametrize("after", [0.5, pytest.param(1.0, marks=pytest.mark.slow)])
-def test_an_interrupt_ends_the_run_with_130_and_a_folder_that_can_be_used_again(
-    tvimdesign: Command, tmp_path: Path, after: float
+@pytest.mark.parametrize(
+    ("number", "after"),
+    [(signal.SIGINT, 0.5), (signal.SIGTERM, 0.5), pytest.param(signal.SIGINT, 1.0, marks=pytest.mark.slow)],
+)
+def test_an_interrupt_ends_the_run_with_its_code_and_a_folder_that_can_be_used_again(
+    tvimdesign: Command, tmp_path: Path, number: signal.Signals, after: float
 ) -> None:
     out = tmp_path / "out"
     process = subprocess.Popen(
@@ -258,9 +261,9 @@ def test_an_interrupt_ends_the_run_with_130_and_a_folder_that_can_be_used_again(
             break
         time.sleep(0.05)
     time.sleep(after)
-    os.killpg(process.pid, signal.SIGINT)
+    os.killpg(process.pid, number)
     _, said = process.communicate(timeout=60)
-    assert process.returncode == 130, said
+    assert process.returncode == 128 + number, said
     assert "interrupted" in said
     assert "Traceback" not in said
     assert json.loads((out / "manifest.json").read_text())["status"] == "interrupted"

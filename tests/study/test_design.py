@@ -1,13 +1,21 @@
 """Designs that are read again: of this version, and of another."""
 
+import copy
 import json
+import random
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support import ROOT
 
-from tvimdesign.base.errors import InputError
+from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.study import StudyError, read_study, read_tree
 from tvimdesign.study.design import read_design
+from tvimdesign.study.tree import tree_of_values
+from tvimdesign.study.written_study import written
 
 
 def test_a_design_that_lacks_an_input_is_told_to_be_of_another_version(tmp_path: Path) -> None:
@@ -19,3 +27,114 @@ def test_a_design_that_lacks_an_input_is_told_to_be_of_another_version(tmp_path:
     other.write_text(json.dumps(plain))
     with pytest.raises(InputError, match=r"has no wire_diameter: another version wrote it; write it anew"):
         read_design(other)
+
+
+def _set(*path: str | int, to: Any) -> Callable[[Any], None]:
+    def change(plain: Any) -> None:
+        for step in path[:-1]:
+            plain = plain[step]
+        plain[path[-1]] = to
+
+    return change
+
+
+EDITS: dict[str, tuple[Callable[[Any], None], str]] = {
+    "a word for a number": (_set("study", "module", "stroke", to=None), r"study\.module\.stroke: Input should be a"),
+    "an end of a range": (
+        _set("study", "vary", "current", "upper", to="x"), r"study\.vary\.current\.upper: Input should"
+    ),
+    "an input of its study": (_set("study", "module", "strok", to=0.1), "did you mean 'stroke'"),
+    "a value of its study": (_set("study", "module", "stroke", to=9.0), r"study\.module\.stroke: .* above the upper"),
+    "a limit on nothing": (_set("study", "require", 0, "output", to="stiffnes"), "no such name: 'stiffnes'"),
+    "a mode": (_set("mode", to="sheer"), "did you mean 'shear'"),
+    "another mode": (_set("study", "mode", to="compression"), "the design's mode is shear"),
+    "a choice": (_set("choices", "cold_side", to="opened"), "did you mean 'open'"),
+    "a choice that is none": (_set("choices", "wire_diameter", to="x"), "no such choice: 'wire_diameter'"),
+    "a number that is text": (_set("values", "module_mass", to="66 g"), r"values\.module_mass: Input should be"),
+    "a number out of range": (_set("values", "wire_diameter", to=1.0), r"values\.wire_diameter: 1000 mm is outside"),
+    "a profile of no phase": (_set("current_profiles", to={"rest": {}}), "no such phase: 'rest'"),
+    "a profile that is none": (_set("current_profiles", to={"softening": {"moments": [0]}}), "is no profile"),
+    "a field": (_set("colour", to="red"), "colour: unknown name"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_an_edited_design_is_refused_in_words_with_the_line(name: str, tmp_path: Path) -> None:
+    change, expected = EDITS[name]
+    plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
+    change(plain)
+    edited = tmp_path / "design.json"
+    edited.write_text(json.dumps(plain, indent=2))
+    with pytest.raises(StudyError, match=expected) as told:
+        read_design(edited)
+    assert all(problem.line > 0 for problem in told.value.problems)
+
+
+def test_all_mistakes_of_a_design_are_told_at_once_and_that_another_version_wrote_it(tmp_path: Path) -> None:
+    plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
+    plain |= {"tvimdesign": "2019.1"}
+    plain["values"]["wire_diameter"] = 1.0
+    plain["choices"]["cold_side"] = "opened"
+    edited = tmp_path / "design.json"
+    edited.write_text(json.dumps(plain))
+    with pytest.raises(StudyError) as told:
+        read_design(edited)
+    assert {problem.path for problem in told.value.problems} == {
+        "tvimdesign",
+        "values.wire_diameter",
+        "choices.cold_side",
+    }
+    assert "another version wrote it: '2019.1'" in str(told.value)
+
+
+ODD: list[Any] = [
+    None,
+    True,
+    0,
+    -1,
+    1e308,
+    "x",
+    "",
+    [],
+    {},
+    [1],
+    {"a": 1},
+    "nan",
+    "shear",
+    "../../etc",
+    "[/bold]",
+    "\ud800",
+]
+
+
+def _paths(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    yield path
+    for key, value in node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ():
+        yield from _paths(value, (*path, key))
+
+
+def test_no_edit_of_a_design_ends_in_a_traceback(tmp_path: Path) -> None:
+    plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
+    places = [path for path in _paths(plain) if path and path[0] not in ("values", "solution")]
+    draw, edited, refused = random.Random(20), tmp_path / "design.json", 0
+    for _ in range(150):
+        changed, path = copy.deepcopy(plain), draw.choice(places)
+        place = changed
+        for step in path[:-1]:
+            place = place[step]
+        if draw.random() < 0.3:
+            del place[path[-1]]
+        else:
+            place[path[-1]] = draw.choice(ODD)
+        edited.write_text(json.dumps(changed))
+        try:
+            resolve_design(read_design(edited))
+        except TvimError:
+            refused += 1
+    assert refused > 75
+
+
+@pytest.mark.parametrize("name", [path.stem for path in sorted((ROOT / "studies").glob("*.yaml"))])
+def test_a_study_written_from_what_was_read_is_read_the_same(name: str) -> None:
+    study = read_study(ROOT / f"studies/{name}.yaml")
+    assert read_tree(tree_of_values(written(study), "written", Path())) == study

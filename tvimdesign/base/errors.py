@@ -41,5 +41,11 @@ class GeometryError(TvimError):
     exit_code = 4
 
 
+class OutputError(TvimError):
+    """A file of results cannot be written: the disk is full, or the folder may not be written."""
+
+    exit_code = 4
+
+
 class RenamedWarning(FutureWarning):
     """A study uses a name that has changed; it is read as the new one until the next release."""

@@ -6,13 +6,41 @@ import os
 import tempfile
 from pathlib import Path
 
+from tvimdesign.base.errors import OutputError
+
 TABLE_ENCODING = "utf-8-sig"
 """Of a CSV file: with a byte order mark, without which Excel shows N·m as NÂ·m. Readers name it, too."""
 
 
+HALF_WRITTEN = ".*.part"
+"""Files that a process which was killed has left half written: a pattern."""
+
+
 def write_whole(path: Path, data: bytes) -> None:
-    """Write beside, flush to disk, rename: a reader never sees half a file."""
-    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    """Write beside, flush to disk, rename: a reader never sees half a file. Raises OutputError."""
+    try:
+        _write_whole(path, data)
+    except OSError as error:
+        raise _cannot(path, error) from error
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder, and those it stands in, where there is none. Raises OutputError."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _cannot(path, error) from error
+
+
+def _cannot(path: Path, error: OSError) -> OutputError:
+    return OutputError(
+        f"{path}: cannot be written: {error.strerror or error}; what was written before is whole: make room, or name "
+        "another folder with --out"
+    )
+
+
+def _write_whole(path: Path, data: bytes) -> None:
+    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:100]}.", suffix=".part")
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(data)

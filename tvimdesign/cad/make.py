@@ -6,9 +6,9 @@ import contextlib
 import json
 import os
 import queue
+import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -16,14 +16,17 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO, Any
 
-import tvimdesign
+from tvimdesign.base.child_process import start_child
 from tvimdesign.base.errors import GeometryError, InputError
+from tvimdesign.base.whole_files import make_folder
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
 TIMEOUT = 300.0
 """Seconds; a module takes about ten."""
 PART_TIMEOUT = 90.0
 """Seconds for one part with its files, or one set of checks; the longest takes two."""
+HALF_MADE = ".parts.*"
+"""Folder in which parts are made where none are kept from one run to the next: a pattern."""
 JOB = "tvimdesign.cad.build.main"
 
 
@@ -44,10 +47,14 @@ def make_cad(
     be built or takes more than `part_timeout_s` [s], naming the part, once the files of the others are written; also
     where the process crashes or `timeout_s` [s] have passed. Raises InputError where the design cannot be read.
     """
-    out.mkdir(parents=True, exist_ok=True)
+    make_folder(out)
     state: dict[str, Any] = {"progress": "starting"}
     with tempfile.TemporaryFile() as progress_output:
-        process = _start([job, str(design_path.resolve()), str(out.resolve()), str(part_timeout_s)], progress_output)
+        process = start_child(
+            job, [str(design_path.resolve()), str(out.resolve()), str(part_timeout_s)],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=progress_output, text=True, encoding="utf-8",
+            start_new_session=True,
+        )  # fmt: skip
         try:
             for message in _messages(process, time.monotonic() + timeout_s):
                 state |= message
@@ -58,17 +65,9 @@ def make_cad(
             code = None
         finally:
             _end(process)
+            for half_made in out.glob(HALF_MADE):
+                shutil.rmtree(half_made, ignore_errors=True)
         return _report(out, state, code, timeout_s, _tail(progress_output))
-
-
-def _start(arguments: list[str], progress_output: IO[bytes]) -> subprocess.Popen[str]:
-    here = str(Path(tvimdesign.__file__).parents[1])
-    paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
-    return subprocess.Popen(
-        [sys.executable, "-m", *arguments],
-        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=progress_output, text=True, encoding="utf-8",
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)}, start_new_session=True,
-    )  # fmt: skip
 
 
 def _end(process: subprocess.Popen[str]) -> None:

@@ -55,6 +55,10 @@ def run(
     ] = False,
     prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
+    time_limit: Annotated[
+        str,
+        typer.Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min."),
+    ] = "",
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
@@ -63,7 +67,8 @@ def run(
 
     run_study(
         study, out or default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        prove=prove, resume=resume, full=full, as_json=json, settings=settings or (),
+        prove=prove, resume=resume, full=full, as_json=json,
+        settings=[*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])],
     )  # fmt: skip
 
 
@@ -91,15 +96,24 @@ def new(
     example: Annotated[
         str, typer.Option("--example", help="A shipped study to start from.", autocompletion=completions.examples)
     ] = "",
+    result: Annotated[
+        Path | None,
+        typer.Option(
+            "--from",
+            metavar="RESULT",
+            help="design.json or folder of a run: write its module as a study that `run` answers the same.",
+            autocompletion=completions.designs_and_studies,
+        ),
+    ] = None,
     list_all: Annotated[bool, typer.Option("--list", help="List the shipped studies.")] = False,
 ) -> None:
-    """Write a commented study to start from, or a copy of a shipped one."""
+    """Write a commented study to start from, a copy of a shipped one, or the module of a result."""
     from tvimdesign.report.study_files import list_examples, write_new_study
 
     if list_all:
         list_examples()
     else:
-        write_new_study(file, example)
+        write_new_study(file, example, result)
 
 
 @app.command()

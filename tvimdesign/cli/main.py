@@ -10,20 +10,31 @@ from typing import Any
 
 import typer
 
-from tvimdesign.base.errors import InputError, RenamedWarning, TvimError
+from tvimdesign.base import interrupts
+from tvimdesign.base.errors import InputError, OutputError, RenamedWarning, TvimError
+from tvimdesign.base.interrupts import heeding_interrupts, raise_pending
 from tvimdesign.cli.commands import app
+from tvimdesign.cli.output_streams import flush_output, speak_plainly
 
-INTERRUPTED = 130
 _STOPPED = "interrupted; what was finished is kept\n"
 
 
 def main() -> None:
     """Run the command line; every error is a message and an exit code, never a traceback."""
     warnings.showwarning = _show_warning
+    speak_plainly()
     gc.set_threshold(200_000, 20, 20)  # a command makes many objects and keeps most: looking for garbage costs 5 %
-    code = _guarded(lambda: app(standalone_mode=False))
+    with heeding_interrupts():
+        code = _guarded(_command)
     gc.freeze()  # or the interpreter looks through all of them once more on its way out, for nothing: 5 %
     sys.exit(code)
+
+
+def _command() -> Any:
+    with heeding_interrupts():  # what an interrupted library raises is the interrupt
+        code = app(standalone_mode=False)
+    flush_output()
+    return code
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
@@ -35,20 +46,18 @@ def _show_warning(message: Warning | str, category: type[Warning], *_: object, *
 def _guarded(command: Callable[[], Any]) -> int:
     try:
         code = command()
-        if code == INTERRUPTED:
-            sys.stderr.write(_STOPPED)
+        raise_pending()
         return code if isinstance(code, int) else 0
     except TvimError as error:
-        sys.stderr.write(f"{error}\n")
-        if "--json" in sys.argv and error.exit_code == InputError.exit_code:
-            _print_error(error)
-        return error.exit_code
+        return _told(error)
     except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write(_STOPPED)
-        return INTERRUPTED
+        return interrupts.exit_code()
     except BrokenPipeError:
         sys.stderr.close()
         return 0
+    except (OSError, MemoryError) as error:
+        return _told(OutputError(_of_the_machine(error)))
     except Exception as error:
         # Typer's usage errors can show themselves; their common base has no public name.
         show = getattr(error, "show", None)
@@ -56,6 +65,21 @@ def _guarded(command: Callable[[], Any]) -> int:
             raise
         show()
         return InputError.exit_code
+
+
+def _told(error: TvimError) -> int:
+    sys.stderr.write(f"{error}\n")
+    if "--json" in sys.argv and error.exit_code == InputError.exit_code:
+        _print_error(error)
+    return error.exit_code
+
+
+def _of_the_machine(error: OSError | MemoryError) -> str:
+    """What the machine refuses, in a line: memory, descriptors, room on a disk."""
+    if isinstance(error, MemoryError):
+        return "there is not enough memory; close other programs, or ask for fewer `solver.cells`"
+    named = f"{error.filename}: " if error.filename else ""
+    return f"{named}{error.strerror or error}; what was finished is kept"
 
 
 def _print_error(error: TvimError) -> None:

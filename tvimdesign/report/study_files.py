@@ -5,8 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.study.design import read_design
+from tvimdesign.study.result_study import result_text
 from tvimdesign.study.schema import schema_text
 from tvimdesign.study.template import example_text, examples, template_text
+from tvimdesign.study.text.named_file import printable
 
 
 def list_examples() -> None:
@@ -20,10 +23,18 @@ def example_names() -> tuple[str, ...]:
     return tuple(examples())
 
 
-def write_new_study(file: Path | None, example: str = "") -> None:
-    """Write a commented study, or a copy of a shipped one. Raises InputError where the file is there already."""
-    text = example_text(example) if example else template_text()
+def write_new_study(file: Path | None, example: str = "", result: Path | None = None) -> None:
+    """Write a commented study, a copy of a shipped one, or the module of a result as a study that evaluates it.
+
+    Raises InputError where the file is there already, or the result is none.
+    """
+    if example and result:
+        raise InputError("--example and --from: choose one")
     file = file or Path(f"{example or 'study'}.yaml")
+    text = example_text(example) if example else template_text()
+    if result:
+        source = result / "design.json" if result.is_dir() else result
+        text = result_text(read_design(source), printable(source), file.resolve().parent)
     try:
         with file.open("x", encoding="utf-8") as stream:
             stream.write(text)

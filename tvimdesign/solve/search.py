@@ -13,8 +13,10 @@ from tvimdesign.solve.discrete.enumeration import enumerate_all
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
+from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, SolverEffort, Standard, YieldReached
 from tvimdesign.solve.nlp.solver_run import Progress, Run
+from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
@@ -43,12 +45,16 @@ def optimize(
     `keep` is handed the problem, with its solvers, that the best design came from, and the runs of its starts; outputs
     that are `traded` can be weighed and bounded with it afterwards.
     """
+    deadline = Deadline(study.solver.time_limit)
     refuse_unreachable(study)
     sizes, records = discrete_sizes(study, study.table), discrete_records(study, study.table)
     _refuse_too_many(sizes, len(records))
-    trees = _trees(study, sizes, records, reference, progress, objectives)
+    trees = _trees(study, sizes, records, reference, progress, objectives, deadline)
     hopeless = all(relaxation.hopeless() for relaxation in trees)
-    free = [(relaxation, run) for relaxation in trees for run in relaxation.starts(1 if hopeless else None)]
+    free: list[tuple[Relaxation, Run]] = []
+    for relaxation in trees:
+        if not (free and deadline.passed):
+            free += [(relaxation, run) for run in relaxation.starts(1 if hopeless else None)]
     choosing: Choosing | None = None
     if sizes.names:
         choosing, found = _choose(trees, len(records), study.solver)
@@ -57,10 +63,12 @@ def optimize(
         choosing = _chosen(free, len(records), study.solver) if len(records) > 1 else None
     relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if sizes.names else [])]
-    if study.robust:
+    if study.robust and not deadline.passed:
         run, begun = _robust(relaxation, run), run
         recorded = [(one[0], run) if one[1] is begun else one for one in recorded]
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
+    settled = put_at_bounds(relaxation.optimizer, run)
+    recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
     if run.start.converged and all(run is not one for _, one in recorded):
         recorded.append((relaxation, run))
     for number, (_, one) in enumerate(recorded):
@@ -78,6 +86,7 @@ def optimize(
         conflict_set=conflict_set,
         passed_over=dict(passed_over),
         yield_reached=_yield_reached(relaxation.optimizer, run),
+        out_of_time=deadline.seconds if deadline.met else None,
     )
     return replace(solution, status="infeasible: this design breaks its limits least") if conflict_set else solution
 
@@ -110,7 +119,7 @@ def _reconciled(
     relaxation: Relaxation, best: Run, tried: list[Run], progress: Progress
 ) -> tuple[Run, ConflictSet | None]:
     """The best run; where none converged, one that does after all, or the one that breaks least with the conflict."""
-    if best.start.converged:
+    if best.start.converged or relaxation.optimizer.deadline.passed:
         return best, None
     conflict_search = find_conflicts(relaxation.optimizer, tried, progress)
     listed = any(isinstance(value, float) for value in best.start.choices.values())
@@ -137,16 +146,20 @@ def _refuse_too_many(sizes: Sizes, records: int) -> None:
 
 def _trees(
     study: Study, sizes: Sizes, records: Sequence[Mapping[str, str]],
-    reference: dict[str, float] | None, progress: Progress, objectives: Sequence[str],
+    reference: dict[str, float] | None, progress: Progress, objectives: Sequence[str], deadline: Deadline,
 ) -> list[Relaxation]:  # fmt: skip
     """The problem of each combination of records, built once for all whose numbers alone differ."""
     trees: list[Relaxation] = []
     refused: list[InfeasibleError] = []
     for choice in records:
+        if trees and deadline.passed:
+            break
         asked = with_records(study, choice)
         try:
             optimizer = next(filter(None, (relaxation.optimizer.with_records(asked) for relaxation in trees)), None)
-            optimizer = optimizer or Optimizer(asked, reference, progress, objectives=objectives)
+            optimizer = optimizer or Optimizer(
+                asked, reference, progress, objectives=objectives, deadline=deadline
+            )  # fmt: skip
         except InfeasibleError as error:  # a limit that nothing free can mend, with these records
             refused.append(error)
             continue
@@ -163,9 +176,10 @@ def _choose(
     """The best combinations by branch and bound, and where that is asked for by solving all."""
     search = BranchAndBound(trees, asked.alternatives)
     search.run()
+    stopped = trees[0].optimizer.deadline.met
     found, proof = dict(search.found), SolverEffort()
     pruned, improved = search.pruned, 0.0
-    if asked.prove:
+    if asked.prove and not stopped:
         found, pruned = _each(trees, search.found, proof), 0
         improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
@@ -174,10 +188,12 @@ def _choose(
     optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
     between = min(optima, key=lambda one: order(one[1]), default=None)
     choosing = Choosing(
-        combinations=combinations, solved=len(found), pruned=pruned, without_design=combinations - len(found) - pruned,
+        combinations=combinations, solved=len(found), pruned=pruned,
+        without_design=0 if stopped else combinations - len(found) - pruned,
+        not_searched=combinations - len(found) - pruned if stopped else 0,
         best=tuple(_standard(trees[key[0]], found[key]) for key in shown),
         between=_standard(*between) if between else None,
-        proven=asked.prove, improved=improved, inside=search.inside,
+        proven=asked.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
         work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
     reported = [(trees[key[0]], found[key]) for key in ranked if key in search.found or key in shown]
@@ -187,11 +203,14 @@ def _choose(
 def _chosen(runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverOptions) -> Choosing:
     """The account where records alone are listed: each has been searched from every start."""
     best: dict[int, tuple[Relaxation, Run]] = {}
+    stopped = any(relaxation.optimizer.deadline.met for relaxation, _ in runs)
+    searched = len({relaxation.place for relaxation, _ in runs}) if stopped else records
     for relaxation, run in sorted(runs, key=lambda one: order(one[1])):
         if run.start.converged:
             best.setdefault(relaxation.place, (relaxation, run))
     return Choosing(
-        combinations=records, solved=len(best), pruned=0, without_design=records - len(best),
+        combinations=records, solved=len(best), pruned=0, without_design=searched - len(best),
+        not_searched=records - searched,
         best=tuple(_standard(*one) for one in list(best.values())[: asked.alternatives]), between=None,
         proven=True, improved=0.0, work=SolverEffort(), proof=SolverEffort(), inside=0.0,
     )  # fmt: skip
@@ -229,7 +248,7 @@ def _closest(relaxation: Relaxation) -> tuple[Relaxation, Run]:
 def _standard(relaxation: Relaxation, run: Run) -> Standard:
     """A design simulated, for what is told of it."""
     optimizer = relaxation.optimizer
-    cycle = optimizer.simulator.run(run.inputs, run.current_profiles)
+    cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
     values = optimizer.model.values(run.inputs, cycle.values)
     numbers: dict[str, str | float] = dict(relaxation.values(run))
     reported = {name: values[name] for name in optimizer.study.minimize}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import json
 import os
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import table_for
+from tvimdesign.study.text.mistakes import At, Mistakes
 from tvimdesign.study.text.named_file import ordinary_bytes, printable
 from tvimdesign.study.text.renamed import renamed_plain
 
@@ -86,19 +86,38 @@ def write_design(design: Design, path: Path) -> Path:
 
 
 def read_design(path: str | os.PathLike[str]) -> Design:
-    """Read a design; raises InputError that names the file and what is wrong with it."""
+    """Read a design; raises StudyError with all that is wrong with it, InputError where there is no such file."""
+    from tvimdesign.study.design_checks import check_design, check_form, stop
+
     path = Path(path)
     shown = printable(path)
     try:
-        design = Design.model_validate_json(ordinary_bytes(path, MAX_BYTES, _WANTED, lambda _: _too_big(shown)))
+        data = ordinary_bytes(path, MAX_BYTES, _WANTED, lambda _: _too_big(shown))
     except FileNotFoundError:
         raise InputError(f"{shown}: no such file; `tvimdesign run` writes a design.json") from None
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"]) or "the file"
-        raise InputError(f"{shown}: is not {_WANTED}: {where}: {first['msg']}") from error
-    _check_inputs(design, shown)
+    problems = Mistakes(shown)
+    plain, version = _plain(data, problems), None
+    if plain is not None:
+        version = plain.get("tvimdesign")
+        try:
+            check_design(design := Design.model_validate(plain), problems)
+        except ValidationError as error:
+            check_form(error, plain, problems)
+    stop(problems, data, version)
     return design
+
+
+def _plain(data: bytes, problems: Mistakes) -> dict[str, Any] | None:
+    """The JSON object of a file, None (and a problem) where it is none."""
+    try:
+        plain = json.loads(data)
+    except (ValueError, RecursionError) as error:
+        problems.add(At(0, 0), "", f"is not {_WANTED}: {error}")
+        return None
+    if not isinstance(plain, dict):
+        problems.add(At(0, 0), "", f"is not {_WANTED}: it holds no JSON object")
+        return None
+    return plain
 
 
 _WANTED = "a design.json that `tvimdesign run` wrote"
@@ -106,15 +125,3 @@ _WANTED = "a design.json that `tvimdesign run` wrote"
 
 def _too_big(shown: str) -> InputError:
     return InputError(f"{shown} has more than {MAX_BYTES} bytes; give the path of {_WANTED}, a few tens of kilobytes")
-
-
-def _check_inputs(design: Design, shown: str) -> None:
-    """Raise InputError where an input of the design is not within the limits of its row."""
-    for row in table_for(design.mode).inputs:
-        if not row.per_point and row.name not in design.values:
-            anew = "another version wrote it; write it anew with `tvimdesign run` from its study"
-            raise InputError(f"{shown} has no {row.name}: {anew}")
-        value = design.values.get(row.name, row.lower if row.per_point else math.nan)
-        margin = 1e-9 * max(abs(row.lower), abs(row.upper)) if math.isfinite(row.upper) else 0.0
-        if not row.lower - margin <= value <= row.upper + margin:
-            raise InputError(f"{shown}: {row.name} is {value:g} (SI), outside the limits of the model")

@@ -19,9 +19,9 @@ from tvimdesign.study.sections.goals import read_front, read_minimize, read_requ
 from tvimdesign.study.sections.settings import read_module, read_points
 from tvimdesign.study.sections.tolerances import read_robust, read_tolerances
 from tvimdesign.study.sections.vary import check_against_module, read_vary, with_start
-from tvimdesign.study.study import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions
+from tvimdesign.study.study import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions, unit_of
 from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted, step
-from tvimdesign.study.text.values import Reading, entries, flag, misfit, number, text, unknown_keys, whole
+from tvimdesign.study.text.values import Reading, entries, flag, in_unit, misfit, number, text, unknown_keys, whole
 from tvimdesign.study.text.yaml_text import Mapping, Node, Text
 from tvimdesign.study.tree import SECTIONS, StudyTree, tree_of_file, tree_of_text
 
@@ -202,9 +202,15 @@ class _Reader:
         found = entries(self.problems, self.sections.get(key), key, f"settings: {', '.join(fields)}")
         known = unknown_keys(self.problems, found, key, "setting", list(fields))
         readers: dict[Any, Callable[[Mistakes, Node, str], Any]] = {int: whole, float: number, bool: flag}
-        read = {
-            name: readers[fields[name].annotation](self.problems, node, step(key, name)) for name, node in known.items()
-        }
+        read = {}
+        for name, node in known.items():
+            unit = unit_of(fields[name])
+            expected = f"a quantity in {unit}"
+            read[name] = (
+                in_unit(self.problems, node, step(key, name), unit, expected)
+                if unit
+                else readers[fields[name].annotation](self.problems, node, step(key, name))
+            )
         try:
             return model(**{name: value for name, value in read.items() if value is not None})
         except ValidationError as error:

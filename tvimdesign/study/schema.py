@@ -218,7 +218,12 @@ def _options(options: type[BaseModel]) -> _Schema:
     schema = options.model_json_schema()
     for name, field in schema["properties"].items():
         field.pop("title", None)
-        if field["type"] == "number":  # YAML 1.1 takes 1e-8, without a point, for text
+        if unit := field.pop("unit", ""):
+            schema["properties"][name] = {
+                "description": f"{field['description']}; {field['default']:g} {unit} unless said",
+                "allOf": [{"$ref": "#/definitions/quantity"}],
+            }
+        elif field["type"] == "number":  # YAML 1.1 takes 1e-8, without a point, for text
             value = {key: field.pop(key) for key in ("type", "minimum", "maximum")}
             schema["properties"][name] = field | {"anyOf": [value, {"type": "string", "pattern": f"^{_NUMBER}$"}]}
     return {

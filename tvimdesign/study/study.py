@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
+from pydantic.fields import FieldInfo
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
@@ -91,10 +92,20 @@ class SolverOptions(_Part):
     )
     max_iterations: int = Field(300, ge=1, le=100_000, description="iterations before the solver gives up")
     tolerance: float = Field(1e-8, ge=1e-14, le=1e-2, description="relative tolerance of convergence")
+    time_limit: float = Field(
+        1800.0, gt=0.0, le=1e7, json_schema_extra={"unit": "s"},
+        description="time after which the search ends with the best design found, such as 10 min",
+    )  # fmt: skip
     alternatives: int = Field(5, ge=1, le=100, description="combinations of listed choices that are told, best first")
     prove: bool = Field(
         False, description="solve every combination of listed choices, not only those that branch and bound leaves"
     )
+
+
+def unit_of(field: FieldInfo) -> str:
+    """The unit a setting is written in; none where it is a count, a share or a flag."""
+    extra = field.json_schema_extra
+    return str(extra["unit"]) if isinstance(extra, dict) and "unit" in extra else ""
 
 
 class ProfileOptions(_Part):

@@ -107,6 +107,44 @@ def test_a_kept_file_that_has_changed_is_not_used(run: Run) -> None:
     assert (again.reused, text(again, "plate")) == ([], "4.000")
 
 
+DAMAGE: dict[str, Callable[[Path], object]] = {
+    "nothing": lambda folder: (folder / "trace.json").write_text(""),
+    "a list": lambda folder: (folder / "trace.json").write_text("[]"),
+    "other types": lambda folder: (folder / "trace.json").write_text(
+        '{"code": 1, "reads": 2, "needs": {}, "files": [], "checks": 5}'
+    ),
+    "another name": lambda folder: (folder / "trace.json").write_text(
+        (folder / "trace.json").read_text().replace("plate.txt", "../plate.txt")
+    ),
+    "a check less": lambda folder: (folder / "trace.json").write_text(
+        (folder / "trace.json").read_text().replace('"checks": [{', '"checks": [{"odd": 1, ')
+    ),
+    "no file": lambda folder: shutil.rmtree(folder / "out"),
+    "a file for the folder": lambda folder: (shutil.rmtree(folder.parent), folder.parent.write_text("")),
+    "a link for the folder": lambda folder: (shutil.rmtree(folder.parent), folder.parent.symlink_to("/nowhere")),
+    "a file beside": lambda folder: (folder.parent / "0123").write_text(""),
+}
+
+
+@pytest.mark.parametrize("name", DAMAGE)
+def test_what_is_kept_and_damaged_is_made_anew(run: Run, name: str) -> None:
+    first = run(PLATE, STACK)
+    DAMAGE[name](first.results["plate"].folder)
+    again = run(PLATE, STACK)
+    assert not again.failed
+    assert ("plate" in again.reused) == (name == "a file beside")
+    assert text(again, "plate") == "4.000"
+    assert set(run(PLATE, STACK).reused) == {"plate", "stack"}
+
+
+def test_a_damaged_result_is_told(tmp_path: Path) -> None:
+    subject, store = TrackedDesign(design_of("toy", {}), {}), Cache(tmp_path)
+    done = WorkerPool(subject, store, lambda _: None).do([PLATE])
+    (done.results["plate"].folder / "trace.json").write_text("{}")
+    assert WorkerPool(subject, store, lambda _: None).do([PLATE]).reused == []
+    assert store.damaged == ["plate"]
+
+
 def test_other_code_makes_all_kept_results_void(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     run(PLATE)
     monkeypatch.setattr("tvimdesign.cad.build.cache.code_digest", lambda: "other")
@@ -162,6 +200,16 @@ def test_results_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(
     assert user_folder() is None
     monkeypatch.setenv("TVIMDESIGN_CACHE", "")
     assert user_folder() is None
+    (tmp_path / "link").symlink_to(tmp_path / "here")
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "link"))
+    assert user_folder() is None
+    (tmp_path / "here").chmod(0o777)
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "here"))
+    assert user_folder() == tmp_path / "here"
+    assert (tmp_path / "here").stat().st_mode & 0o777 == 0o700
+    monkeypatch.setattr(os, "getuid", lambda: 12345)
+    assert user_folder() is None
+    monkeypatch.undo()
     monkeypatch.delenv("TVIMDESIGN_CACHE")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert user_folder() == tmp_path / "tvimdesign/cad"

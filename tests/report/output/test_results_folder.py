@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tvimdesign.base.errors import InputError
+from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
 
 
@@ -76,7 +76,7 @@ def test_a_file_in_the_way_is_named(tmp_path: Path) -> None:
 def test_a_write_that_fails_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with ResultsFolder(tmp_path / "out") as folder:
         monkeypatch.setattr(os, "fsync", lambda _: (_ for _ in ()).throw(OSError("disk full")))
-        with pytest.raises(OSError, match="disk full"):
+        with pytest.raises(OutputError, match=r"results\.csv: cannot be written: disk full"):
             folder.write("results.csv", "a,b\n")
         monkeypatch.undo()
         folder.finish("failed", {}, {})

@@ -7,10 +7,12 @@ the results it was made from are the same; a file that is not what it was when i
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
 import shutil
+import stat
 import tempfile
 import time
 from collections.abc import Iterator, Mapping
@@ -29,6 +31,7 @@ _MOST = 16
 _HALF_MADE = 3600.0
 """Seconds after which a result that is not finished never will be."""
 _TRACE = "trace.json"
+_WRITABLE_BY_OTHERS = 0o022
 _LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "matplotlib", "numpy", "trimesh", "vtk")
 
 
@@ -60,10 +63,14 @@ class Cache:
         """`folder` is made where there is none."""
         self._folder = folder
         self._code = code_digest()
+        self.damaged: list[str] = []
+        """Names of the pieces of work that are made anew because what was kept of them is damaged."""
 
     def fresh(self, name: str) -> Path:
         """Return an empty folder for a piece of work to write into."""
         place = self._folder / name
+        if place.is_symlink() or (place.exists() and not place.is_dir()):
+            place.unlink()  # nothing of ours: what it leads to stays
         place.mkdir(parents=True, exist_ok=True)
         made = Path(tempfile.mkdtemp(dir=place, prefix=".new."))
         for part in ("out", "kept"):
@@ -101,31 +108,51 @@ class Cache:
         """Return the result of a piece of work for a design, where it is there and sound."""
         wanted = {need: result.digest for need, result in needs.items()}
         for folder in self._kept(name):
-            trace = _read(folder / _TRACE)
-            if trace is None or trace["code"] != self._code or trace["needs"] != wanted:
-                continue
-            if subject.agrees_with(trace["reads"]) and _is_sound(folder, trace["files"]):
-                os.utime(folder)
-                return Result(folder, trace["files"], tuple(SolidCheck(**check) for check in trace["checks"]))
+            trace = _read(folder)
+            if trace is None:
+                self._drop(name, folder)
+            elif trace["code"] == self._code and trace["needs"] == wanted and subject.agrees_with(trace["reads"]):
+                if _is_sound(folder, trace["files"]):
+                    with contextlib.suppress(OSError):  # another run may have removed it since
+                        os.utime(folder)
+                    return Result(folder, trace["files"], tuple(SolidCheck(**check) for check in trace["checks"]))
+                self._drop(name, folder)
         return None
+
+    def _drop(self, name: str, folder: Path) -> None:
+        """Take away a result that is not what was written."""
+        shutil.rmtree(folder, ignore_errors=True)
+        if name not in self.damaged:
+            self.damaged.append(name)
 
     def _kept(self, name: str) -> list[Path]:
         """Folders of a piece of work's results, the latest used first."""
         place = self._folder / name
-        found = [path for path in place.iterdir() if not path.name.startswith(".")] if place.is_dir() else []
-        return sorted(found, key=lambda path: path.stat().st_mtime, reverse=True)
+        if place.is_symlink() or not place.is_dir():
+            return []
+        found = [path for path in place.iterdir() if not path.name.startswith(".") and not path.is_symlink()]
+        return sorted((path for path in found if path.is_dir()), key=_age)
 
     def _tidy(self, name: str) -> None:
         """Remove what is too much, and what a run that was killed has left half made."""
-        left = [
-            path for path in (self._folder / name).glob(".new.*") if path.stat().st_mtime < time.time() - _HALF_MADE
-        ]
+        left = [path for path in (self._folder / name).glob(".new.*") if time.time() - _HALF_MADE > -_age(path)]
         for old in [*self._kept(name)[_MOST:], *left]:
             shutil.rmtree(old, ignore_errors=True)
 
 
+def _age(path: Path) -> float:
+    """What sorts the latest used first; a folder that another run has removed since comes last."""
+    try:
+        return -path.lstat().st_mtime
+    except OSError:
+        return 0.0
+
+
 def user_folder() -> Path | None:
-    """The user's folder of kept results; None where none are to be kept, or it cannot be written."""
+    """The user's folder of kept results; None where none are to be kept, or it cannot be written or trusted.
+
+    What is kept is used as it is, so a link, or a folder of another user, is not taken; the user's own is made private.
+    """
     named = os.environ.get(FOLDER_VARIABLE)
     home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
     if named == "":
@@ -133,6 +160,11 @@ def user_folder() -> Path | None:
     folder = Path(named) if named else Path(home) / "tvimdesign" / "cad"
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        found = folder.lstat()
+        if stat.S_ISLNK(found.st_mode) or (hasattr(os, "getuid") and found.st_uid != os.getuid()):
+            return None
+        if found.st_mode & _WRITABLE_BY_OTHERS:
+            folder.chmod(0o700)
     except OSError:
         return None
     return folder if os.access(folder, os.W_OK) else None
@@ -153,12 +185,14 @@ def _files(folder: Path) -> Iterator[Path]:
     return (path for path in sorted(folder.rglob("*")) if path.is_file())
 
 
-def _read(path: Path) -> dict[str, Any] | None:
+def _read(folder: Path) -> dict[str, Any] | None:
+    """What was written of a result; None where that is not what the folder is named by, the hash of it."""
     try:
-        trace: dict[str, Any] = json.loads(path.read_bytes())
+        data = (folder / _TRACE).read_bytes()
+        trace: dict[str, Any] = json.loads(data) if _digest(data) == folder.name else {}
     except (OSError, ValueError):
         return None
-    return trace if trace.keys() >= {"code", "reads", "needs", "files", "checks"} else None
+    return trace or None
 
 
 def _is_sound(folder: Path, files: Mapping[str, str]) -> bool:

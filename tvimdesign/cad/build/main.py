@@ -12,14 +12,17 @@ import os
 import sys
 import tempfile
 import time
+from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.record import Record
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
+from tvimdesign.cad.make import HALF_MADE
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
 
@@ -43,8 +46,10 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     from tvimdesign.cad.build.worker import WorkerPool
     from tvimdesign.cad.geometry.dimensions import dimensions
 
-    with tempfile.TemporaryDirectory(prefix="tvimdesign.") as own:
-        store = Cache(user_folder() or Path(own))
+    with ExitStack() as stack:
+        prefix = HALF_MADE.removesuffix("*")
+        own = user_folder() or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
+        store = Cache(Path(own))
         workshop = WorkerPool(TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), timeout_s)
         done = workshop.do(build_plan(dimensions(design)))
         files = _hand_out(done, out)
@@ -55,7 +60,19 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
         raise GeometryError("; ".join([*done.failed.values(), *without, kept]))
     checks = [asdict(check) for result in done.results.values() for check in result.checks]
     notes = [f"no pictures: {pictures}"] if pictures else []
+    notes += [f"what was kept of {name} is damaged: it is made anew" for name in store.damaged]
+    notes += _not_kept()
     say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
+
+
+def _not_kept() -> list[str]:
+    """A word where the user names a folder for kept results that cannot be one."""
+    from tvimdesign.cad.build.cache import FOLDER_VARIABLE, user_folder
+
+    named = os.environ.get(FOLDER_VARIABLE)
+    if not named or user_folder() is not None:
+        return []
+    return [f"nothing is kept for the next run: {named} ({FOLDER_VARIABLE}) is a link, no folder, or another user's"]
 
 
 def _titles(design: Design) -> dict[str, str]:
@@ -95,6 +112,7 @@ def _hand_out(done: Done, out: Path) -> list[str]:
 
 def main(arguments: list[str]) -> int:
     """Run the job; returns the exit code. An error is a line of JSON too."""
+    follow_parent()
     # The kernel prints to standard output from C++; the parent reads only what is written to this copy of it.
     lines = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)

@@ -16,6 +16,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
 from tvimdesign.cad.build.cache import Cache, Result
 from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
@@ -189,6 +190,8 @@ class WorkerPool:
 
 def _child(work: Work, subject: TrackedDesign, needs: Mapping[str, Path], folder: Path, mouth: Connection) -> None:
     """Do one piece of work and say what came of it."""
+    parent = mp.parent_process()
+    follow_parent(parent.pid if parent else None)
     try:
         design, dims, titles, reads = subject.watched(work.named)
         checks = work.do(Job(design, dims, titles, needs, folder, lambda step: mouth.send({"step": step})))

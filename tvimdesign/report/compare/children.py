@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
 import queue
 import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -14,7 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import tvimdesign
+from tvimdesign.base.child_process import start_child
 from tvimdesign.base.errors import TvimError
 from tvimdesign.report.output.progress import Progress
 
@@ -85,16 +83,12 @@ def _start(
     said: queue.Queue[tuple[str, str | None]],
 ) -> _Child:
     """Start a child process; `how` is the count of points of a front, and the settings."""
-    here = str(Path(tvimdesign.__file__).parents[1])
-    paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
     out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
-    with errors.open("w") as stream:
-        process = subprocess.Popen(
-            [sys.executable, "-m", "tvimdesign.report.compare.comparison_job", str(one.path.resolve()), str(out),
-             str(how[0]), json.dumps(list(how[1])),
-             *(str(other.resolve()) for other in others)],
+    paths = [str(path.resolve()) for path in (one.path, out, *others)]
+    with errors.open("wb") as stream:
+        process = start_child(
+            "tvimdesign.report.compare.comparison_job", [*paths[:2], str(how[0]), json.dumps(list(how[1])), *paths[2:]],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
         )  # fmt: skip
 
     def listen() -> None:

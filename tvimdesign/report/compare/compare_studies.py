@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
+from rich.markup import escape
+
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.report.compare.comparison import Outcome
@@ -69,7 +71,7 @@ def compare_studies(
     if as_json:
         print(json.dumps({**reported, "folder": str(folder.path), "not_done": troubles}, indent=2, allow_nan=False))
     else:
-        wide_console().print(f"\nResults are in [bold]{folder.path}[/bold]", soft_wrap=True)
+        wide_console().print(f"\nResults are in [bold]{escape(str(folder.path))}[/bold]", soft_wrap=True)
     if troubles:
         raise _trouble(outcome, troubles)
 

@@ -18,6 +18,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import AboveRatingError, InfeasibleError, TvimError
 from tvimdesign.base.units import from_si
 from tvimdesign.base.whole_files import write_whole
@@ -184,6 +185,7 @@ class ComparisonJob:
 
 def main(arguments: list[str]) -> int:
     """Run the job; an error that ends it is said, too."""
+    follow_parent()
 
     def say(text: str) -> None:
         sys.stdout.write(json.dumps({"progress": text}) + "\n")

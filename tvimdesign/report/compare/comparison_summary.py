@@ -13,6 +13,7 @@ from rich.table import Table as Grid
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_table import Row
+from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.progress import WIDTH
 from tvimdesign.report.output.tables import number
 
@@ -45,7 +46,7 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
 def summary_text(outcome: Outcome) -> str:
     """The same as plain text."""
     stream = io.StringIO()
-    print_comparison(outcome, Console(file=stream, width=WIDTH, highlight=False, color_system=None))
+    print_comparison(outcome, OwnMarkupConsole(file=stream, width=WIDTH, highlight=False, color_system=None))
     return stream.getvalue()
 
 

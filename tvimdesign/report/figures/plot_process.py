@@ -20,6 +20,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, NamedTuple
 
+from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.whole_files import write_whole
 
@@ -39,8 +40,8 @@ class PlotProcess:
 
     def __init__(self) -> None:
         """Start it."""
-        self._child = subprocess.Popen(
-            [sys.executable, "-m", "tvimdesign.report.figures.plot_process"],
+        self._child = start_child(
+            "tvimdesign.report.figures.plot_process",
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
         )  # fmt: skip
 
@@ -79,6 +80,7 @@ class PlotProcess:
 
 def main() -> None:
     """Load matplotlib, wait for the data, draw."""
+    follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a tenth of the time; all there ever is to collect is a few figures
     from tvimdesign.report.figures.warm_up import warm_up
@@ -93,7 +95,9 @@ def main() -> None:
         return
     # Matplotlib is slow and single-threaded: two processes with it loaded share the plots. Taking the interpreter down
     # in order would take as long as two plots, so they leave at once.
-    other = os.fork()
+    first, other = os.getpid(), os.fork()
+    if not other:
+        follow_parent(first)
     _draw(folder, drawings[int(bool(other)) :: 2], request)
     if not other or os.waitpid(other, 0)[1] == 0:
         os._exit(0)

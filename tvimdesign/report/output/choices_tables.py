@@ -79,6 +79,8 @@ def _fates(choosing: Choosing) -> str:
     if choosing.pruned:
         parts.append(f"{choosing.pruned} ruled out by their bounds")
     parts.append(f"{choosing.without_design} without a design that keeps the limits")
+    if choosing.not_searched:
+        parts.append(f"{choosing.not_searched} left as the time was over")
     return ", ".join(parts)
 
 
@@ -93,6 +95,7 @@ def choosing_data(choosing: Choosing | None, table: Table) -> ChoosingEntry | No
         "solved": choosing.solved,
         "pruned_by_bound": choosing.pruned,
         "without_design": choosing.without_design,
+        "not_searched": choosing.not_searched,
         "proven": choosing.proven,
         "better_by_proof": choosing.improved,
         "better_than_bound": choosing.inside,

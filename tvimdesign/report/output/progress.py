@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -12,6 +11,8 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.status import Status
 
+from tvimdesign.base.interrupts import heeding_interrupts, raise_pending
+from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.remaining_time import RemainingTime, clock
 
 Progress = Callable[[str], None]
@@ -23,9 +24,9 @@ _TICK = 0.25  # s
 
 def wide_console() -> Console:
     """Standard output: as wide as the terminal, and wide enough for a table where there is none."""
-    console = Console(highlight=False)
+    console = OwnMarkupConsole(highlight=False)
     wide = not console.is_terminal and "COLUMNS" not in os.environ
-    return Console(highlight=False, width=WIDTH) if wide else console
+    return OwnMarkupConsole(highlight=False, width=WIDTH) if wide else console
 
 
 @contextmanager
@@ -35,29 +36,17 @@ def progress_output() -> Iterator[Progress]:
     One moving line on a terminal; plain lines, one every few seconds, elsewhere. An interrupt that a library swallows
     is raised again at the next thing said; CasADi swallows some. An empty text ends the line, to print something else.
     """
-    interrupted: list[int] = []
-
-    def interrupt(number: int, _: object) -> None:
-        interrupted.append(number)
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGINT, interrupt)
     shown = _Shown(Console(stderr=True, highlight=False, markup=False))
 
     def say(text: str) -> None:
-        if interrupted:
-            raise KeyboardInterrupt
+        raise_pending()
         shown.say(text)
 
-    try:
-        yield say
-    except Exception as error:  # what an interrupted library makes of it: CasADi raises SystemError, too
-        if interrupted:
-            raise KeyboardInterrupt from error
-        raise
-    finally:
-        shown.end()
-        signal.signal(signal.SIGINT, before)
+    with heeding_interrupts():
+        try:
+            yield say
+        finally:
+            shown.end()
 
 
 class _Shown:

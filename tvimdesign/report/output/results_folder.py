@@ -16,8 +16,9 @@ from types import TracebackType
 from typing import Any
 
 from tvimdesign import __version__
-from tvimdesign.base.errors import InputError
-from tvimdesign.base.whole_files import TABLE_ENCODING, write_whole
+from tvimdesign.base.errors import InputError, OutputError
+from tvimdesign.base.interrupts import raise_pending
+from tvimdesign.base.whole_files import HALF_WRITTEN, TABLE_ENCODING, make_folder, write_whole
 
 MANIFEST = "manifest.json"
 RUNNING = "running"
@@ -55,8 +56,13 @@ class ResultsFolder:
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
         """Leave a manifest of a run that did not come to its end."""
-        if not self._finished:
-            self.finish("interrupted" if kind is KeyboardInterrupt else "failed", {}, {})
+        if self._finished:
+            return
+        try:
+            self.finish("interrupted" if kind and issubclass(kind, KeyboardInterrupt) else "failed", {}, {})
+        except OutputError:
+            if value is None:
+                raise
 
     def look_up_versions(self) -> None:
         """Do now what takes time of the manifest: good where a run waits for something else."""
@@ -118,9 +124,14 @@ class ResultsFolder:
         return [path for path in self.path.rglob("*") if path.is_file()]
 
     def write(self, name: str, data: str | bytes) -> Path:
-        """Write one file, whole; text of a table in the encoding that Excel reads."""
+        """Write one file, whole; text of a table in the encoding that Excel reads. Raises OutputError.
+
+        Raises KeyboardInterrupt where a library swallowed an interrupt: what it gave since is not to be kept.
+        """
+        if not self._finished:
+            raise_pending()
         path = self.path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(path.parent)
         write_whole(
             path, data.encode(TABLE_ENCODING if path.suffix == ".csv" else "utf-8") if isinstance(data, str) else data
         )
@@ -135,6 +146,8 @@ class ResultsFolder:
     ) -> None:
         """Write the manifest: versions, commit, seed, hashes of what went in and of what came out."""
         self._finished = True
+        for half in self.path.rglob(HALF_WRITTEN):
+            half.unlink(missing_ok=True)
         files = sorted(p for p in self.path.rglob("*") if p.is_file() and p.name != MANIFEST)
         self.write_json(
             MANIFEST,

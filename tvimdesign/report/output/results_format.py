@@ -109,6 +109,7 @@ class ChoosingEntry(TypedDict):
     solved: int
     pruned_by_bound: int
     without_design: int
+    not_searched: int
     proven: bool
     better_by_proof: float
     better_than_bound: float

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from rich.markup import escape
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
@@ -60,7 +61,9 @@ def print_level_sets(out: Path, overwrite: bool, as_json: bool) -> None:
     """Write the folder, and tell people where it is; scripts know."""
     folder = write_level_sets(out, overwrite)
     if not as_json:
-        wide_console().print(f"\nWhat gives the paper's response times is in [bold]{folder}[/bold]", soft_wrap=True)
+        wide_console().print(
+            f"\nWhat gives the paper's response times is in [bold]{escape(str(folder))}[/bold]", soft_wrap=True
+        )
 
 
 def _figure_data(sets: list[LevelSet], model: DeviceFunctions, wanted: float) -> dict[str, Any]:

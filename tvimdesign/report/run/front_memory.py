@@ -15,7 +15,7 @@ from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Trace
 from tvimdesign.solve.pareto.tradeoff import Failure, Point
-from tvimdesign.study import Study
+from tvimdesign.study import SolverOptions, Study
 
 
 class FolderMemory:
@@ -24,7 +24,9 @@ class FolderMemory:
     def __init__(self, folder: ResultsFolder, study: Study) -> None:
         """Use what the folder holds; raises InputError where that is of another study or another version."""
         self._folder = folder
-        asked = {"tvimdesign": __version__, "study": study.model_dump(mode="json")}
+        solver = study.solver.model_copy(update={"time_limit": SolverOptions().time_limit})  # it changes no design
+        asked_for = study.model_copy(update={"solver": solver})
+        asked = {"tvimdesign": __version__, "study": asked_for.model_dump(mode="json")}
         known = _read(folder.path / PROGRESS / "asked.json")
         if known is not None and known != asked:
             raise InputError(f"{folder.path}: holds the front of another study or version; --overwrite to begin anew")

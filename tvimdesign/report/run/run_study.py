@@ -8,6 +8,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rich.markup import escape
+
 from tvimdesign.base.errors import AboveRatingError, InfeasibleError, TvimError
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
@@ -95,7 +97,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
             if as_json:
                 print(json.dumps(report, indent=2))
             else:
-                wide_console().print(f"Parts are in [bold]{out}[/bold]", soft_wrap=True)
+                wide_console().print(f"Parts are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
         folder.finish("parts failed" if failures else design.status, {"design": source}, design.study)
     if failures:
         raise done_in_part(failures)

@@ -29,15 +29,14 @@ class Simulator:
         self,
         inputs: Array,
         current_profiles: Mapping[str, CurrentProfile] | None = None,
-        ends: Mapping[str, float] | None = None,
     ) -> Cycle:
         """Simulate all phases with samples enough to draw each, however short it is.
 
-        `ends` are about how long [s] phases take, by name; where they are not known, a first simulation finds out.
+        A first simulation finds out how long they take: so the same inputs have the same samples, and every value that
+        is told of them is the same, whoever asks.
         """
-        if ends is None:
-            found = self.run(inputs, current_profiles)
-            ends = {name: found.values[phase.phase.ends] for name, phase in self.model.phases.items()}
+        found = self.run(inputs, current_profiles)
+        ends = {name: found.values[phase.phase.ends] for name, phase in self.model.phases.items()}
         lengths = {
             name: ends.get(name, ends.get(phase.phase.like or name, 0.0)) for name, phase in self.model.phases.items()
         }

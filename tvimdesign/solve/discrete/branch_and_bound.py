@@ -62,19 +62,27 @@ class BranchAndBound:
                 self._try(relaxation, relaxation.sizes.nearest(relaxation.values(optimum), whole), optimum)
             if not relaxation.optima:
                 self._add(relaxation, whole, -math.inf, None, 0)
-        while self._open:
+        while self._open and not self.stopped:
             node = self._open.pop(min(range(len(self._open)), key=lambda i: self._urgency(self._open[i])))
             if node.bound >= self.cutoff:
                 self._bounded[node.relaxation.place][_slices(node.box)] = True
             else:
                 self._split(node)
                 self._tell(node.relaxation)
-        self._begin_afresh()
+        if not self.stopped:
+            self._begin_afresh()
+
+    @property
+    def stopped(self) -> bool:
+        """Whether the time is over: what is open stays so."""
+        return self.trees[0].optimizer.deadline.passed
 
     def _begin_afresh(self) -> None:
         """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
         best = sorted(self.found, key=lambda key: (order(self.found[key]), key))
         for place, box in best[: self.keep]:
+            if self.stopped:
+                return
             before = self.found[place, box]
             again = self.trees[place].thoroughly(box, None)
             if again is not None and order(again) < order(before):
@@ -147,7 +155,7 @@ class BranchAndBound:
                 continue
             below = int(np.searchsorted(listed[first : last + 1], values[name] * (1.0 + SAME_SIZE), side="right"))
             below = min(max(first + below - 1, first), last - 1)
-            distance = min(abs(math.log(values[name] / listed[place])) for place in (below, below + 1))
+            distance = min(_apart(values[name], listed[place], listed[-1]) for place in (below, below + 1))
             if distance > far:
                 chosen, cut, far = i, below, distance
         if chosen < 0 or far <= SAME_SIZE:
@@ -160,8 +168,10 @@ class BranchAndBound:
     def _tell(self, relaxation: Relaxation) -> None:
         self._told += 1
         if self._told % _DATA == 1:
-            left = len(self._open)
-            relaxation.optimizer.progress(f"{len(self.found)} combinations solved, {left} boxes of them still open")
+            left, best = len(self._open), min((run.start.objective for run in self.found.values()), default=None)
+            so_far = "" if best is None else f", objective {best:.5g} so far"
+            said = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
+            relaxation.optimizer.progress(said)
 
 
 def _inside(relaxation: Relaxation, run: Run, box: Box) -> bool:
@@ -171,6 +181,13 @@ def _inside(relaxation: Relaxation, run: Run, box: Box) -> bool:
         low * (1.0 - SAME_SIZE) <= values[name] <= high * (1.0 + SAME_SIZE)
         for name, (low, high) in relaxation.sizes.ends(box).items()
     )
+
+
+def _apart(value: float, size: float, largest: float) -> float:
+    """How far a value is from a size, in shares of it; of the largest size where one of them is nothing."""
+    if value > 0.0 and size > 0.0:
+        return abs(math.log(value / size))
+    return abs(value - size) / (abs(largest) or 1.0)
 
 
 def _slices(box: Box) -> tuple[slice, ...]:

@@ -22,6 +22,8 @@ def enumerate_all(relaxation: Relaxation) -> dict[Box, Run]:
     chains: list[Run | None] = [*relaxation.optima] or [None]
     count, began = relaxation.sizes.count, time.perf_counter()
     for number, box in enumerate(relaxation.sizes.each()):
+        if relaxation.optimizer.deadline.passed:
+            break
         if number % _BETWEEN_WORDS == 0:
             seconds = (time.perf_counter() - began) / max(number, 1) * (count - number)
             left = f", about {seconds:.0f} s left" if number else ""

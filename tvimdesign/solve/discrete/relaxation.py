@@ -53,7 +53,11 @@ class Relaxation:
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)
         for number, begin in enumerate(islice(self.optimizer.multistart.points(), most)):
-            self.optimizer.progress(f"start {number + 1} of {count}")
+            if runs and self.optimizer.deadline.passed:
+                break
+            best = min((one.start.objective for one in runs if one.start.converged), default=None)
+            so_far = "" if best is None else f", objective {best:.5g} so far"
+            self.optimizer.progress(f"start {number + 1} of {count}{so_far}")
             run = self.optimizer.solve(begin=self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
                 run = second_try.from_conflict_search(run)

@@ -46,6 +46,7 @@ _SHARP = 1e-11
 _MOST_ITERATIONS = {"near": 60, "warm": 30, "sharp": 30}
 """A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back. A near one
 takes 13 to 45, measured on six studies, or seldom comes to anything new."""
+_SHORTEST = 1e-3  # s; IPOPT takes no limit of zero
 NLP = (["x", "p"], ["f", "g"])
 """The names nlpsol knows the parts of a problem by."""
 _DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_hess_l"}
@@ -59,16 +60,19 @@ def solver_of(
     beginning: Beginning = "cold",
     *,
     of_parameters: bool = True,
+    most_seconds: float | None = None,
 ) -> Any:
     """IPOPT for a problem, a function of `NLP`'s names; solvers of the same problem that are `known` lend their
     derivatives, which are most of the work of building one. The multipliers `of_parameters` can be left out: where a
-    run ends at no geometry CasADi cannot compute them, and warns.
+    run ends at no geometry CasADi cannot compute them, and warns. A run ends after `most_seconds`, by default the
+    study's limit.
     """
     most = asked.max_iterations
     ipopt: dict[str, Any] = {
         **_USUAL,
         **(_WARM if beginning in ("warm", "sharp") else _FEASIBLE if beginning == "feasible" else {}),
         "max_iter": min(most, _MOST_ITERATIONS.get(beginning, most)),
+        "max_wall_time": max(asked.time_limit if most_seconds is None else most_seconds, _SHORTEST),
         "tol": min(asked.tolerance, _SHARP) if beginning == "sharp" else asked.tolerance,
     }
     lent = {option: other.get_function(name) for other in known for option, name in _DERIVATIVES.items()}

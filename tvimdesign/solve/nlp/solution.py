@@ -118,6 +118,8 @@ class Choosing:
     """Combinations that no bound leaves room for."""
     without_design: int
     """Combinations for which every search came to nothing."""
+    not_searched: int = field(default=0, kw_only=True)
+    """Combinations, or records, that are left as the time was over."""
     best: tuple[Standard, ...]
     """The best combinations, the first of them the answer."""
     between: Standard | None
@@ -206,6 +208,8 @@ class Solution:
     """Points drawn at which no search began, by the reason."""
     yield_reached: YieldReached | None = None
     """What of a yield that was asked for is reached; None where none is."""
+    out_of_time: float | None = None
+    """The time limit [s] that ended the search before its end; None where it came to that."""
     conflict_set: ConflictSet | None = None
     """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 

@@ -47,7 +47,7 @@ class NeighboringOptima:
 
     def improve(self, runs: list[Run]) -> list[Run]:
         """The runs, each where its neighbors lead to; and where two of them together lead further, that one beside."""
-        if all(run.start.status == NO_DESIGN for run in runs):
+        if all(run.start.status == NO_DESIGN for run in runs) or self._optimizer.deadline.passed:
             return runs
         improved = [self._beside(run) for run in runs]
         crossed = self._crossed([run for run in improved if run.start.converged])
@@ -75,7 +75,7 @@ class NeighboringOptima:
         """The first run beside one that is better, None where none is; no period that was `left` is gone back to."""
         left |= {(place, self._periods_in(place, self._value(place, run))) for place in self._periods}
         for place, value in self._values_beside(run):
-            if (place, self._periods_in(place, value)) in left:
+            if (place, self._periods_in(place, value)) in left or self._optimizer.deadline.passed:
                 continue
             unknowns = run.unknowns.copy()
             unknowns[place] = self._optimizer.free[place].to_unknown(value)

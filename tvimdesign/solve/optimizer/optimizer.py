@@ -19,6 +19,7 @@ from tvimdesign.simulation.working_cycle.current_profile import ramp_time
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
+from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.ipopt import NLP, Beginning, solver_of
 from tvimdesign.solve.nlp.objective import Objective
@@ -43,16 +44,19 @@ class Optimizer:
         objectives: Sequence[str] = (),
         *,
         without_cycle: bool = False,
+        deadline: Deadline | None = None,
     ) -> None:
         """Compile the device, simulate the study's start, and build the problem.
 
         `reference` are the values the minimised outputs are divided by: the study's start unless given. A `simulator`
         of the same device saves compiling it again. Outputs among the `objectives` can be weighed and bounded by an
         `Objective` whether the study minimises them or not. `without_cycle` leaves out the limits that depend on a
-        working cycle, so that none is simulated. Raises InfeasibleError where a limit is broken that nothing free can
+        working cycle, so that none is simulated. Runs end at the `deadline`, the study's time limit from now on unless
+        given. Raises InfeasibleError where a limit is broken that nothing free can
         mend, InputError from the table.
         """
         self.study, self.table, self.progress = study, study.table, progress
+        self.deadline = deadline or Deadline(study.solver.time_limit)
         began = time.perf_counter()
         points = tuple(study.operating_points)
         self.simulator = simulator or Simulator(DeviceFunctions(self.table, given(study), points, study.solver.cells))
@@ -70,6 +74,8 @@ class Optimizer:
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[Beginning, Any] = {}
+        self._limits: dict[Beginning, float] = {}
+        """Seconds after which a run of each solver ends."""
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def with_constant_currents(self) -> Optimizer | None:
@@ -77,7 +83,7 @@ class Optimizer:
         if not self.currents:
             return None
         study = self.study.model_copy(update={"profile": ProfileOptions()})
-        return Optimizer(study, self.reference, self.progress, self.simulator)
+        return Optimizer(study, self.reference, self.progress, self.simulator, deadline=self.deadline)
 
     def _free(self, name: str) -> Free:
         vary = self.study.vary[name]
@@ -173,9 +179,12 @@ class Optimizer:
         return ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
 
     def _solver(self, beginning: Beginning) -> Any:
-        if beginning not in self._solvers:
-            known = self._solvers.values()
-            self._solvers[beginning] = solver_of(self._compiled, self.study.solver, known, beginning)
+        """The solver; built once more where half of the time it may take is over, which costs 0.06 s."""
+        left = self.deadline.remaining
+        if beginning not in self._solvers or left < 0.5 * self._limits[beginning]:
+            known, asked = self._solvers.values(), self.study.solver
+            self._solvers[beginning] = solver_of(self._compiled, asked, known, beginning, most_seconds=left)
+            self._limits[beginning] = left
         return self._solvers[beginning]
 
     def solve(

@@ -46,7 +46,9 @@ MEANINGS = {
         "ran out of iterations", "raise `solver.max_iterations`, or try more `solver.starts`"
     ),
     "Maximum_CpuTime_Exceeded": Meaning("ran out of processor time", _BETTER_START),
-    "Maximum_WallTime_Exceeded": Meaning("ran out of time", _BETTER_START),
+    "Maximum_WallTime_Exceeded": Meaning(
+        "ran out of time", f"raise `solver.time_limit` (or --time-limit), or {_BETTER_START}"
+    ),
     "Restoration_Failed": Meaning("lost its way back to the equations of the switch", _BETTER_START),
     "Error_In_Step_Computation": Meaning(
         "could not compute a step: the equations are close to singular there",

@@ -24,7 +24,7 @@ SAME_CURRENT = 1e-4
 
 def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:
     """Simulate and check a run's design again, and say what holds it."""
-    cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles, run.ends)
+    cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
     values = optimizer.model.values(run.inputs, cycle.values)
     response = Response(optimizer, run) if run.start.converged else None
     limits = _active_constraints(optimizer, run, values, response)

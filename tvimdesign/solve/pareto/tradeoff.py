@@ -22,6 +22,7 @@ from tvimdesign.solve.optimizer.statuses import meaning
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import Options, Study
 
+OUT_OF_TIME = "the time limit of the search was over: raise `solver.time_limit`"
 ONE_POINT = 2e-3
 """Share by which two designs must differ to be two: the simulation's tolerance."""
 MOST_BEGINS = 3
@@ -115,6 +116,8 @@ class Tradeoff:
         """
         number, self.asked = self.asked, self.asked + 1
         found = self._memory.recall(number, objective) if self._memory else None
+        if found is None and self.optimizer.deadline.passed:
+            return Failure(where, OUT_OF_TIME)
         if found is None:
             self.progress(where)
             found = self._search(objective, where, near, guess)
@@ -129,6 +132,8 @@ class Tradeoff:
         assert point.objective is not None  # the study's own optimum is never asked for again
         number, self.asked = self.asked, self.asked + 1
         found = self._memory.recall(number, point.objective) if self._memory else None
+        if found is None and self.optimizer.deadline.passed:
+            return None
         if found is None:
             self.progress(f"{point.where}, from another side")
             found = self._from(other, point.objective, point.where, point.cost)
@@ -144,7 +149,7 @@ class Tradeoff:
         inputs = self._inputs(point)
         current_profiles = {phase: CurrentProfile.from_plain(plain) for phase, plain in point.current_profiles.items()}
         try:
-            cycle = self.optimizer.simulator.run(inputs, current_profiles)
+            cycle = self.optimizer.simulator.run_to_show(inputs, current_profiles)
         except SimulationError as error:
             return Failure(point.where, str(error))
         return replace(point, values=point.values | self.optimizer.model.values(inputs, cycle.values))

@@ -12,6 +12,7 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
+from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.first_screen.layout import LABEL, joined
@@ -81,7 +82,7 @@ class RunScreen:
 def write_summary(answered: AnsweredStudy, folder: ResultsFolder, uncertainty: Mapping[str, Any]) -> None:
     """Write summary.txt: the first screen and every table; without seconds, so that it is the same every time."""
     stream = io.StringIO()
-    file = Console(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False)
+    file = OwnMarkupConsole(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False)
     doubts, front = answered.reported["doubts"], answered.front.front
     _print_all(answered, Told(None, uncertainty, doubts, front), file)
     folder.write(FILE, "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n")

@@ -17,6 +17,7 @@ from importlib import import_module
 from types import TracebackType
 from typing import Any
 
+from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 
@@ -28,9 +29,9 @@ class UncertaintyProcess:
 
     def __init__(self, study: Study) -> None:
         """Start it, and let it compile the study's module."""
-        self._child = subprocess.Popen(
-            [sys.executable, "-m", "tvimdesign.report.run.first_screen.uncertainty_process"],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        self._child = start_child(
+            "tvimdesign.report.run.first_screen.uncertainty_process",
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, encoding="utf-8",
         )  # fmt: skip
         self._write(study.model_dump_json() + "\n")
 
@@ -66,6 +67,7 @@ class UncertaintyProcess:
 
 def main() -> None:
     """Compile for the study, wait for its design, print what there is to say of that."""
+    follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a third of the time; the process is short
     for needed in ("scipy.special", "scipy.stats"):  # loaded while the solver works, used when modules are drawn

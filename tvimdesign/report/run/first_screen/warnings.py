@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Table
+from tvimdesign.report.output.remaining_time import duration
 from tvimdesign.report.run.first_screen.layout import LABEL, block
 from tvimdesign.report.run.first_screen.mending import VARY, filled, hint, hints, mending
 from tvimdesign.report.run.infeasible_report import endings
@@ -73,6 +74,8 @@ def _of_the_search(answer: StudyResult) -> Iterator[Warned]:
     solution = answer.solution
     if solution is None:
         return
+    if solution.out_of_time is not None:
+        yield _other("out_of_time", seconds=duration(solution.out_of_time))
     best, *others = solution.distinct_optima()
     if others:
         count = sum(solution.reached(start) for start in others)

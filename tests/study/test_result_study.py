@@ -1,0 +1,70 @@
+"""A result written as a study: what was chosen, without what has no effect or belongs to the search."""
+
+import json
+from pathlib import Path
+
+import pytest
+from support import ROOT, Command
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.study.design import Design, read_design
+from tvimdesign.study.result_study import evaluating
+from tvimdesign.study.study import Options, Range
+
+SEARCHED = """
+mode: shear
+vary:
+  hub_depth: {from: 0 mm, to: 6 mm, step: 2 mm}
+  wire_diameter: [1.2 mm, 3.2 mm]
+  pcl_thickness: [0.6 mm, 2 mm]
+  current: [0.5 A, 2.5 A]
+require: {holding_torque: ">= 2 N.m"}
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+minimize: {module_mass: 1, response_time: 1}
+solver: {starts: 1, cells: 8}
+"""
+
+
+def values_of(folder: Path) -> dict[str, float | str]:
+    found: dict[str, float | str] = json.loads((folder / "design.json").read_text())["values"]
+    return found
+
+
+def test_a_result_as_a_study_is_answered_the_same_to_the_last_digit(tvimdesign: Command, tmp_path: Path) -> None:
+    (tmp_path / "searched.yaml").write_text(SEARCHED)
+    words, again = ["--no-cad", "--no-plots", "--out"], tmp_path / "again.yaml"
+    first = tvimdesign("run", tmp_path / "searched.yaml", *words, tmp_path / "first")
+    assert first.returncode == 0, first.stderr
+    assert tvimdesign("new", again, "--from", tmp_path / "first").returncode == 0
+    done = tvimdesign("run", again, *words, tmp_path / "second")
+    assert done.returncode == 0, done.stderr
+    found = values_of(tmp_path / "first")
+    assert values_of(tmp_path / "second") == found
+    # The list with a zero in it was searched, and what presses on an end of its range is exactly there.
+    assert found["hub_depth"] == 0.0
+    assert found["current"] == 2.5
+
+
+def design(**changes: object) -> Design:
+    released = read_design(ROOT / "cad/paper_shear/design.json")
+    return released.model_copy(update=changes)
+
+
+def test_what_the_module_lacks_is_left_out() -> None:
+    released = design()
+    vary = {
+        **released.study["vary"],
+        "motor": Options(values=("none", "gl40")).model_dump(),
+        "motor_wall": Range(lower=1e-3, upper=2e-3).model_dump(),
+    }
+    study = evaluating(design(study={**released.study, "vary": vary}))
+    assert study.module["motor"] == "none"
+    assert "motor_wall" not in study.module
+    assert study.module["wire_diameter"] == released.values["wire_diameter"]
+    assert study.task == "evaluate"
+
+
+def test_a_design_whose_current_follows_a_profile_is_refused_in_words() -> None:
+    profile = {"softening": {"moments": [0.0, 1.0], "currents": [0.0, 1.0]}}
+    with pytest.raises(InputError, match=r"follows a profile \(softening\)"):
+        evaluating(design(current_profiles=profile))

@@ -1,0 +1,64 @@
+"""Child processes of our own: started alike, and gone when their parent is, however that ends."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+_PARENT, _ALIVE = "TVIMDESIGN_PARENT", "TVIMDESIGN_ALIVE"
+"""Environment variables: the parent's number; the pipe that ends with it, where the kernel does not tell of its end."""
+_PR_SET_PDEATHSIG = 1
+
+
+def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> subprocess.Popen[Any]:
+    """Start a module of this package as a process that speaks UTF-8; `options` are those of Popen.
+
+    The module's `main` calls `follow_parent` first.
+    """
+    here = str(Path(__file__).parents[2])
+    paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
+    own = {"PYTHONPATH": os.pathsep.join(paths), "PYTHONIOENCODING": "utf-8", _PARENT: str(os.getpid())}
+    environment = {**os.environ, **own}
+    if _needs_pipe():
+        pipe = _pipe_of_this_process()
+        environment[_ALIVE] = str(pipe)
+        options["pass_fds"] = (pipe,)
+    command = [sys.executable, "-X", "utf8", "-m", module, *arguments]
+    return subprocess.Popen(command, env=environment, **options)
+
+
+def follow_parent(parent: int | None = None) -> None:
+    """End this process when its parent ends: the one that started it, or `parent` where this one was forked."""
+    expected = parent or int(os.environ.get(_PARENT, "0"))
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    elif parent is None and _ALIVE in os.environ:
+        threading.Thread(target=_wait_for_end, args=(int(os.environ[_ALIVE]),), daemon=True).start()
+    if expected and hasattr(os, "getppid") and os.getppid() != expected:
+        os._exit(1)  # it ended before this process could ask to be told
+
+
+def _needs_pipe() -> bool:
+    return sys.platform != "linux" and os.name == "posix"
+
+
+_pipe: list[int] = []
+
+
+def _pipe_of_this_process() -> int:
+    """The end to read of a pipe whose other end this process alone holds."""
+    if not _pipe:
+        _pipe.extend(os.pipe())  # neither is inherited unless it is handed on
+    return _pipe[0]
+
+
+def _wait_for_end(pipe: int) -> None:
+    os.read(pipe, 1)
+    os._exit(1)

@@ -1,0 +1,59 @@
+"""Interrupts: SIGINT, SIGTERM and SIGHUP raised as KeyboardInterrupt, again where a library swallows the first."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+_TWICE = 1.0
+"""Seconds within which the same signal counts once: `timeout` sends it to the process and to its group."""
+_received: list[int] = []
+_times: dict[int, float] = {}
+
+
+@contextmanager
+def heeding_interrupts() -> Iterator[None]:
+    """Raise every interrupt as KeyboardInterrupt, and keep it for `raise_pending`; only in the main thread.
+
+    What an interrupted library raises instead is turned into the interrupt: CasADi says RuntimeError or SystemError. A
+    signal that is ignored, as SIGHUP under nohup, stays ignored.
+    """
+    every = {number: signal.getsignal(number) for number in _SIGNALS}
+    before = {number: handler for number, handler in every.items() if handler not in (signal.SIG_IGN, None)}
+    outermost = _heed not in before.values()
+    for number in before:
+        signal.signal(number, _heed)
+    try:
+        yield
+    except Exception as error:
+        if _received:
+            raise KeyboardInterrupt from error
+        raise
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        if outermost:
+            _received.clear()
+            _times.clear()
+
+
+def raise_pending() -> None:
+    """Raise KeyboardInterrupt where an interrupt came, whatever has become of the first one."""
+    if _received:
+        raise KeyboardInterrupt
+
+
+def exit_code() -> int:
+    """What a shell expects of a process that was interrupted: 128 and the signal's number."""
+    return 128 + (_received[0] if _received else signal.SIGINT)
+
+
+def _heed(number: int, _: object) -> None:
+    now = time.monotonic()
+    again, _times[number] = now - _times.get(number, -_TWICE) < _TWICE, now
+    if not again:
+        _received.append(number)
+        raise KeyboardInterrupt
