@@ -12,6 +12,7 @@ from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.first_screen.layout import block, joined
 from tvimdesign.report.run.first_screen.requirements import may_be
+from tvimdesign.report.run.first_screen.stalling import stalling_in_words
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3
@@ -112,8 +113,9 @@ class _Values:
 
 
 def _soft(answer: StudyResult, said: _Values) -> Iterator[str]:
-    """When the joint is soft, what soft means, and what to measure first."""
+    """When the joint is soft, whether it stalls on the way, what soft means, and what to measure first."""
     yield said("softening_time")
+    yield from filter(None, [stalling_in_words(answer.histories.get("softening"), said.values["softening_time"])])
     yield soft_in_words(answer.design, said.table)
     yield from filter(None, [said.first("softening_time")])
 
