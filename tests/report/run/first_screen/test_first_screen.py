@@ -48,8 +48,8 @@ require:
 """
 COOL = """mode: shear
 module:
-  {process: machine_6061, target_temperature: 90 degC, pcl_thickness: 3 mm, response_criterion: mean, current: 1.5 A}
-operating_points: {hot: {temperature: 90 degC}}
+  {process: machine_6061, target_temperature: 75 degC, pcl_thickness: 3 mm, response_criterion: mean, current: 2 A}
+operating_points: {hot: {temperature: 75 degC}}
 """
 
 
