@@ -90,7 +90,7 @@ def test_fe_on_parts_exported_today_finds_what_stands_in_the_table(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fe_python = os.environ.get("TVIMDESIGN_FE_PYTHON")
-    if not fe_python:
+    if not fe_python:  # FE cannot share a process with CadQuery and is a development tool: its own environment has it
         pytest.skip("TVIMDESIGN_FE_PYTHON names no Python that has netgen-mesher, ngsolve and pyyaml")
     monkeypatch.setitem(sys.modules, "models", MODELS)
     found, _ = _load("run").solved("paper_as_published", tmp_path, Path(fe_python))

@@ -109,9 +109,9 @@ def mesh_of(drawing: Drawing) -> ng.Mesh:
         return points[i, j]
 
     def border(ends: tuple[tuple[int, int], tuple[int, int]], inner: str | None) -> None:
-        place = tuple(0.5 * (a + b) for a, b in zip((xs[ends[0][0]], ys[ends[0][1]]),
-                                                    (xs[ends[1][0]], ys[ends[1][1]]), strict=True))  # fmt: skip
-        number = 1 + SURFACES.index(drawing.surface(inner, place))  # type: ignore[arg-type]
+        (i, j), (k, m) = ends
+        place = 0.5 * float(xs[i] + xs[k]), 0.5 * float(ys[j] + ys[m])
+        number = 1 + SURFACES.index(drawing.surface(inner, place))
         mesh.Add(Element1D([point(*ends[0]), point(*ends[1])], index=number))
 
     for i, column in enumerate(materials):

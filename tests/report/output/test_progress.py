@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import re
+import signal
 import time
+from contextlib import suppress
 
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.report.output import progress
 from tvimdesign.report.output.remaining_time import RemainingTime, clock, duration
 
@@ -56,3 +60,18 @@ def test_plain_lines_come_every_few_seconds_and_the_last_thing_said_is_told(
     assert lines[0] == "... start 1 of 40"
     assert len(lines) == 2
     assert re.fullmatch(r"\.\.\. start 10 of 40 · [1-9] s(, about .* left)?", lines[1])
+
+
+@pytest.mark.parametrize("error", [SystemError, RuntimeError, InputError])
+def test_what_a_library_raises_after_an_interrupt_is_the_interrupt(error: type[Exception]) -> None:
+    def fail(*, interrupted: bool) -> None:
+        with progress.progress_output():
+            if interrupted:
+                with suppress(KeyboardInterrupt):
+                    os.kill(os.getpid(), signal.SIGINT)
+            raise error("a result with an exception set")
+
+    with pytest.raises(KeyboardInterrupt):
+        fail(interrupted=True)
+    with pytest.raises(error):
+        fail(interrupted=False)

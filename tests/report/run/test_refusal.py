@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+from contextlib import suppress
 from pathlib import Path
 
 import jsonschema
@@ -67,3 +70,21 @@ def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(
     assert manifest["status"] == "infeasible"
     assert {"results.json", "summary.txt", "study.yaml", "study.resolved.json"} <= manifest["files"].keys()
     assert json.loads(capsys.readouterr().out)["reason"] == "no start keeps it"
+
+
+def test_an_interrupt_that_a_solver_swallowed_is_no_reason_against_the_study(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, out = tmp_path / "study.yaml", tmp_path / "out"
+    path.write_text(STUDY.replace("<= 120 mm", "<= 300 mm"))
+
+    def swallow(*_: object, **__: object) -> None:
+        with suppress(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGINT)
+        raise InfeasibleError("the solver stopped, which looks like a conflict")
+
+    monkeypatch.setattr(answered_study, "answer", swallow)
+    with pytest.raises(KeyboardInterrupt):
+        _run(path, out)
+    assert json.loads((out / "manifest.json").read_text())["status"] == "interrupted"
+    assert not (out / "results.json").exists()

@@ -47,8 +47,44 @@ def test_sine_gives_stiffness_and_damping_of_the_operating_points(shear: Resolve
 
 
 @pytest.mark.slow
-def test_sine_of_frozen_blocks_gives_them_too() -> None:
-    hold_to_rows(module("paper_compression"), ("cold",))
+def test_sine_of_frozen_blocks_is_that_of_an_independent_integration() -> None:
+    # A lossy block lags behind the link and is left before the link is back: no row of small motions knows of that.
+    resolved = module("paper_compression")
+    found = sine_test.sine(resolved)
+    case = next(one for one in cases(resolved) if one.point == "cold")
+    support = resolved.quantity("support@cold")
+    frequency, stroke = float(resolved.quantity("frequency@cold")), float(resolved.quantity("stroke"))
+    spring, elements = spectrum(float(support[0]), float(support[1]), frequency)
+    layer = [(float(tau), float(k)) for tau, k in resolved.quantity("pcl_modes@cold")]
+    (slow, soft), (slower, softer) = (np.array(modes).T for modes in (elements, layer))
+    block, most = len(slow) + len(slower), spring + np.sum(soft)
+
+    def pushed(angle: float, state: np.ndarray) -> tuple[float, np.ndarray]:
+        """Torque of one block, with its rates; it is squeezed to the angle, or further where nothing pushes it."""
+        give, inner = state[: len(slow)], state[len(slow) :]
+        across = np.sum(softer * inner) / np.sum(softer)
+        end = max(angle, across + np.sum(soft * give) / most)
+        if end == angle:
+            across = (np.sum(softer * inner) + most * angle - np.sum(soft * give)) / (most + np.sum(softer))
+        rates = np.concatenate([(end - across - give) / slow, (across - inner) / slower])
+        return float(np.sum(softer * (across - inner))), rates
+
+    def both(time: float, state: np.ndarray) -> tuple[float, np.ndarray]:
+        angle = stroke * np.sin(2.0 * np.pi * frequency * time)
+        ahead, behind = pushed(angle, state[:block]), pushed(-angle, state[block:])
+        return ahead[0] - behind[0], np.concatenate([ahead[1], behind[1]])
+
+    times = np.linspace(9.0, 10.0, 4001) / frequency
+    moved = solve_ivp(
+        lambda t, y: both(t, y)[1], (0.0, times[-1]), np.zeros(2 * block), method="LSODA", t_eval=times,
+        rtol=1e-7, atol=1e-10, max_step=0.005 / frequency,
+    )  # fmt: skip
+    torque = np.array([both(t, y)[0] for t, y in zip(times, moved.y.T, strict=True)])
+    wave = np.exp(-2j * np.pi * frequency * times)
+    turned = stroke * np.sin(2.0 * np.pi * frequency * times)
+    whole = case.joint.spring_stiffness + np.trapezoid(torque * wave, times) / np.trapezoid(turned * wave, times)
+    assert value(found, "stiffness@cold") == pytest.approx(whole.real, rel=1e-3)
+    assert value(found, "damping@cold") == pytest.approx(whole.imag / (2.0 * np.pi * frequency), rel=5e-3)
 
 
 def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear: ResolvedModule) -> None:

@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.status import Status
 
-from tvimdesign.base.errors import TvimError
 from tvimdesign.report.output.remaining_time import RemainingTime, clock
 
 Progress = Callable[[str], None]
@@ -52,7 +51,7 @@ def progress_output() -> Iterator[Progress]:
 
     try:
         yield say
-    except (RuntimeError, TvimError) as error:  # a library that was interrupted says it failed
+    except Exception as error:  # what an interrupted library makes of it: CasADi raises SystemError, too
         if interrupted:
             raise KeyboardInterrupt from error
         raise

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.report.output.number_format import FORMAT, UNITS
+from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import RefusedRun
 from tvimdesign.study import Study
@@ -25,11 +26,14 @@ def refuse_unfit(study: Study, progress: Callable[[str], None] = lambda _: None)
 
 
 @contextmanager
-def leaving_the_reason(folder: ResultsFolder, tree: StudyTree, study: Study, *, as_json: bool) -> Iterator[None]:
+def leaving_the_reason(
+    folder: ResultsFolder, tree: StudyTree, study: Study, progress: Progress, *, as_json: bool
+) -> Iterator[None]:
     """Where a study is found to have no design, write why, and the study, before the error goes on."""
     try:
         yield
     except InfeasibleError as error:
+        progress("")  # raises KeyboardInterrupt where a solver swallowed one, and its failure looks like a conflict
         refused: RefusedRun = {
             "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
             "status": "infeasible", "feasible": False, "reason": str(error),

@@ -44,7 +44,7 @@ def run_study(
         progress = stack.enter_context(progress_output())
         screen = stack.enter_context(RunScreen(study))
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        with leaving_the_reason(folder, tree, study, as_json=as_json):
+        with leaving_the_reason(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
                 tree, progress, prove=prove, sensitivities=sensitivities, folder=folder, early=screen.ask
             )

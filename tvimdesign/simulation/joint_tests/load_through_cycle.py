@@ -12,6 +12,7 @@ from tvimdesign.physics.layers import slices
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests.case import joint_of
+from tvimdesign.simulation.link_motion.lossy_structure import RIGID, spectrum
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
@@ -19,6 +20,10 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 Array = NDArray[np.float64]
 TOLERANCE = 1e-6
 SAMPLES = 100  # of each stretch of the simulated cycle
+NEVER = 1e15
+"""Relaxation time of what does not relax [s]."""
+ABSENT = (1.0, 1e-12, 0.0)
+"""Relaxation time [s], stiffness [N*m/rad] and growth of a mode that a slice does not have: it bears nothing."""
 FIRST_CELL = 3  # in a phase's `temperatures`, after cold side, hot side and near face
 
 
@@ -76,28 +81,54 @@ def slice_histories(resolved: ResolvedModule) -> SliceHistory:
 
 
 class Changing:
-    """Stiffness and relaxation time of every mode of every slice over a history, smooth between its times."""
+    """Stiffness and relaxation time of every mode of every slice over a history, smooth between its times.
 
-    def __init__(self, logarithms: Array, times: Array) -> None:
-        """`logarithms` of (relaxation time, stiffness): what, mode, slice, time."""
+    A structure that relaxes is one slice more, the last, which no history changes.
+    """
+
+    def __init__(self, logarithms: Array, times: Array, structure: motion.Modes = ()) -> None:
+        """`logarithms` of (relaxation time [s], stiffness [N*m/rad]): what, mode, slice, time; not of a structure's."""
         from scipy.interpolate import PchipInterpolator
 
         self._curves = PchipInterpolator(times, logarithms, axis=-1)
         self._slopes = self._curves.derivative()
+        self._structure = structure
 
     def at(self, time: float) -> slices.Slices:
         """The slices at one time."""
         relaxation_times, stiffnesses = np.exp(self._curves(time))
-        return slices.Slices(list(relaxation_times), list(stiffnesses), list(self._slopes(time)[1]))
+        fields = relaxation_times, stiffnesses, self._slopes(time)[1]
+        if not self._structure:
+            return slices.Slices(*map(list, fields))
+        own = np.column_stack([*zip(*self._structure, strict=True), np.zeros(len(self._structure))])
+        return slices.Slices(*(_beside(*pair) for pair in zip(fields, own.T, ABSENT, strict=True)))
+
+
+def _beside(layer: Array, structure: Array, absent: float) -> list[Array]:
+    """One field of the layer's slices with the structure's as the last; modes that either has not are `absent`."""
+    count = max(len(layer), len(structure))
+    both = np.full((count, layer.shape[1] + 1), absent)
+    both[: len(layer), :-1] = layer
+    both[: len(structure), -1] = structure
+    return list(both)
 
 
 def changing(resolved: ResolvedModule, history: SliceHistory) -> Changing:
-    """The slices of a module's layer over a history, all of one thickness."""
+    """The slices of a module's layer over a history, all of one thickness, and its structure as warm as when cold."""
     rheology, moment, thickness = (resolved.quantity(n) for n in ("pcl_rheology", "pcl_moment", "pcl_depth"))
     spectrum = polymer.spectrum(history.temperatures, history.fractions, rheology)
     modes = motion.layer_modes(spectrum, moment, thickness / len(history.temperatures))
     both = [[time for time, _ in modes], [stiffness for _, stiffness in modes]]
-    return Changing(np.log(np.array(both)), history.times)
+    return Changing(np.log(np.array(both)), history.times, _structure_of(resolved))
+
+
+def _structure_of(resolved: ResolvedModule) -> motion.Modes:
+    """Maxwell elements of a lossy structure at the cold point; its spring is one that never relaxes."""
+    stiffness, loss = (float(part) for part in resolved.quantity("support@cold"))
+    if loss <= 0.0:
+        return ()
+    spring, elements = spectrum(stiffness, loss, float(resolved.quantity("frequency@cold")))
+    return [*([(NEVER, spring)] if spring > 0.0 else []), *elements]
 
 
 def carry(layer: Changing, support: slices.Support, load: float, times: Array) -> Carried:
@@ -139,6 +170,6 @@ def carry(layer: Changing, support: slices.Support, load: float, times: Array) -
 
 
 def support_of(resolved: ResolvedModule) -> slices.Support:
-    """Springs and structure of the module on the bench, as warm as at the cold point."""
+    """Springs and structure of the module on the bench, as warm as at the cold point; a lossy one gives as a slice."""
     joint = joint_of(resolved, "cold")
-    return slices.Support(joint.spring_stiffness, joint.structure_stiffness)
+    return slices.Support(joint.spring_stiffness, RIGID if _structure_of(resolved) else joint.structure_stiffness)
