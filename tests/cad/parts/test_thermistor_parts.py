@@ -14,7 +14,7 @@ from tvimdesign.cad.inspection.size_checks import interference_checks, size_chec
 from tvimdesign.cad.parts import shear_parts
 from tvimdesign.study.design import Design
 
-BEAD = {"thermistor_diameter": 1.8e-3}
+BEAD = {"thermistor_diameter": 1.1e-3}
 
 
 def standing(design: Design) -> dict[str, cq.Solid]:

@@ -48,13 +48,13 @@ def test_without_one_nothing_is_asked_however_narrow_the_floor() -> None:
 
 
 def test_the_web_to_the_window_is_what_is_left_of_the_ledge() -> None:
-    known = inputs_of(thermistor_diameter=1.5 * MM, window_ledge=1.5 * MM)
+    known = inputs_of(thermistor_diameter=1.0 * MM, window_ledge=2.2 * MM)
     seat = TABLE.evaluate(known, ["thermistor_seat_radius", "thermistor_seat_diameter", *GAPS])
     end = 0.5 * known["arc_span"]
     middle = seat["thermistor_seat_radius"] * np.array([cos(end), sin(end)])
     edge = end - known["window_ledge"] / known["pcl_inner_radius"]  # the window's end points to the axis as well
     web = abs(middle @ np.array([-sin(edge), cos(edge)])) - 0.5 * seat["thermistor_seat_diameter"]
-    assert seat["thermistor_window_gap"] == pytest.approx(web, rel=1e-9)
+    assert seat["thermistor_window_gap"] == pytest.approx(web - known["minimum_wall"], rel=1e-9)
     next_end = 2.0 * pi / known["arc_count"] - end
     web = abs(middle @ np.array([-sin(next_end), cos(next_end)])) - 0.5 * seat["thermistor_seat_diameter"]
     assert seat["thermistor_arc_gap"] == pytest.approx(web - known["minimum_wall"], rel=1e-9)

@@ -69,19 +69,19 @@ def thermistor_mass(thermistor_volume: Scalar, thermistor_density: Scalar) -> Sc
 
 @rules.output(
     "mm",
-    at_least(
-        0.0, "the thermistor's seat breaks into the window below the pad: a smaller bead, or a wider window_ledge"
-    ),
+    at_least(0.0, "the thermistor's seat leaves too thin a web to the window: a smaller bead, or a wider window_ledge"),
 )
 def thermistor_window_gap(
     window_ledge: Scalar,
     pcl_inner_radius: Scalar,
     thermistor_seat_radius: Scalar,
     thermistor_seat_diameter: Scalar,
+    minimum_wall: Scalar,
 ) -> Scalar:
-    """Ledge left between the thermistor's seat and the window below the pad."""
+    """Web between the thermistor's seat and the window below the pad, beyond the least wall where there is a seat."""
     ledge = thermistor_seat_radius * np.sin(window_ledge / pcl_inner_radius)
-    return np.fmax(ledge, 0.0) - 0.5 * thermistor_seat_diameter
+    wall = np.fmin(minimum_wall, thermistor_seat_diameter)
+    return np.fmax(ledge, wall) - wall - 0.5 * thermistor_seat_diameter
 
 
 @rules.output(
