@@ -59,7 +59,7 @@ def test_a_spring_from_stock_is_ordered_by_its_maker_s_number() -> None:
     assert "(Central Springs), wound left" in left
     assert "wound right" in right
     (line,) = (one for one in spring_lines(design, dimensions(design), _titles(design)) if one.name == "from stock")
-    assert "T10180" in line.value
+    assert (line.value, line.note.split(";")[0]) == ("Torsion spring T10180", "Central Springs")
 
 
 def test_a_bearing_s_seats_and_what_locks_screws_are_on_the_bill_of_a_milled_module() -> None:

@@ -173,7 +173,7 @@ def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tu
 
 def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[str]:
     """What else is said of a kind of part, for the choices of its design."""
-    tang_hole = dims.wire_diameter + 2.0 * dims.tang_clearance
+    tang_hole = figure(dims.wire_diameter + 2.0 * dims.tang_clearance)
     written = _told()["remarks"].get(kind, ())
     return [
         one["text"].format(tang_hole=tang_hole) for one in written

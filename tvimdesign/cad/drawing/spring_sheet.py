@@ -20,7 +20,7 @@ from tvimdesign.device.fixtures.tang import BONDED
 from tvimdesign.study.design import Design, catalog_of
 
 _N_MM = 1e3
-_TIGHT = "inside radius, tight: makers advise 1.5 d (Newcomb Spring)"
+_TIGHT = "inside radius, tight: 1.5 d is advised (Newcomb Spring)"
 _DIN = "DIN 2194 grade 2"
 _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2)
 
@@ -88,7 +88,9 @@ def _from_stock(design: Design, titles: Mapping[str, str]) -> list[SpringLine]:
     record = str(design.choices.get("stock_spring", "none"))
     if record == "none":
         return []
-    return [SpringLine("from stock", titles.get("stock_spring", record), note="cut one leg, bend the other one down")]
+    name, _, rest = titles.get("stock_spring", record).partition(", ")
+    maker = f"{rest.rpartition('(')[2].rstrip(')')}; " if rest.endswith(")") else ""
+    return [SpringLine("from stock", name, note=f"{maker}cut one leg, bend the other one down")]
 
 
 def _stress_relief(design: Design) -> SpringLine:
