@@ -91,7 +91,7 @@ def test_friction_and_play_of_a_joint(tmp_path: Path) -> None:
 
 
 def test_a_pad_from_its_data_sheet(tmp_path: Path) -> None:
-    # Steady and insulated: K dT = S I T_c - I^2 R/2 with the 12706's values; at its best current dT is the sheet's 67 K.
+    # Steady and insulated: K dT = S I T_c - I^2 R/2 with the 12706's values; at the best current dT is the sheet's.
     seebeck, resistance, conductance, hot = 15.8 / 300.0, 15.8 * 233.0 / 1800.0, 15.8 * 6 * 233 / (2 * 300 * 67), 300.0
     current = np.array([0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
     cold = (conductance * hot + 0.5 * current**2 * resistance) / (conductance + seebeck * current)

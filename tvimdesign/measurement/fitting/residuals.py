@@ -45,9 +45,8 @@ class Residuals:
         No larger than `_FARTHEST` times the largest value measured, where the equations give less or no number.
         """
         found = self._measured - np.asarray(self._values(inner)).ravel()
-        return np.clip(
-            np.nan_to_num(found, nan=self._most, posinf=self._most, neginf=-self._most), -self._most, self._most
-        )
+        numbers = np.nan_to_num(found, nan=self._most, posinf=self._most, neginf=-self._most)
+        return np.asarray(np.clip(numbers, -self._most, self._most))
 
     def jacobian(self, inner: Array) -> Array:
         """Their derivatives by the solver's numbers."""
