@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import CATEGORIES
+from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.measurement.fitting.fit import Estimate
 from tvimdesign.measurement.kind_sheet import kind_sheet, kind_sheets
 from tvimdesign.measurement.kinds.measurement import Measurement
@@ -53,6 +53,12 @@ def test_every_kind_is_whole() -> None:
         assert {name for need in sheet.needs for name in need} | set(sheet.takes) <= set(known()["quantities"])
         assert not sheet.category or sheet.category in CATEGORIES
         sheet.values({})
+
+
+def test_calorimetry_s_defaults_are_the_shipped_record_s() -> None:
+    record, values = Catalog().record("polymers", "pcl_80k"), kind_sheet("dsc").values({})
+    names = {name: name for name in values} | {"reference_temperature": "crystallization_reference"}
+    assert {name: record.value(there) for name, there in names.items()} == pytest.approx(values)
 
 
 def test_hanging_weights_on_an_arm(tmp_path: Path) -> None:

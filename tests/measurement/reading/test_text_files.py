@@ -60,8 +60,9 @@ def test_units_may_stand_in_a_row_of_their_own_or_after_a_slash(tmp_path: Path) 
     ("heading", "quantity"),
     [
         ("T [degC]", "temperature"), ("t [s]", "time"), ("f (Hz)", "frequency"), ("F (N)", "force"),
-        ("Freq [rad/s]", "angular_frequency"), ("Freq [Hz]", "angular_frequency"), ("Heat Flow (W/g)", "specific_heat_flow"),
-        ("Heat Flow (mW)", "heat_flow"), ("DSC/(mW/mg)", "specific_heat_flow"),
+        ("Freq [rad/s]", "angular_frequency"), ("Freq [Hz]", "angular_frequency"),
+        ("Heat Flow (W/g)", "specific_heat_flow"), ("Heat Flow (mW)", "heat_flow"),
+        ("DSC/(mW/mg)", "specific_heat_flow"),
         ("Storage Modulus (kPa)", "storage_modulus"),
     ],
 )  # fmt: skip
