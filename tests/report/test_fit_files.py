@@ -63,7 +63,7 @@ def test_kinds_are_listed(tvimdesign: Command) -> None:
         (["weights.csv", "--columns", "weights.csv"], "expected quantities with their columns"),
     ],
 )
-def test_what_is_wrong_is_said(tvimdesign: Command, weights: Path, tmp_path: Path, words: list[str], said: str) -> None:
+def test_what_is_wrong_is_said(tvimdesign: Command, weights: Path, words: list[str], said: str) -> None:
     done = tvimdesign("fit", *words, "--no-plots", cwd=weights.parent)
     assert done.returncode == 2
     assert said in done.stderr

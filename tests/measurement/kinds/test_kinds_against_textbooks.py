@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import CATEGORIES
+from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.measurement.fitting.fit import Estimate
 from tvimdesign.measurement.kind_sheet import kind_sheet, kind_sheets
 from tvimdesign.measurement.kinds.measurement import Measurement
@@ -55,6 +55,12 @@ def test_every_kind_is_whole() -> None:
         sheet.values({})
 
 
+def test_calorimetry_s_defaults_are_the_shipped_record_s() -> None:
+    record, values = Catalog().record("polymers", "pcl_80k"), kind_sheet("dsc").values({})
+    names = {name: name for name in values} | {"reference_temperature": "crystallization_reference"}
+    assert {name: record.value(there) for name, there in names.items()} == pytest.approx(values)
+
+
 def test_hanging_weights_on_an_arm(tmp_path: Path) -> None:
     # 100 g on 80 mm turn a spring of 0.5 N.m/rad by 0.1 * 9.80665 * 0.08 / 0.5 rad.
     grams = np.array([0.0, 100.0, 200.0, 300.0, 400.0, 300.0, 200.0, 100.0])
@@ -91,7 +97,7 @@ def test_friction_and_play_of_a_joint(tmp_path: Path) -> None:
 
 
 def test_a_pad_from_its_data_sheet(tmp_path: Path) -> None:
-    # Steady and insulated: K dT = S I T_c - I^2 R/2 with the 12706's values; at its best current dT is the sheet's 67 K.
+    # Steady and insulated: K dT = S I T_c - I^2 R/2 with the 12706's values; at the best current dT is the sheet's.
     seebeck, resistance, conductance, hot = 15.8 / 300.0, 15.8 * 233.0 / 1800.0, 15.8 * 6 * 233 / (2 * 300 * 67), 300.0
     current = np.array([0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
     cold = (conductance * hot + 0.5 * current**2 * resistance) / (conductance + seebeck * current)

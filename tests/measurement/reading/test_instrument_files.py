@@ -1,12 +1,15 @@
-"""Layouts of instruments' files. The texts were written for these tests after files that the makers' software exports:
-RheoCompass, TRIOS and rSpace from github.com/bsaintmichel/read-rheol, LIMS from github.com/3mcloud/hermes-rheo, .tts and
-.osc from github.com/jorge-ramirez-upm/RepTate, whose licences do not let them be kept here; `benchmarks/read_public.py`
-reads the files themselves."""
+"""Layouts of instruments' files, as the makers' software exports them.
+
+The texts were written for these tests, after files in public repositories: RheoCompass, TRIOS and rSpace in
+github.com/bsaintmichel/read-rheol, LIMS in github.com/3mcloud/hermes-rheo, .tts and .osc in
+github.com/jorge-ramirez-upm/RepTate. `benchmarks/read_public.py` reads the files themselves.
+"""
 
 from __future__ import annotations
 
 import json
 import zipfile
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -88,8 +91,8 @@ def test_trios_lims_export_with_labels_before_its_rows(tmp_path: Path) -> None:
 
 
 def test_trios_json(tmp_path: Path) -> None:
-    columns = [{"name": name, "unit": unit} for name, unit in
-               (("Angular frequency", "rad/s"), ("Storage modulus", "Pa"), ("Loss modulus", "Pa"), ("Step", ""))]  # fmt: skip
+    names = {"Angular frequency": "rad/s", "Storage modulus": "Pa", "Loss modulus": "Pa", "Step": ""}
+    columns = [{"name": name, "unit": unit} for name, unit in names.items()]
     data = {"columns": columns, "values": [[*row, 1] for row in SWEEP]}
     tree = {"Experiment": {"Results": [{"Properties": {"Name": "Sweep"}, "DataSet": [{"Data": data}]}]}}
     (found,) = blocks(tmp_path, "trios.json", json.dumps(tree))
@@ -157,7 +160,8 @@ def workbook(rows: list[list[object]]) -> bytes:
     kind = "application/vnd.openxmlformats-officedocument.spreadsheetml"
     files = {
         "[Content_Types].xml": f'<Types xmlns="{package}/content-types"><Default Extension="rels" '
-        f'ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Override PartName="/xl/workbook.xml" '
+        'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+        '<Override PartName="/xl/workbook.xml" '
         f'ContentType="{kind}.sheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" '
         f'ContentType="{kind}.worksheet+xml"/></Types>',
         "_rels/.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
@@ -168,8 +172,6 @@ def workbook(rows: list[list[object]]) -> bytes:
         f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>',
         "xl/worksheets/sheet1.xml": f'<worksheet xmlns="{main}"><sheetData>{"".join(lines)}</sheetData></worksheet>',
     }
-    from io import BytesIO
-
     stream = BytesIO()
     with zipfile.ZipFile(stream, "w") as book:
         for name, text in files.items():

@@ -56,6 +56,21 @@ def test_units_may_stand_in_a_row_of_their_own_or_after_a_slash(tmp_path: Path) 
     assert own.blocks[0].unused == ("Note",)
 
 
+@pytest.mark.parametrize(
+    ("heading", "quantity"),
+    [
+        ("T [degC]", "temperature"), ("t [s]", "time"), ("f (Hz)", "frequency"), ("F (N)", "force"),
+        ("Freq [rad/s]", "angular_frequency"), ("Freq [Hz]", "angular_frequency"),
+        ("Heat Flow (W/g)", "specific_heat_flow"), ("Heat Flow (mW)", "heat_flow"),
+        ("DSC/(mW/mg)", "specific_heat_flow"),
+        ("Storage Modulus (kPa)", "storage_modulus"),
+    ],
+)  # fmt: skip
+def test_the_unit_decides_what_a_short_name_stands_for(tmp_path: Path, heading: str, quantity: str) -> None:
+    (block,) = read(tmp_path, f"angle [deg];{heading}\n1;1\n2;2\n3;3\n").blocks
+    assert set(block.columns) == {"angle", quantity}
+
+
 def test_every_table_of_a_file_is_a_block_with_its_lines(tmp_path: Path) -> None:
     found = read(tmp_path, f"first run\n{PLAIN}\n\nsecond run\n{PLAIN}")
     assert [block.lines for block in found.blocks] == [(3, 5), (10, 12)]

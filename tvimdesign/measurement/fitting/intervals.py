@@ -101,7 +101,8 @@ def moved_by(direction: Array) -> list[int]:
 def profile_end(residuals: Residuals, fit: RobustFit, known: Spread, at: int, side: Literal[-1, 1]) -> float:
     """The end of a parameter's interval: where the best fit with it held there is worse by what chance explains [B].
 
-    The solver's number, no farther than the parameter's bound; infinite where the data do not bound it within `_FARTHEST` deviations.
+    The solver's number, no farther than the parameter's bound; infinite where the data do not bound it within
+    `_FARTHEST` deviations.
     """
     deviation = float(np.sqrt(known.covariance[at, at]))
     allowed = known.quantile**2 * known.slack[at]

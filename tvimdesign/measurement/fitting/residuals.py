@@ -44,15 +44,16 @@ class Residuals:
 
         No larger than `_FARTHEST` times the largest value measured, where the equations give less or no number.
         """
-        found = self._measured - np.asarray(self._values(inner)).ravel()
-        return np.clip(
-            np.nan_to_num(found, nan=self._most, posinf=self._most, neginf=-self._most), -self._most, self._most
-        )
+        found: Array = self._measured - np.asarray(self._values(inner)).ravel()
+        numbers = np.nan_to_num(found, nan=self._most, posinf=self._most, neginf=-self._most)
+        clipped: Array = np.clip(numbers, -self._most, self._most)
+        return clipped
 
     def jacobian(self, inner: Array) -> Array:
         """Their derivatives by the solver's numbers."""
         slopes = np.nan_to_num(np.asarray(self._jacobian(inner).full()), posinf=0.0, neginf=0.0)
-        return -np.clip(slopes, -_STEEPEST, _STEEPEST)
+        clipped: Array = np.clip(-slopes, -_STEEPEST, _STEEPEST)
+        return clipped
 
     def derived(self, inner: Array) -> tuple[Array, Array]:
         """Logarithms of what follows, and their derivatives."""

@@ -105,7 +105,8 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
     found = least_squares(
         values,
         np.clip(start[free], bounds[:, 0], bounds[:, 1]), jac=jacobian, bounds=(bounds[:, 0], bounds[:, 1]),
-        loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=tolerance, ftol=tolerance, gtol=tolerance, max_nfev=steps, x_scale="jac",
+        loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=tolerance, ftol=tolerance, gtol=tolerance, max_nfev=steps,
+        x_scale="jac",
     )  # fmt: skip
     return whole(found.x)
 

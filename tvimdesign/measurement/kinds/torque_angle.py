@@ -92,8 +92,8 @@ def _angle(torque: Any, way: Any, side: Any, values: Values) -> Any:
 
 
 def _predicted(torque: Array) -> Callable[[Values], Any]:
-    columns = [ca.DM(one) for one in (torque, direction(torque), np.sign(torque))]
-    return lambda values: _angle(*columns, values)
+    load, way, side = (ca.DM(one) for one in (torque, direction(torque), np.sign(torque)))
+    return lambda values: _angle(load, way, side, values)
 
 
 def _series(block: Block, settings: Settings) -> tuple[Array, Array]:

@@ -36,8 +36,13 @@ def known() -> dict[str, Any]:
 
 
 @cache
-def _by_name() -> dict[str, str]:
-    return {plain(name): key for key, entry in known()["quantities"].items() for name in [*entry["names"], key]}
+def _by_name() -> dict[str, list[str]]:
+    """The quantities a name may stand for."""
+    found: dict[str, list[str]] = {}
+    for key, entry in known()["quantities"].items():
+        for name in [*entry["names"], key]:
+            found.setdefault(plain(name), []).append(key)
+    return found
 
 
 def plain(name: str) -> str:
@@ -49,19 +54,20 @@ def plain(name: str) -> str:
 
 def heading(text: str, unit: str = "") -> Heading:
     """Read a heading such as `Storage Modulus`, `Time (s)`, `Temp./°C` or `G'`; `unit` is from a row of its own."""
-    whole = _by_name().get(plain(text))
-    if whole or unit:
-        return Heading(text, whole or _quantity(text), read_unit(unit))
+    if unit or plain(text) in _by_name():
+        return Heading(text, _quantity(text, read_unit(unit)), read_unit(unit))
     for pattern in (_IN_BRACKETS, _AFTER_SLASH):
         match = pattern.fullmatch(text.strip().lstrip("#"))
         if match and is_unit(match[2]):
-            return Heading(text, _quantity(match[1]), read_unit(match[2]))
+            return Heading(text, _quantity(match[1], read_unit(match[2])), read_unit(match[2]))
     return Heading(text, "", "")
 
 
-def _quantity(text: str) -> str:
+def _quantity(text: str, unit: str) -> str:
+    """The quantity of a name: of several, the one that has such a unit."""
     without = _IN_BRACKETS.fullmatch(text)
-    return _by_name().get(plain(text), "") or (_by_name().get(plain(without[1]), "") if without else "")
+    may_be = _by_name().get(plain(text)) or (_by_name().get(plain(without[1])) if without else None) or [""]
+    return next((one for one in may_be if one and unit and conversion(unit, unit_of(one)) is not None), may_be[0])
 
 
 def read_unit(text: str) -> str:
