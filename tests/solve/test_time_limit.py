@@ -84,6 +84,14 @@ def test_a_search_without_a_design_when_the_time_is_over_says_what_to_do(monkeyp
     assert math.isfinite(solution.objective)
 
 
+def test_the_search_for_the_conflict_ends_with_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = clock_until("looking for the design that breaks least", monkeypatch)
+    quick = SEARCHED.replace('">= 2 N.m"', '">= 2 N.m", response_time: "<= 1 s"').replace("starts: 6", "starts: 1")
+    solution = optimize(read_study_text(quick), clock.say)
+    assert solution.status.startswith("not converged")
+    assert "looking for the smallest set of limits that conflict" not in clock.said
+
+
 def test_a_search_in_time_says_nothing_of_it() -> None:
     solution = optimize(read_study_text(SEARCHED.replace("starts: 6", "starts: 1")))
     assert solution.out_of_time is None

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound, Node
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes, is_one
 from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.study import read_study_text
 
@@ -33,7 +34,7 @@ class Bowl:
     least: float
     fails: bool = False
     optima: list[Run] = field(default_factory=list)
-    optimizer: Any = field(default_factory=lambda: SimpleNamespace(progress=lambda _: None))
+    optimizer: Any = field(default_factory=lambda: SimpleNamespace(progress=lambda _: None, deadline=Deadline()))
     solved: int = 0
 
     def __post_init__(self) -> None:
@@ -164,7 +165,10 @@ def test_a_combination_solved_afresh_counts_where_it_is_better(again: float | No
     def run(objective: float) -> Any:
         return SimpleNamespace(values={}, start=SimpleNamespace(converged=True, objective=objective))
 
-    tree: Any = SimpleNamespace(thoroughly=lambda _box, _near: None if again is None else run(again))
+    afresh = None if again is None else run(again)
+    tree: Any = SimpleNamespace(
+        thoroughly=lambda _box, _near: afresh, optimizer=SimpleNamespace(deadline=Deadline())
+    )  # fmt: skip
     search = BranchAndBound([tree], 1, {(0, ((0, 0),)): run(10.0)})
     search._begin_afresh()
     assert search.found[0, ((0, 0),)].start.objective == kept

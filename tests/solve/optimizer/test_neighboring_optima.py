@@ -10,6 +10,7 @@ import pytest
 from support import ROOT
 
 from tvimdesign.device import Input
+from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.problem import Free
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Run
@@ -94,6 +95,7 @@ def test_no_neighbor_is_tried_twice() -> None:
     optimizer: Any = SimpleNamespace(
         free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(quantity=lambda _: coils), solve=solve,
         model=SimpleNamespace(index={"coil_count": 0}), vector=SimpleNamespace(places_of_currents=list),
+        deadline=Deadline(),
     )  # fmt: skip
     led = NeighboringOptima(optimizer).improve([_ended_at(5.5), _ended_at(6.5)])
     assert [run.start.objective for run in led] == [1.0, 1.0]

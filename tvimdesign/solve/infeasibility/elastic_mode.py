@@ -57,7 +57,7 @@ class ElasticMode:
     """An optimizer's problem with a slack on every limit, and one for all that a requirement is put on at once."""
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Add the slacks and build the solver."""
+        """Add the slacks."""
         self.optimizer, problem = optimizer, optimizer.problem
         keys = [(limit.part_of or limit.output, limit.sense, limit.limit) for limit in problem.limits]
         places = {key: place for place, key in enumerate(dict.fromkeys(keys))}
@@ -69,14 +69,15 @@ class ElasticMode:
         slacks, weights = ca.MX.sym("slacks", self.count), ca.MX.sym("weights", self.count)
         first, last = self.equations, self.equations + len(problem.limits)
         rows, each = whole["g"], [int(place) for place in self._slack_of]
-        written = ca.Function(
+        self._written = ca.Function(
             "elastic",
             [ca.vertcat(whole["x"], slacks), ca.vertcat(whole["p"], weights)],
             [ca.dot(weights, slacks) + TRACE * whole["f"],
              ca.vertcat(rows[:first], rows[first:last] - slacks[each], rows[last:])],
             *NLP,
         )  # fmt: skip
-        self._solver = solver_of(written, optimizer.study.solver, of_parameters=False)
+        self._solver: Any = None
+        self._limit = 0.0
         self._rows = ca.Function("rows", [whole["x"], whole["p"]], [rows])
 
     def settle(
@@ -96,7 +97,7 @@ class ElasticMode:
         lower, upper = optimizer.vector.bounds({})
         objectives, rest = len(problem.objectives), problem.slope_count + problem.peak_count
         no_equations = np.zeros(self.equations)
-        answer = self._solver(
+        answer = self._solver_in_time()(
             x0=np.concatenate([x, slacks]), p=np.concatenate([p, weights]),
             lbx=np.concatenate([lower, np.zeros(self.count)]),
             ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
@@ -106,6 +107,16 @@ class ElasticMode:
             ]),
         )  # fmt: skip
         return self._settled(answer, begin, time.perf_counter() - clock)
+
+    def _solver_in_time(self) -> Any:
+        """The solver; built once more where half of the time it may take is over."""
+        left = self.optimizer.deadline.remaining
+        if self._solver is None or left < 0.5 * self._limit:
+            known = [] if self._solver is None else [self._solver]
+            asked = self.optimizer.study.solver
+            self._solver = solver_of(self._written, asked, known, of_parameters=False, most_seconds=left)
+            self._limit = left
+        return self._solver
 
     def _settled(self, answer: dict[str, Any], begin: Array, seconds: float) -> Settled:
         size = self.optimizer.problem.unknown_count

@@ -11,6 +11,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import impossible, on_cycle
+from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.solver_run import Array, Progress
 from tvimdesign.solve.optimizer.starting_points import unit_points
@@ -23,9 +24,11 @@ class Multistart:
     """Points to begin at, each tried by simulating its switch as far as the problem needs it."""
 
     def __init__(
-        self, problem: Problem, model: DeviceFunctions, simulator: Simulator, options: SolverOptions, progress: Progress
-    ) -> None:
+        self, problem: Problem, model: DeviceFunctions, simulator: Simulator, options: SolverOptions,
+        progress: Progress, deadline: Deadline | None = None,
+    ) -> None:  # fmt: skip
         """Simulate the study's own start, which is in `model`, as far as the problem needs it."""
+        self.deadline = deadline or Deadline()
         self.problem, self.model, self.simulator = problem, model, simulator
         self.options, self.progress = options, progress
         self.cycle = problem.simulated(simulator, model.start)
@@ -51,6 +54,8 @@ class Multistart:
 
     def _ending_point(self, points: Iterator[Array]) -> Array:
         for _ in range(MAX_DRAWS):
+            if self.deadline.passed:
+                break
             point = self._point_among(points)
             if self.trial(point) is not None:
                 return point

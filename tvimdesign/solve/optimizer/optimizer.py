@@ -154,7 +154,10 @@ class Optimizer:
 
     def _begin(self) -> None:
         """What knows the numbers of the records: where to begin, and how the vector of unknowns is read."""
-        self.multistart = Multistart(self.problem, self.model, self.simulator, self.study.solver, self.progress)
+        asked = self.study.solver
+        self.multistart = Multistart(
+            self.problem, self.model, self.simulator, asked, self.progress, self.deadline
+        )  # fmt: skip
         self.vector = DecisionVector(self.problem, self.model)
         cycle = self.multistart.cycle.values
         self.start_values = self.model.some_values(self.problem.minimize, self.model.start, cycle)
