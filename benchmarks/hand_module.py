@@ -204,6 +204,13 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     lever = arm + radius * sine
     bent = 0.25 * PI * (2.0 + NU_WIRE) * (lever**2 + (high * cosine) ** 2) + 0.5 * PI * (high * sine) ** 2
     rate = PI * E_WIRE * d**4 / 64.0 / ((radius * (about + tilted) + d * bent) / arm**2 + arm / 3.0)
+    # the pin bends, shears and rocks, the tang twists the floor: both in series with the spring
+    height, half_pin = max(end + slope * arm - plate_top, 0.5 * d), 0.5 * PIN
+    give = height**3 / (0.75 * PI * E_PETG * half_pin**4) + height / (0.9 * G_PETG * PI * half_pin**2)
+    give += 0.75 * height**2 * (1.0 - NU_PETG**2) / (E_PETG * half_pin**3)
+    tang = PI * G_PETG * d**2 * (FLOOR - TANG_END_GAP)
+    give = give / arm**2 + (1.0 + math.sqrt(0.25 * coil**2 + d**2) / arm) ** 2 / tang
+    rate /= 1.0 + rate * give
     index = coil / d
     inner_fibre = (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
     straight = 32.0 * rate / (PI * d**3)
@@ -212,7 +219,6 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     in_bend = straight * math.sqrt(across**2 + in_plane**2 + 0.75 * twist**2) / arm
     strength = STRENGTH * (1e3 * d) ** -STRENGTH_POWER
     most = PRELOAD + STROKE
-    height = max(end + slope * arm - plate_top, 0.5 * d)
     pin_stress = 32.0 * rate * most / arm * height / (PI * PIN**3)
     # layer and what carries it
     area = 0.5 * ARCS * span * (outer**2 - INNER**2)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import quick_parts
-from cad_designs import BLOCKS, CASES, Made, design_of
+from cad_designs import BLOCKS, CASES, Made, design_of, whole
 
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.build.cache import FOLDER_VARIABLE
@@ -52,7 +52,7 @@ def blocks() -> Design:
 def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
     """The parts of the paper's size in either mode; the quick ones without most of the checks on the solids."""
     folder, name = tmp_path_factory.mktemp("cad"), request.param.removeprefix("quick ")
-    design: Design = request.getfixturevalue(name)
+    design = whole(request.getfixturevalue(name))
     write_design(design, folder / "design.json")
     steps: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
@@ -67,7 +67,7 @@ def job(tmp_path: Path) -> Callable[..., CadReport]:
     """Make the parts of the paper's module with some values changed behind the model's back."""
 
     def run(timeout_s: float = 240.0, **values: float) -> CadReport:
-        good = design_of("changed", {})
+        good = whole(design_of("changed", {}))
         design = good.model_copy(update={"values": good.values | values})
         write_design(design, tmp_path / "design.json")
         return make_cad(tmp_path / "design.json", tmp_path / "cad", timeout_s)

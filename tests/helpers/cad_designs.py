@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from math import radians
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from tvimdesign import __version__
 from tvimdesign.cad import CadReport
 from tvimdesign.device import table_for
 from tvimdesign.device.table.quantity import Event
@@ -107,6 +109,18 @@ def design_of(name: str, overrides: Mapping[str, float | str], mode: str = "shea
     return Design(
         tvimdesign="0", name=name, mode=mode, status="evaluated", choices=choices, values=values, study={}
     )  # fmt: skip
+
+
+def whole(design: Design) -> Design:
+    """The design as a run would have written it, so that it is read again: what no part needs is infinite."""
+    study = read_study_text(f"mode: {design.mode}\n", "a test")
+    table = table_for(design.mode)
+    needed = [*table.names(tuple(study.operating_points)), *(row.name for row in table.inputs if not row.per_point)]
+    given_at = {f"{name}@{point}": value for point, at in study.operating_points.items() for name, value in at.items()}
+    values = dict.fromkeys(needed, math.inf) | given_at | design.values
+    return design.model_copy(
+        update={"tvimdesign": __version__, "values": values, "study": study.model_dump(mode="json")}
+    )
 
 
 def broken_rules(design: Design) -> list[str]:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from cad_designs import design_of
+from cad_designs import design_of, whole
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
@@ -236,7 +236,7 @@ def test_a_part_that_never_comes_is_an_error_with_its_name_and_the_others_are_th
 ) -> None:
     (tmp_path / "stuck_job.py").write_text(STUCK.format(kind="retainer"))
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    write_design(design_of("paper", {}), tmp_path / "design.json")
+    write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     with pytest.raises(GeometryError, match=r"^retainer: no answer in 25 s.*; the other \d+ files are in"):
         make_cad(tmp_path / "design.json", tmp_path / "cad", part_timeout_s=25.0, job="stuck_job")
     assert (tmp_path / "cad/step/housing.step").exists()
@@ -250,7 +250,7 @@ def test_a_second_making_takes_over_everything_and_gives_the_same_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "kept"))
-    write_design(design_of("paper", {}), tmp_path / "design.json")
+    write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     first = make_cad(tmp_path / "design.json", tmp_path / "cad")
     made = {name: (tmp_path / "cad" / name).read_bytes() for name in first.files}
     shutil.rmtree(tmp_path / "cad")

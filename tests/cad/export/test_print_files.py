@@ -79,7 +79,11 @@ def test_a_part_lies_on_the_side_it_is_printed_on() -> None:
 
 
 def test_every_kind_says_how_it_is_come_by() -> None:
-    cases = (("all", BEARINGS | DRIVEN), ("blocks", SPRUNG_BLOCKS, "compression"), ("tiles", TILES))
+    cases = (
+        ("all", BEARINGS | DRIVEN),
+        ("blocks", SPRUNG_BLOCKS, "compression"),
+        ("tiles", TILES | {"thermistor_diameter": 1.1e-3}),
+    )
     dims = [dimensions(design_of(*case)) for case in cases]
     kinds = {kind for one in dims for kind in MODULES[one.mode].kinds(one)}
     assert kinds == set(PRODUCTION) == set(KINDS)
