@@ -58,7 +58,7 @@ def test_requirements_say_what_holds(result: tvim.Result) -> None:
 
 def test_what_its_study_accepts_is_told(result: tvim.Result) -> None:
     assert result.status == "optimal"
-    assert result.accepting == ("structure_temperature_margin", "stiffening_structure_margin")
+    assert result.accepting == ("structure_temperature_margin",)
     assert result.above_rating == ()
 
 
