@@ -82,12 +82,14 @@ def test_the_study_in_the_readme_has_an_optimum() -> None:
 
 
 @pytest.mark.parametrize(
-    "left_out", [{"simulate", "paper-check"}, pytest.param(set(), marks=pytest.mark.slow)], ids=["quick", "all"]
+    "left_out", [{"simulate", "fit", "paper-check"}, pytest.param(set(), marks=pytest.mark.slow)], ids=["quick", "all"]
 )
 def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path, left_out: set[str]) -> None:
     lines = [line.split("#")[0] for line in _blocks("sh")[2].splitlines()]
     commands = [shlex.split(line)[1:] for line in lines if line.strip()]
-    assert [words[0] for words in commands] == ["new", "check", "run", "cad", "rows", "simulate", "paper-check"]
+    assert [words[0] for words in commands] == ["new", "check", "run", "cad", "rows", "simulate", "fit", "paper-check"]
+    measured = (ROOT / "docs/how-to/measure.md").read_text().partition('title="weights.csv"\n')[2].partition("```")[0]
+    (tmp_path / "weights.csv").write_text(measured)
     for words in commands:
         if words[0] == "cad":  # the parts have their own tests; here its input is looked at
             assert (tmp_path / words[1]).exists()

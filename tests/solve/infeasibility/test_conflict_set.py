@@ -20,7 +20,6 @@ mode: shear
 vary:
   wire_diameter: [1.2 mm, 3.2 mm]
   coil_diameter: [16 mm, 32 mm]
-  coil_count: [3, 8]
   preload_angle: [0.12 rad, 0.4 rad]
 require: {spring_stiffness: ">= 12 N.m/rad", spring_fatigue_safety: ">= 3", module_mass: "<= 300 g"}
 minimize: module_mass
@@ -193,7 +192,7 @@ def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
 
 
 def test_a_start_begun_again_from_a_design_that_keeps_all_limits_converges() -> None:
-    study = _study(STIFF.replace(">= 12 N.m/rad", ">= 7 N.m/rad"))
+    study = _study(STIFF.replace(">= 12 N.m/rad", ">= 4.5 N.m/rad"))
     optimizer = Optimizer(study)
     run = optimizer.solve()
     again = SecondTry(optimizer).from_conflict_search(run)

@@ -35,7 +35,7 @@ def test_elasticities_are_those_of_the_implicit_function_theorem(pair: Pair) -> 
 
 def test_an_input_that_only_one_module_has_moves_that_one_alone(pair: Pair) -> None:
     at_rest = pair.times(EVENT)
-    influence = pair.influence(EVENT, Span("pcl_thickness", 0.9e-3, 1.3e-3))
+    influence = pair.influence(EVENT, Span("pcl_thickness", 1.2e-3, 1.6e-3))
     assert influence.at_low[1] == influence.at_high[1] == at_rest[1]
     assert influence.at_low[0] < at_rest[0] < influence.at_high[0]
     low, high = influence.ratios
