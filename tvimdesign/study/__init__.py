@@ -1,7 +1,7 @@
 """What the user writes: reads a study file, says everything that is wrong with it, and resolves it to numbers."""
 
 from tvimdesign.study.reader import read_study, read_study_text, read_tree
-from tvimdesign.study.resolve import drawn, given
+from tvimdesign.study.resolve import brought_along, drawn, given
 from tvimdesign.study.sections.tolerances import standard_tolerances
 from tvimdesign.study.study import (
     Options,
@@ -31,6 +31,7 @@ __all__ = [
     "Tolerance",
     "Vary",
     "WriteOptions",
+    "brought_along",
     "drawn",
     "given",
     "read_study",

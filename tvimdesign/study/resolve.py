@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
-from tvimdesign.device import Choice, Input
+from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
 
@@ -84,6 +85,13 @@ def _stock(row: Choice | Input, study: Study, chosen: dict[str, Any]) -> Record 
             f"leave {row.name} out, or set {row.stock_record[0] if row.stock_record else ''}: none"
         )
     return record
+
+
+def brought_along(choices: Mapping[str, str], table: Table) -> set[str]:
+    """Names of the quantities that records bought whole bring along, by what a design has chosen."""
+    bought = {row.name for row in table.choices if choices[row.name] not in row.options}
+    rows: list[Choice | Input] = [*table.choices, *table.inputs]
+    return {row.name for row in rows if row.stock_record and row.stock_record[0] in bought}
 
 
 def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str, Any]) -> float:

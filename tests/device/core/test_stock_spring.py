@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 
 import pytest
+from cad_designs import design_of, whole
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.study import given, read_study_text
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.study import brought_along, given, read_study_text
 
 RECORDS = Catalog().names("torsion_springs")
 
@@ -67,3 +69,11 @@ def test_margins_are_those_of_legs_and_torque() -> None:
     assert found["stock_torque_margin"] == pytest.approx(18e-3 - turned)
     none = given(read_study_text("tvimdesign: 1\nname: a\nmode: shear\n"))
     assert table.evaluate(none, ["stock_leg_margin"])["stock_leg_margin"] == 0.0
+
+
+def test_a_design_with_a_spring_from_stock_is_tested_as_it_is() -> None:
+    small = {"placement_radius": 16e-3, "leg_overhang": 1.5e-3, "pin_diameter": 1.5e-3}
+    design = whole(design_of("from stock", {"stock_spring": "central_t10180", **small}))
+    assert resolve_design(design).values["spring_material"].name == "music_wire"
+    assert brought_along(design.choices, table_for("shear")) >= {"spring_material", "wire_diameter", "coil_count"}
+    assert brought_along({**design.choices, "stock_spring": "none"}, table_for("shear")) == set()

@@ -8,7 +8,7 @@ from typing import Any
 
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.study import Study, given
+from tvimdesign.study import Study, brought_along, given
 from tvimdesign.study.design import Design
 
 
@@ -44,7 +44,9 @@ def resolve_study(study: Study) -> ResolvedModule:
 def resolve_design(design: Design) -> ResolvedModule:
     """The module of a design, with the currents found for it. Raises InputError for what has no value."""
     study = Study.model_validate({**design.study, "vary": {}, "profile": {}})
-    study = study.model_copy(update={"module": {**study.module, **design.choices}})
+    brought = brought_along(design.choices, study.table)
+    chosen = {name: word for name, word in design.choices.items() if name not in brought}
+    study = study.model_copy(update={"module": {**study.module, **chosen}})
     values = given(study)
     numbers = {name: design.values[name] for name, value in values.items() if isinstance(value, float | int)}
     current_profiles = {phase: CurrentProfile.from_plain(plain) for phase, plain in design.current_profiles.items()}
