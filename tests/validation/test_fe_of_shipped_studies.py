@@ -50,7 +50,8 @@ def looked_at(study: str) -> dict[str, dict[str, str]]:
 
 def test_fe_looked_at_every_shipped_study() -> None:
     shipped = {path.stem for path in (ROOT / "studies").glob("*.yaml")}
-    assert set(STUDIES) == shipped - {"rigid_modules"}  # FE has no modules below a spreader yet
+    # FE has no modules below a spreader yet, and no design whose spring is a record.
+    assert set(STUDIES) == shipped - {"rigid_modules", "finger_stock"}
 
 
 @named
