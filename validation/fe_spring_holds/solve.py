@@ -11,29 +11,9 @@ import sys
 from math import hypot, pi
 from pathlib import Path
 
+import ngsolve as ng
 import yaml
 from netgen.occ import Box, OCCGeometry, Pnt
-from ngsolve import (
-    CF,
-    BilinearForm,
-    Grad,
-    GridFunction,
-    Id,
-    InnerProduct,
-    Integrate,
-    LinearForm,
-    Mesh,
-    Sym,
-    TaskManager,
-    Trace,
-    VectorH1,
-    ds,
-    dx,
-    exp,
-    x,
-    y,
-    z,
-)  # fmt: skip
 
 AROUND = 5.0
 """Half width of the block that is cut out around pin or hole, in their radii; its walls are held."""
@@ -61,10 +41,10 @@ def pin(folder: Path, inputs: dict) -> dict[str, float]:
     mesh = _mesh(
         _cut(shape, at, AROUND * radius), at, AROUND * radius, bottom=mm["rotor_bottom_level"], fine=radius / 3
     )
-    near = exp(-((((x - at[0]) ** 2 + (y - at[1]) ** 2) / (1.5 * radius) ** 2) ** 4))
-    near *= exp(-(((z - top - height) / (0.5 * mm["wire_diameter"])) ** 4))
-    load = near / Integrate(near, mesh, order=8) * CF((1, 0, 0))
-    way = _work(mesh, values, lambda v: InnerProduct(load, v) * dx(bonus_intorder=6))
+    near = ng.exp(-((((ng.x - at[0]) ** 2 + (ng.y - at[1]) ** 2) / (1.5 * radius) ** 2) ** 4))
+    near *= ng.exp(-(((ng.z - top - height) / (0.5 * mm["wire_diameter"])) ** 4))
+    load = near / ng.Integrate(near, mesh, order=8) * ng.CF((1, 0, 0))
+    way = _work(mesh, values, lambda v: ng.InnerProduct(load, v) * ng.dx(bonus_intorder=6))
     e, nu = values["structure_youngs_modulus"] * 1e-6, values["structure_poissons_ratio"]
     shear = e / (2 * (1 + nu))
     closed = (height**3 / (3 * e * pi / 4 * radius**4) + height / (0.9 * shear * pi * radius**2)
@@ -80,9 +60,9 @@ def hole(folder: Path, inputs: dict) -> dict[str, float]:
     walls = [f for f in shape.faces if _is_hole(f, radius)]
     at = (walls[0].center.x, walls[0].center.y)
     mesh = _mesh(_cut(shape, at, AROUND * radius), at, AROUND * radius, bottom=None, fine=radius / 3, hole=radius)
-    around = CF((-(y - at[1]), x - at[0], 0)) / radius
-    area = Integrate(1.0, mesh.Boundaries("wall"))
-    turn = _work(mesh, values, lambda v: InnerProduct(around, v) / (radius * area) * ds("wall"))
+    around = ng.CF((-(ng.y - at[1]), ng.x - at[0], 0)) / radius
+    area = ng.Integrate(1.0, mesh.Boundaries("wall"))
+    turn = _work(mesh, values, lambda v: ng.InnerProduct(around, v) / (radius * area) * ng.ds("wall"))
     shear = values["structure_youngs_modulus"] * 1e-6 / (2 * (1 + values["structure_poissons_ratio"]))
     length = area / (2 * pi * radius)
     closed = 1 / (4 * pi * shear * radius**2 * length)
@@ -110,23 +90,25 @@ def _mesh(shape, at, half: float, bottom: float | None, fine: float, hole: float
             face.name = "wall"
         near = hypot(middle.x - at[0], middle.y - at[1]) < 0.5 * half
         face.maxh = fine if near else 4 * fine
-    return Mesh(OCCGeometry(shape).GenerateMesh(maxh=4 * fine)).Curve(2)
+    return ng.Mesh(OCCGeometry(shape).GenerateMesh(maxh=4 * fine)).Curve(2)
 
 
 def _work(mesh, values: dict, form_of_load) -> float:
     """Work of a unit load on its own way: the compliance it meets [N, mm]."""
     e, nu = values["structure_youngs_modulus"] * 1e-6, values["structure_poissons_ratio"]
     lame, shear = e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))
-    space = VectorH1(mesh, order=2, dirichlet="held")
+    space = ng.VectorH1(mesh, order=2, dirichlet="held")
     u, v = space.TnT()
-    strain, other = Sym(Grad(u)), Sym(Grad(v))
-    with TaskManager():
-        form = BilinearForm(InnerProduct(2 * shear * strain + lame * Trace(strain) * Id(3), other) * dx, symmetric=True)
-        load = LinearForm(form_of_load(v)).Assemble()
+    strain, other = ng.Sym(ng.Grad(u)), ng.Sym(ng.Grad(v))
+    with ng.TaskManager():
+        form = ng.BilinearForm(
+            ng.InnerProduct(2 * shear * strain + lame * ng.Trace(strain) * ng.Id(3), other) * ng.dx, symmetric=True
+        )
+        load = ng.LinearForm(form_of_load(v)).Assemble()
         form.Assemble()
-        found = GridFunction(space)
+        found = ng.GridFunction(space)
         found.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
-        return InnerProduct(load.vec, found.vec)
+        return ng.InnerProduct(load.vec, found.vec)
 
 
 if __name__ == "__main__":
