@@ -128,7 +128,7 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 
 @quantities.helper()
-def air_links(
+def stack_links(
     ring_width: Scalar,
     block_depth: Scalar,
     peltier_thickness: Scalar,
@@ -226,14 +226,3 @@ def plate_losses(
     rim = around_pads[RIM].surface
     onward = rim.area * lumps.surface_coefficient(rim, ambient_temperature, ambient_temperature)
     return (lumps.Loss(Link(("beside", 2), ("around", RIM), out), onward),)
-
-
-@quantities.helper()
-def heat_links(
-    floor_links: tuple[Link, ...],
-    air_links: tuple[Link, ...],
-    side_links: tuple[Link, ...],
-    plate_losses: tuple[lumps.Loss, ...],
-) -> tuple[Link, ...]:
-    """What passes heat between the stack and the bodies beside and around it, and among these."""
-    return (*floor_links, *air_links, *side_links, *(loss.link for loss in plate_losses))

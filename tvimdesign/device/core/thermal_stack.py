@@ -2,9 +2,9 @@
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`), and the pads' open
-`cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`heat_links`), and
-by which of these the plate loses heat in the end (`plate_losses`); what of the layer's area the pads have
-(`heated_area`), in how many `heater_strings`, how heat comes from them to the layer (`pad_contact`), and what is heated
+`cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
+`stack_links`, `side_links`), and by which of these the plate loses heat in the end (`plate_losses`); what of the
+layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer (`pad_contact`), and what is heated
 on the way (`spreader_capacity`); and by `moment_now` what a partly molten layer is to the joint.
 """
 
@@ -90,6 +90,17 @@ def sink(
         return None
     surface = lumps.Surface(sink_area, sink_coefficient, surface_emissivity)
     return lumps.Lump(conductance=sink_contact * cold_area, capacity=sink_capacity, surface=surface)
+
+
+@quantities.helper()
+def heat_links(
+    floor_links: tuple[lumps.Link, ...],
+    stack_links: tuple[lumps.Link, ...],
+    side_links: tuple[lumps.Link, ...],
+    plate_losses: tuple[lumps.Loss, ...],
+) -> tuple[lumps.Link, ...]:
+    """What passes heat between the stack and the bodies beside and around it, and among these."""
+    return (*floor_links, *stack_links, *side_links, *(loss.link for loss in plate_losses))
 
 
 @quantities.helper()

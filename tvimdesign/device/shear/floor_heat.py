@@ -102,7 +102,7 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 
 @quantities.helper()
-def pad_links(
+def stack_links(
     pad_edge: Scalar,
     pcl_area: Scalar,
     cold_area: Scalar,
@@ -176,14 +176,3 @@ def plate_losses(
                             ("beside", above), ("around", floor))  # fmt: skip
         found.append(lumps.Loss(lumps.behind(gap, area / faces, ambient_temperature), onward * area))
     return tuple(found)
-
-
-@quantities.helper()
-def heat_links(
-    floor_links: tuple[Link, ...],
-    pad_links: tuple[Link, ...],
-    side_links: tuple[Link, ...],
-    plate_losses: tuple[lumps.Loss, ...],
-) -> tuple[Link, ...]:
-    """What passes heat between the stack and the bodies beside and around it, and among these."""
-    return (*floor_links, *pad_links, *side_links, *(loss.link for loss in plate_losses))
