@@ -4,8 +4,9 @@ Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`), and the pads' open
 `cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
 `stack_links`, `side_links`), and by which of these the plate loses heat in the end (`plate_losses`); what of the
-layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer (`pad_contact`), and what is heated
-on the way (`spreader_capacity`); and by `moment_now` what a partly molten layer is to the joint.
+layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer
+(`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `moment_now` what a partly molten layer
+is to the joint.
 """
 
 from __future__ import annotations
