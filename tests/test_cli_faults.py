@@ -25,6 +25,7 @@ def test_a_terminal_that_lacks_letters_gets_plain_ones(encoding: str) -> None:
     assert ("N.m/rad" if encoding == "ascii" else "N·m/rad") in done.stdout.decode(encoding)
 
 
+@pytest.mark.slow
 def test_a_study_whose_name_looks_like_markup_runs_on_any_terminal(tmp_path: Path) -> None:
     (tmp_path / "nasty.yaml").write_text(NASTY, encoding="utf-8")
     words = ["--no-cad", "--no-plots", "--out", tmp_path / "[/bold]"]
