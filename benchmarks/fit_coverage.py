@@ -16,12 +16,12 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.measurement.kind_sheet import kind_sheet
-from tvimdesign.measurement.kinds import dsc, pad, release, torque_angle
-from tvimdesign.measurement.kinds.calorimeter_runs import Run
-from tvimdesign.measurement.reading.data_file import Block, Column
 from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.physics.polymers import polymer
+from tvimdesign.simulation.measurement.kind_sheet import kind_sheet
+from tvimdesign.simulation.measurement.kinds import dsc, pad, release, torque_angle
+from tvimdesign.simulation.measurement.kinds.calorimeter_runs import Run
+from tvimdesign.simulation.measurement.reading.data_file import Block, Column
 
 Array = NDArray[np.float64]
 Made = tuple[list[Block], Mapping[str, str], Mapping[str, float]]
@@ -122,7 +122,7 @@ MADE: dict[str, Callable[[np.random.Generator], Made]] = {
 def held(kind: str, seed: int) -> dict[str, bool]:
     """Whether the interval of each parameter holds what the data of a seed were made with."""
     blocks, given, truth = MADE[kind](np.random.default_rng(seed))
-    measure = import_module(f"tvimdesign.measurement.kinds.{kind}").measure
+    measure = import_module(f"tvimdesign.simulation.measurement.kinds.{kind}").measure
     fit = measure(blocks, kind_sheet(kind).values(given)).fit
     found = {one.name: one for one in (*fit.parameters, *fit.derived)}
     inside = {}

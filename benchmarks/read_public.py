@@ -12,7 +12,7 @@ from collections import Counter
 from pathlib import Path
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.measurement.reading.data_file import read_data_file
+from tvimdesign.simulation.measurement.reading.data_file import read_data_file
 
 ENDINGS = (".tts", ".osc", ".gt", ".csv", ".txt", ".xlsx", ".json")
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from tvimdesign.measurement.measure_files import Measured
+    from tvimdesign.report.fit import Measured
 
 File = str | os.PathLike[str]
 
@@ -28,8 +28,7 @@ def fit(
     `kind` is found by the columns unless given; `columns` is a column map or its file; settings are text with a unit,
     such as `arm="100 mm"`. Raises InputError for what cannot be read or lacks.
     """
-    from tvimdesign.measurement.measure_files import measure_files
-    from tvimdesign.measurement.reading.column_map import column_map, read_column_map
+    from tvimdesign.report.fit import column_map, measure_files, read_column_map
 
     paths = [Path(files)] if isinstance(files, str | os.PathLike) else [Path(file) for file in files]
     if columns is None:
@@ -99,7 +98,7 @@ class Fitted:
 
     def record(self, name: str, *, based_on: str = "", catalog: File = "my_records", overwrite: bool = False) -> Path:
         """Write what was measured as a record of this name; returns its file. Raises InputError and CatalogError."""
-        from tvimdesign.measurement.record_file import write_record
+        from tvimdesign.report.fit import write_record
 
         return write_record(self._measured, Path(catalog), name, based_on, overwrite=overwrite)
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from math import prod
 
 from tvimdesign.base.record import Entry, RecordTable
-from tvimdesign.catalog.categories import Category, PowerLaw
+from tvimdesign.catalog.category import Category, PowerLaw
 
 
 def following(category: Category, entries: Mapping[str, Entry], tables: Mapping[str, RecordTable]) -> dict[str, Entry]:

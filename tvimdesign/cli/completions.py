@@ -27,7 +27,7 @@ def tests(incomplete: str) -> list[str]:
 
 def kinds(incomplete: str) -> list[str]:
     """Kinds of measurement."""
-    from tvimdesign.measurement.kind_sheet import kind_sheets
+    from tvimdesign.report.fit import kind_sheets
 
     return _beginning(kind_sheets(), incomplete)
 

@@ -1,5 +1,6 @@
 """What the user writes: reads a study file, says everything that is wrong with it, and resolves it to numbers."""
 
+from tvimdesign.catalog import Catalog
 from tvimdesign.study.reader import read_study, read_study_text, read_tree
 from tvimdesign.study.resolve import brought_along, drawn, given
 from tvimdesign.study.sections.tolerances import standard_tolerances
@@ -19,6 +20,7 @@ from tvimdesign.study.template import template_text
 from tvimdesign.study.text.mistakes import Mistake, StudyError
 
 __all__ = [
+    "Catalog",
     "Mistake",
     "Options",
     "ProfileOptions",

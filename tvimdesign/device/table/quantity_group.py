@@ -118,18 +118,9 @@ class QuantityGroup:
         """
         word, record = (default, None) if isinstance(default, str) else ("", default)
         quantity = Choice(
-            name=name,
-            description=description,
-            group=self.group,
-            default=word,
-            record=record,
-            category=category,
-            only=only,
-            unless=unless,
-            options=others,
-            requires=requires,
-            stock_record=stock_record,
-        )
+            name=name, description=description, group=self.group, default=word, record=record, category=category,
+            only=only, unless=unless, options=others, requires=requires, stock_record=stock_record,
+        )  # fmt: skip
         self.quantities.append(quantity)
 
     def option(

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.measurement.fitting.fit import Estimate, Fit
-from tvimdesign.measurement.measure_files import Measured
 from tvimdesign.report.output.number_entry import finite, number_entry
 from tvimdesign.report.output.number_format import head
+from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
+from tvimdesign.simulation.measurement.measure_files import Measured
 
 _MOST_PANELS = 6
 _DECADES = 30.0

@@ -13,15 +13,15 @@ from rich.table import Table as Grid
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.measurement.kind_sheet import kind_sheets
-from tvimdesign.measurement.measure_files import Measured, measure_files
-from tvimdesign.measurement.reading.column_map import read_column_map
-from tvimdesign.measurement.record_file import write_record
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.fit.fit_data import figure_data, fit_data, residuals_csv
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
+from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
+from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
+from tvimdesign.simulation.measurement.reading.column_map import read_column_map
+from tvimdesign.simulation.measurement.record_file import write_record
 
 _MOST_TABLES = 3
 """Tables that the screen shows; `fit.json` has all."""

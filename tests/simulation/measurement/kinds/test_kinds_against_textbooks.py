@@ -1,0 +1,271 @@
+"""Each kind on data from closed solutions or another integrator, none of it made by the equations that are fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.catalog import CATEGORIES, Catalog
+from tvimdesign.simulation.measurement.fitting.fit import Estimate
+from tvimdesign.simulation.measurement.kind_sheet import kind_sheet, kind_sheets
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement
+from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
+from tvimdesign.simulation.measurement.reading.data_file import read_data_file
+from tvimdesign.simulation.measurement.reading.headings import known
+from tvimdesign.simulation.measurement.record_file import record_text
+
+CELSIUS = 273.15
+
+
+def csv(path: Path, **columns: Any) -> Path:
+    """A file of columns; `name__unit` is the heading `name [unit]`."""
+    heads = [name.replace("__", " [") + "]" for name in columns]
+    heads = [head.replace("_per_", "/").replace("_", " ") for head in heads]
+    rows = [";".join(f"{x:.12g}" for x in row) for row in zip(*columns.values(), strict=True)]
+    path.write_text("\n".join([";".join(heads), *rows]) + "\n")
+    return path
+
+
+def measured(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Measured:
+    return measure_files([paths] if isinstance(paths, Path) else paths, kind, settings)
+
+
+def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Measurement:
+    """The same, with intervals of the covariance: profiles take most of the time."""
+    files = [read_data_file(path) for path in ([paths] if isinstance(paths, Path) else paths)]
+    blocks = [block for file in files for block in file.blocks]
+    sheet = kind_sheet(kind) if kind else next(one for one in kind_sheets().values() if one.fits(blocks[0]))
+    measure = import_module(f"tvimdesign.simulation.measurement.kinds.{sheet.name}").measure
+    result: Measurement = measure(blocks, sheet.values(settings), profiles=False)
+    return result
+
+
+def test_every_kind_is_whole() -> None:
+    for sheet in kind_sheets().values():
+        assert callable(import_module(f"tvimdesign.simulation.measurement.kinds.{sheet.name}").measure)
+        assert {name for need in sheet.needs for name in need} | set(sheet.takes) <= set(known()["quantities"])
+        assert not sheet.category or sheet.category in CATEGORIES
+        sheet.values({})
+
+
+def test_calorimetry_s_defaults_are_the_shipped_record_s() -> None:
+    record, values = Catalog().record("polymers", "pcl_80k"), kind_sheet("dsc").values({})
+    names = {name: name for name in values} | {"reference_temperature": "crystallization_reference"}
+    assert {name: record.value(there) for name, there in names.items()} == pytest.approx(values)
+
+
+def test_hanging_weights_on_an_arm(tmp_path: Path) -> None:
+    # 100 g on 80 mm turn a spring of 0.5 N.m/rad by 0.1 * 9.80665 * 0.08 / 0.5 rad.
+    grams = np.array([0.0, 100.0, 200.0, 300.0, 400.0, 300.0, 200.0, 100.0])
+    angle = np.degrees(grams * 1e-3 * 9.80665 * 0.08 / 0.5) + np.array([1, -1, 2, -2, 1, -1, 1, -1]) * 1e-4
+    fit = found(csv(tmp_path / "w.csv", mass__g=grams, angle__deg=angle), arm="80 mm").fit
+    assert fit.value("stiffness") == pytest.approx(0.5, rel=1e-4)
+    with pytest.raises(InputError, match=r"--set arm=...: needed, as .*w.csv has a mass and no torque"):
+        found(tmp_path / "w.csv")
+
+
+def test_the_modulus_of_a_wire_is_the_handbook_s(tmp_path: Path) -> None:
+    # E 203.4 GPa, d 2 mm, D 20 mm, n 5: 0.5085 N.m/rad in pure bending.
+    torque = np.linspace(0.05, 0.5, 10)
+    torque = np.concatenate([torque, torque[::-1]])
+    angle = torque / 0.5085 + np.tile([1e-6, -1e-6], 10)
+    path = csv(tmp_path / "w.csv", torque__N_m=torque, angle__rad=angle)
+    path.write_text(path.read_text().replace("[N m]", "[N.m]"))
+    sizes = {"wire_diameter": "2 mm", "coil_diameter": "20 mm", "coil_count": "5"}
+    assert found(path, **sizes).fit.value("youngs_modulus") == pytest.approx(203.4e9, rel=1e-4)
+
+
+def test_friction_and_play_of_a_joint(tmp_path: Path) -> None:
+    # By hand: 0.2 N.m of friction shift the two ways by 2 * 0.2 / 4 rad, a play of 0.03 rad the two sides by that.
+    up, down = np.linspace(1.0, 4.0, 4), np.linspace(3.0, 1.0, 3)
+    torque = np.concatenate([up, down, -up, -down, up])
+    way = np.array([1.0] * 4 + [-1.0] * 3 + [-1.0] * 4 + [1.0] * 3 + [1.0] * 4)
+    wobble = np.resize([1e-5, -1e-5, -1e-5, 1e-5], len(torque))
+    angle = 0.1 + (torque - way * 0.2) / 4.0 + 0.015 * np.sign(torque) + wobble
+    path = csv(tmp_path / "j.csv", torque__mN_m=1e3 * torque, angle__rad=angle)
+    path.write_text(path.read_text().replace("[mN m]", "[mN.m]"))
+    fit = found(path).fit
+    values = [fit.value(name) for name in ("stiffness", "friction", "backlash", "zero_angle")]
+    assert values == pytest.approx([4.0, 0.2, 0.03, 0.1], rel=2e-3)
+
+
+def test_a_pad_from_its_data_sheet(tmp_path: Path) -> None:
+    # Steady and insulated: K dT = S I T_c - I^2 R/2 with the 12706's values; at the best current dT is the sheet's.
+    seebeck, resistance, conductance, hot = 15.8 / 300.0, 15.8 * 233.0 / 1800.0, 15.8 * 6 * 233 / (2 * 300 * 67), 300.0
+    current = np.array([0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+    cold = (conductance * hot + 0.5 * current**2 * resistance) / (conductance + seebeck * current)
+    assert cold[-1] == pytest.approx(233.0, abs=0.2)
+    voltage = seebeck * (hot - cold) + current * resistance + np.resize([1e-6, -1e-6], 7)
+    path = csv(tmp_path / "p.csv", current__A=current, voltage__V=voltage, hot_side__degC=np.full(7, hot - CELSIUS),
+               cold_side__degC=cold - CELSIUS)  # fmt: skip
+    fit = found(path).fit
+    values = [fit.value(name) for name in ("seebeck", "resistance", "conductance")]
+    assert values == pytest.approx([seebeck, resistance, conductance], rel=1e-4)
+
+
+def damped(time: Any, stiffness: float, damping: float, inertia: float, first: float) -> Any:
+    """Free oscillation from rest (textbook): e^-dt (cos wt + d/w sin wt)."""
+    decay = damping / (2.0 * inertia)
+    omega = np.sqrt(stiffness / inertia - decay**2)
+    return first * np.exp(-decay * time) * (np.cos(omega * time) + decay / omega * np.sin(omega * time))
+
+
+def test_a_release_is_the_textbook_s_damped_oscillation(tmp_path: Path) -> None:
+    time = np.linspace(0.0, 0.6, 300)
+    noise = np.random.default_rng(2).normal(0.0, 1e-4, 300)
+    path = csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1) + noise)
+    fit = found(path, inertia="4e-4 kg.m^2").fit
+    assert fit.value("stiffness") == pytest.approx(5.0, rel=1e-3)
+    assert fit.value("damping") == pytest.approx(4e-3, rel=0.01)
+    assert fit.value("natural_frequency") == pytest.approx(np.sqrt(5.0 / 4e-4) / (2.0 * np.pi), rel=1e-3)
+
+
+def test_dry_friction_takes_the_textbook_s_four_shares_a_cycle(tmp_path: Path) -> None:
+    # Den Hartog: halves of cosines about +-T_f/K, so that the amplitude falls by 4 T_f/K a cycle.
+    stiffness, inertia, friction = 5.0, 4e-4, 0.02
+    omega, shift = np.sqrt(stiffness / inertia), friction / stiffness
+    time = np.linspace(0.0, 0.25, 300)
+    half = np.floor(time * omega / np.pi).astype(int)
+    amplitude = 0.1 - shift * (2 * half + 1)
+    angle = amplitude * np.cos(omega * time) + shift * np.where(half % 2, -1.0, 1.0)
+    angle = angle + np.random.default_rng(3).normal(0.0, 1e-4, 300)
+    fit = found(csv(tmp_path / "r.csv", time__s=time, angle__rad=angle), inertia="4e-4 kg.m^2").fit
+    assert fit.value("friction") == pytest.approx(friction, rel=0.03)
+    assert fit.value("stiffness") == pytest.approx(stiffness, rel=2e-3)
+
+
+def test_without_an_inertia_a_release_says_what_it_does_not_know(tmp_path: Path) -> None:
+    time = np.linspace(0.0, 0.6, 300)
+    noise = np.random.default_rng(2).normal(0.0, 1e-4, 300)
+    fit = found(csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1) + noise)).fit
+    assert fit["stiffness"].low is None
+    assert fit["natural_frequency"].low is not None
+    assert any(
+        "cannot tell inertia, stiffness and damping apart" in said and "Only their ratios" in said for said in fit.words
+    )
+
+
+def maxwell(omega: Any, modes: Sequence[tuple[float, float]]) -> tuple[Any, Any]:
+    x = np.array([[w * tau for tau, _ in modes] for w in omega])
+    moduli = np.array([modulus for _, modulus in modes])
+    return (moduli * x**2 / (1 + x**2)).sum(axis=1), (moduli * x / (1 + x**2)).sum(axis=1)
+
+
+def sweep(path: Path, modes: Sequence[tuple[float, float]], celsius: float, seed: int, energy: float = 35e3) -> Path:
+    omega = np.geomspace(0.05, 200.0, 18)
+    shift = np.exp(energy / 8.314462618 * (1.0 / (celsius + CELSIUS) - 1.0 / (100.0 + CELSIUS)))
+    noise = np.random.default_rng(seed)
+    storage, loss = (one * np.exp(noise.normal(0.0, 0.01, 18)) for one in maxwell(omega * shift, modes))
+    return csv(path, angular_frequency__rad_per_s=omega, **{"G'__Pa": storage, "G''__Pa": loss},
+               temperature__degC=np.full(18, celsius))  # fmt: skip
+
+
+def test_a_spectrum_has_as_many_modes_as_made_the_data(tmp_path: Path) -> None:
+    modes = [(1.0, 500.0), (0.05, 1.2e4), (0.004, 9.0e4)]
+    paths = [sweep(tmp_path / f"{t}.csv", modes, t, seed) for seed, t in enumerate((80, 100, 120))]
+    fit = found(paths).fit
+    times = sorted(fit.value(one.name) for one in fit.parameters if one.name.startswith("time"))
+    assert times == pytest.approx([0.004, 0.05, 1.0], rel=0.1)
+    assert fit.value("flow_activation_energy") == pytest.approx(35e3, rel=0.02)
+    assert fit.value("zero_shear_viscosity") == pytest.approx(500.0 + 600.0 + 360.0, rel=0.02)
+
+
+def test_a_shift_that_is_not_arrhenius_gives_no_energy(tmp_path: Path) -> None:
+    modes = [(1.0, 500.0), (0.05, 1.2e4), (0.004, 9.0e4)]
+    paths = [sweep(tmp_path / f"{t}.csv", modes, t, t, energy) for t, energy in ((60, 90e3), (100, 35e3), (140, 20e3))]
+    result = found(paths)
+    assert "flow_activation_energy" not in result.record_values
+    assert any("Arrhenius' law misses one by" in note for note in result.notes)
+
+
+def freezing(celsius: Any, kinetics: Mapping[str, float]) -> Any:
+    """Nakamura's rate constant [1/s] by Hoffman and Lauritzen, written down a second time."""
+    kelvin, melting = celsius + CELSIUS, 74.0 + CELSIUS
+
+    def exponent(t: Any) -> Any:
+        correction = 2.0 * t / (t + melting)
+        return -6270.0 / (8.314462618 * (t - 183.15)) - kinetics["K_g"] / (t * (melting - t) * correction)
+
+    speed = np.exp(exponent(kelvin) - exponent(35.0 + CELSIUS))
+    return np.log(2.0) ** (1.0 / kinetics["n"]) / kinetics["half_time"] * speed
+
+
+def test_freezing_curves_of_another_integrator(tmp_path: Path) -> None:
+    kinetics, latent = {"half_time": 60.0, "K_g": 1.1e5, "n": 2.6}, 55e3
+    paths = []
+    for i, rate in enumerate((4.0, 8.0, 16.0)):
+        time = np.linspace(0.0, 70.0 / rate * 60.0, 600)
+        celsius = 70.0 - rate / 60.0 * time
+        grown = solve_ivp(lambda t, _, r=rate: [float(freezing(70.0 - r / 60.0 * t, kinetics))], (0.0, time[-1]), [0.0],
+                          t_eval=time, rtol=1e-9, atol=1e-12).y[0]  # fmt: skip
+        fraction = 1.0 - np.exp(-(np.maximum(grown, 0.0) ** kinetics["n"]))
+        heat = np.gradient(fraction, time) * (latent + 250.0 * (celsius - 57.5))  # Kirchhoff, about the window's middle
+        capacity = fraction * 1850.0 + (1.0 - fraction) * 2100.0
+        flow = heat + capacity * rate / 60.0 + np.random.default_rng(i).normal(0.0, 1.0, 600)
+        milligrams = 5.0
+        paths.append(csv(tmp_path / f"{rate}.csv", time__min=time / 60.0, temperature__degC=celsius,
+                         heat_flow__mW=-flow * milligrams * 1e-3))  # fmt: skip
+    result = found(paths, sample_mass="5 mg")
+    fit = result.fit
+    assert fit.value("crystallization_half_time") == pytest.approx(60.0, rel=0.02)
+    assert fit.value("nucleation_constant") == pytest.approx(1.1e5, rel=0.02)
+    assert fit.value("avrami_exponent") == pytest.approx(2.6, rel=0.03)
+    assert fit.value("latent_heat") == pytest.approx(latent, rel=0.02)
+    assert "taken as negative" in result.notes[0]
+
+
+def test_melting_between_two_temperatures(tmp_path: Path) -> None:
+    # A straight melting curve from 48 to 60 degC takes 70 kJ/kg over 12 K: at 10 K/min 972 W/kg.
+    time = np.linspace(0.0, 480.0, 800)
+    celsius = 20.0 + time / 6.0
+    inside = (celsius > 48.0) & (celsius < 60.0)
+    molten = np.clip((celsius - 48.0) / 12.0, 0.0, 1.0)
+    flow = (1850.0 + 250.0 * molten) / 6.0 + inside * 70e3 / 12.0 / 6.0
+    noise = np.random.default_rng(1).normal(0.0, 5.0, 800)
+    path = csv(tmp_path / "h.csv", time__s=time, temperature__degC=celsius, dsc__W_per_g=(flow + noise) / 1e3)
+    fit = found(path).fit
+    assert fit.value("melting_start") == pytest.approx(48.0 + CELSIUS, abs=0.1)
+    assert fit.value("melting_end") == pytest.approx(60.0 + CELSIUS, abs=0.1)
+    assert fit.value("latent_heat") == pytest.approx(70e3, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("kind", "given", "said"),
+    [
+        ("pads", {}, "no kind of measurement is named 'pads'; did you mean pad?"),
+        ("torque_angle", {"arms": "1 mm"}, "--set arms: torque_angle has no such setting; did you mean arm?"),
+        ("torque_angle", {"arm": "1 kg"}, "--set arm: '1 kg'"),
+        ("pad", {}, "no column is current; pad needs current, voltage"),
+        ("", {}, "are of no kind there is"),
+    ],
+)
+def test_what_lacks_is_said(tmp_path: Path, kind: str, given: dict[str, str], said: str) -> None:
+    path = csv(tmp_path / "x.csv", torque__N=[1.0, 2.0, 3.0], angle__deg=[1.0, 2.0, 3.0])
+    with pytest.raises(InputError, match=said.replace("?", r"\?")):
+        measured(path, kind, **given)
+
+
+def test_a_kind_without_a_record_says_so(tmp_path: Path) -> None:
+    time = np.linspace(0.0, 0.6, 100)
+    path = csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1))
+    with pytest.raises(InputError, match="release: nothing in it is a value of a record"):
+        record_text(measured(path, inertia="4e-4 kg.m^2"), "mine", "")
+
+
+def test_every_value_of_a_record_is_one_the_category_knows() -> None:
+    names = {
+        "spring_materials": ["youngs_modulus"],
+        "polymers": ["zero_shear_viscosity", "plateau_modulus", "flow_activation_energy", "latent_heat"],
+        "peltiers": ["seebeck", "resistance", "conductance"],
+    }
+    for category, values in names.items():
+        assert set(values) <= set(CATEGORIES[category].values)
+    assert kind_sheet("release").category == ""
+    assert Estimate("a", "1", "", 1.0, None, None).low is None

@@ -1,0 +1,179 @@
+"""Layouts of instruments' files, as the makers' software exports them.
+
+The texts were written for these tests, after files in public repositories: RheoCompass, TRIOS and rSpace in
+github.com/bsaintmichel/read-rheol, LIMS in github.com/3mcloud/hermes-rheo, .tts and .osc in
+github.com/jorge-ramirez-upm/RepTate. `benchmarks/read_public.py` reads the files themselves.
+"""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tvimdesign.simulation.measurement.reading.data_file import Block, read_data_file
+
+SWEEP = [(100.0, 2.0e4, 1.5e4), (10.0, 5.0e3, 9.0e3), (1.0, 4.0e2, 1.6e3)]
+
+
+def blocks(place: Path, name: str, data: str | bytes) -> tuple[Block, ...]:
+    path = place / name
+    path.write_bytes(data.encode() if isinstance(data, str) else data)
+    return read_data_file(path).blocks
+
+
+def is_the_sweep(block: Block, frequency: str = "angular_frequency", factor: float = 1.0) -> None:
+    found = [block.values(name) for name in (frequency, "storage_modulus", "loss_modulus")]
+    assert np.column_stack(found) == pytest.approx(np.array(SWEEP) * [factor, 1.0, 1.0])
+
+
+def rheocompass(names: tuple[str, str, str, str]) -> bytes:
+    interval, storage, loss, temperature = names
+    lines = ["Projet:\tPCL", "", "Test:\tx", ""]
+    for degrees in ("60,00", "80,00"):
+        lines += [
+            f"{interval} et points:\t1\t4",
+            f"{interval} data:\tPoint No.\tFréquence\t{storage}\t{loss}\t{temperature}\tEtat",
+            "\t\t\t\t\t\t",
+            "\t\t[Hz]\t[Pa]\t[kPa]\t[°C]\t",
+            "\t1  (invalide)\t\t\t\t\t",
+        ]
+        for i, (x, storage_, loss_) in enumerate(SWEEP, start=2):
+            cells = f"\t{i}\t{x:.1f}\t{storage_:.3E}\t{loss_ / 1e3:.2f}\t{degrees}\tDy_auto"
+            lines += [cells.replace(".", ","), *(["\t3  (invalide)\t\t\t\t\t"] if i == 2 else [])]
+        lines += ["", ""]
+    return "\r\n".join(lines).encode("utf-16")
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("Intervalle", "Module de Stockage", "Module de Perte", "Température"),
+        ("Interval", "Storage Modulus", "Loss Modulus", "Temperature"),
+        ("Abschnitt", "Speichermodul", "Verlustmodul", "Temperatur"),
+    ],
+)
+def test_rheocompass_in_three_languages(tmp_path: Path, names: tuple[str, str, str, str]) -> None:
+    found = blocks(tmp_path, "sweep.csv", rheocompass(names))
+    assert [round(float(block.values("temperature")[0] - 273.15), 9) for block in found] == [60.0, 80.0]
+    for block in found:
+        is_the_sweep(block, "frequency")
+        assert len(block.skipped) == 1
+
+
+def test_trios_text_with_steps_and_units_of_its_own(tmp_path: Path) -> None:
+    rows = "\n".join(f"{x}\t{a / 1e6}\t{b / 1e6}\t3.1\t\t80" for x, a, b in SWEEP)
+    text = (
+        "Filename\tpcl\nInstrument name\tHR\n[File Parameters]\nGap\t1000 µm\nStress constant\t79577.5 Pa/N.m\n[step]\n"
+        "Frequency sweep - 1\n"
+        "Angular frequency\tStorage modulus\tLoss modulus\tOscillation torque\tTan(delta)\tTemperature\n"
+        f"rad/s\tMPa\tMPa\tg.cm\t\t°C\n{rows}\n\n[step]\nAnother - 2\nTime\tStress\ns\tPa\n0\t1\n1\t2\n2\t3\n"
+    )
+    first, second = blocks(tmp_path, "trios.txt", text)
+    is_the_sweep(first)
+    assert first.title == "Frequency sweep - 1"
+    assert second.values("stress") == pytest.approx([1.0, 2.0, 3.0])
+
+
+def test_trios_lims_export_with_labels_before_its_rows(tmp_path: Path) -> None:
+    rows = "\n".join(f"Data point\t{x}\t{a}\t{b}" for x, a, b in SWEEP)
+    text = (
+        "Windows setup INFormation\n[Step]\nStep name\tFrequency sweep (80.0 °C)\nNumber of points\t3\n"
+        f"Variables\tAngular frequency\tStorage modulus\tLoss modulus\nUnits\trad/s\tPa\tPa\n{rows}\n"
+    )
+    (found,) = blocks(tmp_path, "lims.txt", text)
+    is_the_sweep(found)
+    assert found.title == "Frequency sweep (80.0 °C)"
+
+
+def test_trios_json(tmp_path: Path) -> None:
+    names = {"Angular frequency": "rad/s", "Storage modulus": "Pa", "Loss modulus": "Pa", "Step": ""}
+    columns = [{"name": name, "unit": unit} for name, unit in names.items()]
+    data = {"columns": columns, "values": [[*row, 1] for row in SWEEP]}
+    tree = {"Experiment": {"Results": [{"Properties": {"Name": "Sweep"}, "DataSet": [{"Data": data}]}]}}
+    (found,) = blocks(tmp_path, "trios.json", json.dumps(tree))
+    is_the_sweep(found)
+
+
+def test_malvern_by_the_names_of_its_actions(tmp_path: Path) -> None:
+    head = (
+        "Action Name;Time (action)(s);Frequency(Hz);Shear modulus (elastic component)(Pa);"
+        "Shear modulus (viscous component)(Pa);Temperature(°C)"
+    )
+    rows = [f"Frequency Table;1,5;{x};{a};{b};80,00" for x, a, b in SWEEP]
+    shear = [f"Pre Shear;{i},5;;;;80,00" for i in range(3)]
+    first, second = blocks(tmp_path, "malvern.csv", "\n".join([head, *shear, *rows]).replace(".", ","))
+    assert (first.title, second.title) == ("Pre Shear", "Frequency Table")
+    is_the_sweep(second, "frequency")
+
+
+def test_netzsch_with_its_header_and_decimal_comma(tmp_path: Path) -> None:
+    text = (
+        "#EXPORTTYPE:DATA ALL\n#SAMPLE MASS /mg:4,98\n#EXO:-1\n##Temp./°C;Time/min;DSC/(mW/mg);Sensit./(uV/mW)\n"
+        " 9,33910; 91,0;-8,719357e-02;3,42\n 9,23910; 91,1;-8,7e-02;3,42\n 9,13910; 91,2;-8,6e-02;3,42\n"
+    )
+    (found,) = blocks(tmp_path, "netzsch.csv", text)
+    assert found.values("temperature")[0] == pytest.approx(273.15 + 9.3391)
+    assert found.values("time")[1] == pytest.approx(91.1 * 60.0)
+    assert found.values("specific_heat_flow")[0] == pytest.approx(-87.19357)
+    assert found.number("sample_mass") == pytest.approx(4.98e-6)
+
+
+@pytest.mark.parametrize(
+    "head",
+    ["T=80;Mw=80;chem=PCL;\n", "T=80;\n#\n#\n", "T=80;\n# Frequency\tG'\tG\" some star, 80C\t\t\n",
+     "T=80;\nFreq\tG'\tG\"\nrad/s\tPa\tPa\n"],
+)  # fmt: skip
+@pytest.mark.parametrize("ending", [".tts", ".osc"])
+def test_reptate_with_and_without_headings(tmp_path: Path, head: str, ending: str) -> None:
+    rows = "\n".join(f" {x:.8E} {a}\t{b}   0" for x, a, b in SWEEP).replace("E+0", "E+000")
+    (found,) = blocks(tmp_path, f"melt{ending}", head + rows + "\n")
+    is_the_sweep(found)
+    assert found.number("temperature") == pytest.approx(353.15)
+
+
+def test_a_workbook(tmp_path: Path) -> None:
+    cells = [["sample", "PCL"], [], ["ω (rad/s)", "G' (Pa)", "G'' (Pa)"], *SWEEP]
+    (found,) = blocks(tmp_path, "sweep.xlsx", workbook(cells))
+    is_the_sweep(found)
+    assert found.lines == (4, 6)
+
+
+def workbook(rows: list[list[object]]) -> bytes:
+    """The least that is a workbook (ECMA-376): one sheet with text in its cells, and numbers."""
+    lines = []
+    for i, row in enumerate(rows, start=1):
+        cells = "".join(
+            f'<c r="{chr(65 + j)}{i}"><v>{cell}</v></c>'
+            if isinstance(cell, float)
+            else f'<c r="{chr(65 + j)}{i}" t="inlineStr"><is><t>{cell}</t></is></c>'
+            for j, cell in enumerate(row)
+        )
+        lines.append(f'<row r="{i}">{cells}</row>')
+    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    package = "http://schemas.openxmlformats.org/package/2006"
+    kind = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+    files = {
+        "[Content_Types].xml": f'<Types xmlns="{package}/content-types"><Default Extension="rels" '
+        'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+        '<Override PartName="/xl/workbook.xml" '
+        f'ContentType="{kind}.sheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" '
+        f'ContentType="{kind}.worksheet+xml"/></Types>',
+        "_rels/.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
+        f'Type="{office}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
+        "xl/workbook.xml": f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets><sheet name="data" sheetId="1" '
+        'r:id="r1"/></sheets></workbook>',
+        "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
+        f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>',
+        "xl/worksheets/sheet1.xml": f'<worksheet xmlns="{main}"><sheetData>{"".join(lines)}</sheetData></worksheet>',
+    }
+    stream = BytesIO()
+    with zipfile.ZipFile(stream, "w") as book:
+        for name, text in files.items():
+            book.writestr(name, text)
+    return stream.getvalue()

@@ -1,0 +1,141 @@
+"""Text files in every way they are written: encodings, separators, decimal signs, headings, and what is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.reading.column_map import column_map, read_column_map
+from tvimdesign.simulation.measurement.reading.data_file import DataFile, read_data_file
+
+PLAIN = "time [s];angle [deg]\n0;10\n0.5;-2.5\n1;1e1\n"
+
+
+def read(place: Path, text: str | bytes, name: str = "data.csv", **mapped: object) -> DataFile:
+    path = place / name
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    return read_data_file(path, column_map(mapped, "the test") if mapped else None)
+
+
+def degrees(found: DataFile) -> list[float]:
+    return [round(float(one), 9) for one in np.degrees(found.blocks[0].values("angle"))]
+
+
+@pytest.mark.parametrize(
+    "encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32", "cp1252", "latin-1"]
+)
+@pytest.mark.parametrize("separator", ["\t", ";", ",", "|"])
+def test_encoding_and_separator_change_nothing(tmp_path: Path, encoding: str, separator: str) -> None:
+    found = read(tmp_path, PLAIN.replace("[deg]", "[°]").replace(";", separator).encode(encoding))
+    assert degrees(found) == [10.0, -2.5, 10.0]
+
+
+@pytest.mark.parametrize("separator", ["\t", ";"])
+def test_a_decimal_comma_is_read(tmp_path: Path, separator: str) -> None:
+    found = read(tmp_path, PLAIN.replace(".", ",").replace(";", separator))
+    assert degrees(found) == [10.0, -2.5, 10.0]
+    assert "decimal comma" in found.shown()[0]
+
+
+def test_what_may_be_thousands_is_refused_until_it_is_said(tmp_path: Path) -> None:
+    text = "time [s];angle [deg]\n1;1,234\n2;5,678\n3;9,012\n"
+    with pytest.raises(InputError, match="'1,234' may be a decimal comma or a separator of thousands"):
+        read(tmp_path, text)
+    assert degrees(read(tmp_path, text, decimal="comma")) == [1.234, 5.678, 9.012]
+
+
+def test_units_may_stand_in_a_row_of_their_own_or_after_a_slash(tmp_path: Path) -> None:
+    own = read(tmp_path, "Time\tAngle\tNote\ns\tmrad\t\n0\t1\ta\n1\t2\tb\n2\t3\tc\n")
+    slash = read(tmp_path, "Time/ms;Angle/mrad\n0;1\n1000;2\n2000;3\n")
+    for found in (own, slash):
+        assert found.blocks[0].values("time") == pytest.approx([0.0, 1.0, 2.0])
+        assert found.blocks[0].values("angle") == pytest.approx([1e-3, 2e-3, 3e-3])
+    assert own.blocks[0].unused == ("Note",)
+
+
+@pytest.mark.parametrize(
+    ("heading", "quantity"),
+    [
+        ("T [degC]", "temperature"), ("t [s]", "time"), ("f (Hz)", "frequency"), ("F (N)", "force"),
+        ("Freq [rad/s]", "angular_frequency"), ("Freq [Hz]", "angular_frequency"),
+        ("Heat Flow (W/g)", "specific_heat_flow"), ("Heat Flow (mW)", "heat_flow"),
+        ("DSC/(mW/mg)", "specific_heat_flow"),
+        ("Storage Modulus (kPa)", "storage_modulus"),
+    ],
+)  # fmt: skip
+def test_the_unit_decides_what_a_short_name_stands_for(tmp_path: Path, heading: str, quantity: str) -> None:
+    (block,) = read(tmp_path, f"angle [deg];{heading}\n1;1\n2;2\n3;3\n").blocks
+    assert set(block.columns) == {"angle", quantity}
+
+
+def test_every_table_of_a_file_is_a_block_with_its_lines(tmp_path: Path) -> None:
+    found = read(tmp_path, f"first run\n{PLAIN}\n\nsecond run\n{PLAIN}")
+    assert [block.lines for block in found.blocks] == [(3, 5), (10, 12)]
+    assert [block.title for block in found.blocks] == ["first run", "second run"]
+
+
+def test_one_text_is_split_by_blanks(tmp_path: Path) -> None:
+    found = read(tmp_path, "time/s  angle/deg\n  0   1.0\n 1 2.0\n  2\t3.0\n")
+    assert degrees(found) == [1.0, 2.0, 3.0]
+    with pytest.raises(InputError, match=r"data.csv:2: 2 numbers under 4 headings; where blanks separate"):
+        read(tmp_path, "time (s) angle (deg)\n  0   1.0\n 1 2.0\n  2 3.0\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time [s];angle [deg]\n0;1\n1;x\n2;3\n", r"data.csv:3: column 2: 'x' is no number"),
+        ("time [s];angle\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle', has no unit"),
+        ("time [s];angle [mm]\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle \[mm\]': 'mm' is no unit of angle"),
+    ],
+)
+def test_a_column_that_is_wrong_stops_who_needs_it_and_nobody_else(tmp_path: Path, text: str, said: str) -> None:
+    block = read(tmp_path, text).blocks[0]
+    assert block.complete(["time"]) == 3
+    with pytest.raises(InputError, match=said):
+        block.complete(["time", "angle"])
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time [s];angle [deg]\n0;1\n1;2;9\n2;3\n", r"data.csv:3: 3 cells, but 2 headings; '9' has none"),
+        ("0;1\n1;2\n2;3\n", r"data.csv:1: numbers without a row of headings above them"),
+        ("time [s];angle [deg]\n0;1\nbad;worse\n2;3\n", r"data.csv:3: no number in this row"),
+        ("nothing\nhere\n", r"no line has two numbers side by side"),
+        (b"\x00\x01\x02\x00\x00" * 40, r"this is no text"),
+    ],
+)
+def test_a_file_that_does_not_go_together_is_refused_with_its_line(
+    tmp_path: Path, text: str | bytes, said: str
+) -> None:
+    with pytest.raises(InputError, match=said):
+        read(tmp_path, text)
+
+
+def test_a_column_map_says_what_a_file_does_not(tmp_path: Path) -> None:
+    text = "a;b;c\n0;1;7\n1;2;8\n2;3;9\n"
+    assert degrees(read(tmp_path, text, time={"column": 1, "unit": "s"}, angle={"heading": "b", "unit": "deg"})) == [
+        1.0, 2.0, 3.0,
+    ]  # fmt: skip
+    path = tmp_path / "map.yaml"
+    path.write_text("angle: {column: 3, unit: deg}\nseparator: semicolon\n")
+    assert degrees(read_data_file(tmp_path / "data.csv", read_column_map(path))) == [7.0, 8.0, 9.0]
+
+
+@pytest.mark.parametrize(
+    ("mapped", "said"),
+    [
+        ({"angel": 1}, "angel is no quantity"),
+        ({"angle": {"columm": 1}}, "angle: expected a heading"),
+        ({"angle": {"column": 1, "unit": "kg"}}, "'kg' is no unit of it, such as deg"),
+        ({"decimal": "dot"}, "decimal: expected point, comma"),
+        (["angle"], "expected quantities with their columns"),
+    ],
+)
+def test_a_wrong_column_map_says_where(mapped: object, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        column_map(mapped, "map.yaml")

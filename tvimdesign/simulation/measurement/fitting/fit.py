@@ -1,0 +1,103 @@
+"""A problem fitted: every parameter with its interval, what follows from them, residuals, and what has to be said."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tvimdesign.simulation.measurement.fitting.intervals import Spread, moved_by, profile_end, spread
+from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Problem
+from tvimdesign.simulation.measurement.fitting.residuals import Residuals
+from tvimdesign.simulation.measurement.fitting.robust_fit import RobustFit, robust_fit
+from tvimdesign.simulation.measurement.fitting.told_apart import correlation, in_words
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A value with its interval of 95 %, in SI; without one where the data do not determine it."""
+
+    name: str
+    unit: str
+    meaning: str
+    value: float
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What the data say."""
+
+    problem: Problem
+    parameters: tuple[Estimate, ...]
+    derived: tuple[Estimate, ...]
+    correlation: Array
+    predicted: tuple[Array, ...]
+    """What each channel should be [SI]."""
+    noise: tuple[float, ...]
+    """Standard deviation of each channel, in SI or as a share."""
+    autocorrelation: tuple[float, ...]
+    words: tuple[str, ...]
+
+    def value(self, name: str) -> float:
+        """The value of a parameter, or of what follows [SI]."""
+        return self[name].value
+
+    def __getitem__(self, name: str) -> Estimate:
+        """A parameter, or what follows, by its name."""
+        return next(one for one in (*self.parameters, *self.derived) if one.name == name)
+
+
+def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
+    """Fit a problem; without `profiles` the intervals are those of the covariance.
+
+    Raises InputError where there are fewer values than parameters, or the equations give no number at the start.
+    """
+    residuals = Residuals(problem)
+    start = np.array([one.inner(one.start) for one in problem.parameters])
+    best = robust_fit(residuals, start)
+    known = spread(residuals, best)
+    free = {i for direction in known.free_directions for i in moved_by(direction)}
+    parameters, words = [], in_words(problem, known)
+    for i, one in enumerate(problem.parameters):
+        ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
+        if one.nuisance:
+            continue
+        words += _unbounded(one, ends)
+        parameters.append(_estimate(one, best.inner[i], ends))
+    return Fit(
+        problem, tuple(parameters), _derived(residuals, best, known), correlation(known.covariance),
+        tuple(residuals.predicted(best.inner)), tuple(map(float, best.noise)),
+        tuple(map(float, known.autocorrelation)), tuple(words),
+    )  # fmt: skip
+
+
+def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profiles: bool) -> tuple[float, float]:
+    half = known.quantile * float(np.sqrt(known.covariance[at, at]))
+    if not profiles or half == 0.0:
+        least = residuals.problem.parameters[at].bounds[0]
+        return max(best.inner[at] - half, least), best.inner[at] + half
+    return profile_end(residuals, best, known, at, -1), profile_end(residuals, best, known, at, 1)
+
+
+def _estimate(one: Parameter, inner: float, ends: tuple[float | None, float | None]) -> Estimate:
+    low, high = (None if end is None or not np.isfinite(end) else float(one.outer(end)) for end in ends)
+    return Estimate(one.name, one.unit, one.meaning, float(one.outer(inner)), low, high)
+
+
+def _unbounded(one: Parameter, ends: tuple[float | None, float | None]) -> list[str]:
+    sides = [side for end, side in zip(ends, ("below", "above"), strict=True) if end is not None and np.isinf(end)]
+    return [f"The data do not bound {one.name} from {side}." for side in sides]
+
+
+def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Estimate, ...]:
+    """What follows, with the intervals of its logarithm by the covariance; none where a free direction moves it."""
+    logarithms, slopes = residuals.derived(best.inner)
+    found = []
+    for one, middle, slope in zip(residuals.problem.derived, logarithms, slopes, strict=True):
+        half = known.quantile * float(np.sqrt(max(slope @ known.covariance @ slope, 0.0)))
+        open_ = any(abs(slope @ direction) > 1e-6 * np.max(np.abs(slope)) for direction in known.free_directions)
+        ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(min(middle + half, 700.0))))
+        found.append(Estimate(one.name, one.unit, one.meaning, float(np.exp(middle)), *ends))
+    return tuple(found)

@@ -1,0 +1,161 @@
+"""Robust least squares: an outlier pulls with less than its square, and each channel's noise is read off its residuals.
+
+Sources: [H] Huber and Ronchetti, Robust Statistics, 2nd ed. (M-estimates, "proposal 2" for the scale);
+loss and solver as in scipy.optimize.least_squares (soft_l1, trust-region reflective).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.fitting.problem import Array
+from tvimdesign.simulation.measurement.fitting.residuals import Residuals
+
+LINEAR_UP_TO = 2.0
+"""Deviations from which on a residual pulls as its size and no more as its square; 3 % wider intervals without
+outliers."""
+_NORMAL = 1.4826  # deviation over the median of the sizes, for a normal distribution
+_ROUNDS, _PASSES = 20, 8
+_EXACT, _MOST_STEPS = 1e-9, 100
+_ROUGH, _FEW_STEPS = 1e-6, 8
+_SETTLED = 1e-3
+_LEAST_NOISE = 1e-9
+
+
+@dataclass(frozen=True)
+class RobustFit:
+    """The parameters that fit best, and each channel's noise."""
+
+    inner: Array
+    noise: Array
+    """Standard deviation of each channel, in its unit or as a share."""
+    cost: float
+    """Sum of the loss of all residuals over their noise."""
+
+
+def loss(z: Array) -> Array:
+    """Loss of residuals over their noise, 2 c^2 (sqrt(1 + z^2/c^2) - 1): z^2 for small ones."""
+    square = (z / LINEAR_UP_TO) ** 2
+    return np.asarray(2.0 * LINEAR_UP_TO**2 * (np.sqrt(1.0 + square) - 1.0))
+
+
+def influence(z: Array) -> tuple[Array, Array]:
+    """Half the derivative of the loss by the residual, and its slope."""
+    square = 1.0 + (z / LINEAR_UP_TO) ** 2
+    return z / np.sqrt(square), square**-1.5
+
+
+def _mean_square() -> float:
+    """Mean square of the influence of an error of normal distribution."""
+    z = np.linspace(-8.0, 8.0, 4001)
+    density = np.exp(-0.5 * z**2)
+    return float(np.sum(influence(z)[0] ** 2 * density) / np.sum(density))
+
+
+_MEAN_SQUARE = _mean_square()
+
+
+def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
+    """Fit from a start. Raises InputError where the equations give no number there, or there are too few data."""
+    count = len(start)
+    if residuals.problem.count <= count:
+        raise InputError(
+            f"{residuals.problem.count} values do not give {count} parameters; give more rows, or more files"
+        )
+    if not np.all(np.isfinite(residuals.at(start))):
+        raise InputError(
+            "the equations give no number at the start of the fit; look at units and ranges of the columns"
+        )
+    noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
+    inner = start
+    for _ in range(_PASSES):
+        inner = solved(residuals, inner, noise)
+        now = _noises(residuals, inner, parameters_of(residuals, inner, noise))
+        now = np.maximum(now, _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts]))
+        settled = np.all(np.abs(now / noise - 1.0) < _SETTLED)
+        noise = now
+        if settled:
+            break
+    inner = solved(residuals, inner, noise)
+    return RobustFit(inner, noise, cost(residuals, inner, noise))
+
+
+def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None = None) -> Array:
+    """The numbers of least loss for a given noise; one may stay as it is, and the others are then found to less."""
+    tolerance, steps = (_EXACT, _MOST_STEPS) if fixed is None else (_ROUGH, _FEW_STEPS)
+    free = np.arange(len(start)) != fixed
+    weights = weights_of(residuals, noise)
+    bounds = np.array([one.bounds for one in residuals.problem.parameters])[free]
+
+    def whole(part: Array) -> Array:
+        inner = start.copy()
+        inner[free] = part
+        return inner
+
+    def values(part: Array) -> Array:
+        return residuals.at(whole(part)) * weights
+
+    def jacobian(part: Array) -> Array:
+        return (residuals.jacobian(whole(part)) * weights[:, None])[:, free]
+
+    found = least_squares(
+        values,
+        np.clip(start[free], bounds[:, 0], bounds[:, 1]), jac=jacobian, bounds=(bounds[:, 0], bounds[:, 1]),
+        loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=tolerance, ftol=tolerance, gtol=tolerance, max_nfev=steps,
+        x_scale="jac",
+    )  # fmt: skip
+    return whole(found.x)
+
+
+def parameters_of(residuals: Residuals, inner: Array, noise: Array) -> Array:
+    """How many of the parameters each channel determines: the sum of the leverages of its values."""
+    jacobian = residuals.jacobian(inner) * weights_of(residuals, noise)[:, None]
+    left, sizes, _ = np.linalg.svd(jacobian, full_matrices=False)
+    leverage = np.sum(left[:, sizes > 1e-10 * sizes[0]] ** 2, axis=1)
+    return np.array([float(np.sum(leverage[part])) for part in residuals.parts])
+
+
+def weights_of(residuals: Residuals, noise: Array) -> Array:
+    """One over the noise, for every value."""
+    weights = np.empty(residuals.problem.count)
+    for part, one in zip(residuals.parts, noise, strict=True):
+        weights[part] = 1.0 / one
+    return weights
+
+
+def cost(residuals: Residuals, inner: Array, noise: Array) -> float:
+    """Sum of the loss."""
+    return float(np.sum(loss(residuals.at(inner) * weights_of(residuals, noise))))
+
+
+def _noises(residuals: Residuals, inner: Array, taken: Array) -> Array:
+    """Noise of every channel, from the residuals of all that err alike; `taken` is what `parameters_of` gives."""
+    values = residuals.at(inner)
+    return np.array(
+        [
+            _noise_of(np.concatenate([values[residuals.parts[i]] for i in alike]), float(np.sum(taken[alike])))
+            for alike in residuals.alike
+        ]
+    )
+
+
+def _noise_of(values: Array, parameters: float) -> float:
+    """Deviation of a channel, for which the mean square of the influence is what it is of a normal error [H].
+
+    Parameters take their share of the residuals away. Begins at the median of the sizes; 1 where all are zero.
+    """
+    share = max(1.0 - parameters / len(values), 0.1)
+    noise = float(_NORMAL * np.median(np.abs(values))) or float(np.std(values)) or 1.0
+    for _ in range(_ROUNDS):
+        pull, _ = influence(values / noise)
+        noise *= float(np.sqrt(np.mean(pull**2) / (share * _MEAN_SQUARE)))
+    return noise
+
+
+def _size(residuals: Residuals, part: slice) -> float:
+    channel = residuals.problem.channels[residuals.parts.index(part)]
+    return 1.0 if channel.relative else float(np.max(np.abs(channel.measured))) or 1.0

@@ -1,0 +1,76 @@
+"""In words: which parameters the data cannot tell apart, and what else a reader of the fit has to know."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tvimdesign.simulation.measurement.fitting.intervals import Spread, moved_by
+from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Problem
+
+CLOSE = 0.95
+"""Correlation from which on two parameters are named together."""
+_FOLLOW = 0.5
+
+
+def in_words(problem: Problem, known: Spread) -> list[str]:
+    """Sentences about free directions, close correlations, and residuals that follow one another."""
+    undetermined: set[int] = set()
+    said = []
+    for direction in known.free_directions:
+        moved = moved_by(direction)
+        undetermined.update(moved)
+        said.append(_free(problem.parameters, direction, moved))
+    said += _correlated(problem.parameters, correlation(known.covariance), undetermined)
+    following = [(rho, channel.name) for channel, rho in zip(problem.channels, known.autocorrelation, strict=True)]
+    rho, name = max(following)
+    if rho > _FOLLOW:
+        wider = np.sqrt((1.0 + rho) / (1.0 - rho))
+        said.append(
+            f"Residuals follow one another, most those of {name} (correlation {rho:.2f}): the equations leave "
+            f"something out, or the instrument smooths. What these data say counts as {wider:.1f} times less sure."
+        )
+    return said
+
+
+def correlation(covariance: Array) -> Array:
+    """Correlation of the parameters; zero where one has no spread."""
+    deviation = np.sqrt(np.diag(covariance))
+    deviation[deviation == 0.0] = np.inf
+    return np.asarray(covariance / np.outer(deviation, deviation))
+
+
+def _free(parameters: Sequence[Parameter], direction: Array, moved: Sequence[int]) -> str:
+    names = [parameters[i].name for i in moved]
+    if len(moved) == 1:
+        return f"The data say nothing of {names[0]}: no prediction depends on it. Its value is the start of the fit."
+    together = "rise together" if len({np.sign(direction[i]) for i in moved}) == 1 else "make up for one another"
+    ratio = (
+        " Only their ratios are known."
+        if all(parameters[i].positive or parameters[i].least == 0.0 for i in moved)
+        else ""
+    )
+    return (
+        f"The data cannot tell {_listed(names)} apart: they {together} without changing any prediction.{ratio} "
+        "Measure one of them otherwise and give it with --set."
+    )
+
+
+def _correlated(parameters: Sequence[Parameter], rho: Array, left_out: set[int]) -> list[str]:
+    said = []
+    for i, one in enumerate(parameters):
+        for j in range(i + 1, len(parameters)):
+            if abs(rho[i, j]) < CLOSE or {i, j} & left_out or one.nuisance or parameters[j].nuisance:
+                continue
+            how = "rises with" if rho[i, j] > 0.0 else "falls as"
+            end = "" if rho[i, j] > 0.0 else " rises"
+            said.append(
+                f"The data hardly tell {one.name} and {parameters[j].name} apart (correlation {rho[i, j]:.3f}): "
+                f"{one.name} {how} {parameters[j].name}{end}, and each alone is less sure than both together."
+            )
+    return said
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(names[:-1]) + f" and {names[-1]}"

@@ -1,0 +1,92 @@
+"""What a kind of measurement needs and what a user can set for it, as `kinds.yaml` says; nothing heavy is loaded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from tvimdesign.base.errors import InputError, UnitError
+from tvimdesign.base.units import parse_quantity, to_si
+
+if TYPE_CHECKING:
+    from tvimdesign.simulation.measurement.reading.data_file import Block
+
+_FILE = Path(__file__).with_name("kinds.yaml")
+
+
+@dataclass(frozen=True)
+class KindSheet:
+    """A kind of measurement."""
+
+    name: str
+    about: str
+    needs: tuple[tuple[str, ...], ...]
+    """Columns; of each tuple one."""
+    takes: tuple[str, ...]
+    """Columns that are used where they are there."""
+    category: str
+    """Of the catalogue's record that follows; empty where none does."""
+    settings: Mapping[str, Mapping[str, Any]]
+
+    def column(self, block: Block, need: tuple[str, ...]) -> str | None:
+        """Which of the columns that will do a block has."""
+        return next((name for name in need if name in block.columns), None)
+
+    def fits(self, block: Block) -> bool:
+        """Whether a block has every column."""
+        return all(self.column(block, need) for need in self.needs)
+
+    def lacking(self, block: Block) -> str:
+        """What a block lacks, in words; why a column of that name could not be read, where there is one."""
+        for need in self.needs:
+            if self.column(block, need) is None:
+                why = next((block.problems[name] for name in need if name in block.problems), "")
+                return why or f"{block.file}:{block.lines[0]}: no column is {' or '.join(need)}"
+        return ""
+
+    def values(self, given: Mapping[str, str]) -> dict[str, float]:
+        """Settings in SI: those given, as `name=value with unit`, and the defaults. Raises InputError."""
+        found = {
+            name: to_si(float(entry["default"]), entry["unit"])
+            for name, entry in self.settings.items()
+            if "default" in entry
+        }
+        for name, text in given.items():
+            if name not in self.settings:
+                close = get_close_matches(name, self.settings, n=1)
+                hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(self.settings)}"
+                raise InputError(f"--set {name}: {self.name} has no such setting; {hint}")
+            try:
+                found[name] = parse_quantity(text, self.settings[name]["unit"])
+            except UnitError as error:
+                raise InputError(f"--set {name}: {error}") from None
+        return found
+
+
+@cache
+def kind_sheets() -> dict[str, KindSheet]:
+    """Every kind by its name."""
+    tree = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+    return {
+        name: KindSheet(
+            name, entry["about"], tuple(tuple(need.split(" | ")) for need in entry["needs"]),
+            tuple(entry.get("takes", ())), entry.get("category", ""), entry["settings"],
+        )
+        for name, entry in tree.items()
+    }  # fmt: skip
+
+
+def kind_sheet(name: str) -> KindSheet:
+    """A kind by its name. Raises InputError with the nearest."""
+    sheets = kind_sheets()
+    if name in sheets:
+        return sheets[name]
+    close = get_close_matches(name, sheets, n=1)
+    hint = f"did you mean {close[0]}? " if close else ""
+    raise InputError(f"no kind of measurement is named {name[:40]!r}; {hint}there are {', '.join(sheets)}")

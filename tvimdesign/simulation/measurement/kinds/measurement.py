@@ -1,0 +1,57 @@
+"""What a kind of measurement comes to: the fit, notes, and what follows for a record of the catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
+from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+
+Settings = Mapping[str, float]
+LEAST_ROWS = 3
+
+
+@dataclass(frozen=True)
+class RecordTableFound:
+    """A table of a record: columns with their units, rows in SI."""
+
+    columns: Mapping[str, str]
+    rows: Sequence[Sequence[float]]
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What data of a kind come to."""
+
+    fit: Fit
+    notes: tuple[str, ...] = ()
+    """What a reader has to know: what was taken for what, what was left out."""
+    record_values: Mapping[str, Estimate] = field(default_factory=dict)
+    """Values of a record, by their names there."""
+    record_tables: Mapping[str, RecordTableFound] = field(default_factory=dict)
+    record_conditions: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+    """Values of a record that were chosen, not measured, and go with the others: in SI, with the unit to write."""
+
+
+def required(settings: Settings, name: str, why: str) -> float:
+    """A setting that must be there. Raises InputError."""
+    if name not in settings:
+        raise InputError(f"--set {name}=...: needed, {why}")
+    return settings[name]
+
+
+def rows_of(block: Block, quantities: Sequence[str]) -> list[Array]:
+    """These columns of a block, the rows in which all of them stand. Raises InputError where there are too few."""
+    count = block.complete(quantities)
+    if count < LEAST_ROWS:
+        raise InputError(
+            f"{block.file}:{block.lines[0]}: {count} rows have {', '.join(quantities)} all at once; "
+            f"at least {LEAST_ROWS} are needed"
+        )
+    import numpy as np
+
+    values = [block.values(quantity) for quantity in quantities]
+    whole = np.all([np.isfinite(one) for one in values], axis=0)
+    return [one[whole] for one in values]

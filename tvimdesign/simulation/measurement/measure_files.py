@@ -1,0 +1,91 @@
+"""Files to a measurement: read, the kind found where it is not said, its tables fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.kind_sheet import KindSheet, kind_sheet, kind_sheets
+from tvimdesign.simulation.measurement.kinds.measurement import LEAST_ROWS, Measurement
+from tvimdesign.simulation.measurement.reading.column_map import ColumnMap
+from tvimdesign.simulation.measurement.reading.data_file import Block, DataFile, read_data_file
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What files of a kind come to."""
+
+    kind: KindSheet
+    files: tuple[DataFile, ...]
+    blocks: tuple[Block, ...]
+    """The tables that were fitted."""
+    measurement: Measurement
+
+    def read(self) -> list[str]:
+        """What was understood of the files, and how many of their tables were fitted, in lines."""
+        return [*(line for file in self.files for line in file.shown()), self._taken()]
+
+    def read_for_the_fit(self, most: int) -> list[str]:
+        """The same of the first few tables that were fitted, and of the columns that the fit uses."""
+        uses = [name for need in self.kind.needs for name in need] + list(self.kind.takes)
+        lines = [f"{file.path}: {file.how}" for file in self.files]
+        lines += [line for block in self.blocks[:most] for line in block.shown(uses)]
+        lines += [f"  and {len(self.blocks) - most} more like these"] if len(self.blocks) > most else []
+        return [*lines, self._taken()]
+
+    def _taken(self) -> str:
+        there = sum(len(file.blocks) for file in self.files)
+        return f"fitted as {self.kind.name}: {len(self.blocks)} of {there} {'table' if there == 1 else 'tables'}"
+
+    @property
+    def source(self) -> str:
+        """The files with their hashes, as a record's source has them."""
+        named = ", ".join(f"{file.path.name} (sha256 {file.sha256})" for file in self.files)
+        return f"fitted to {named} as {self.kind.name}"
+
+
+def measure_files(
+    paths: Sequence[Path], kind: str = "", settings: Mapping[str, str] | None = None, columns: ColumnMap | None = None
+) -> Measured:
+    """Fit files, all together. Raises InputError for what cannot be read or lacks."""
+    if not paths:
+        raise InputError("give at least one file of measured data")
+    files = tuple(read_data_file(path, columns) for path in paths)
+    blocks = [block for file in files for block in file.blocks]
+    sheet = kind_sheet(kind) if kind else _likely_kind(blocks)
+    values = sheet.values(settings or {})
+    fitting = tuple(block for block in blocks if sheet.fits(block) and _rows(block, sheet) >= LEAST_ROWS)
+    if not fitting:
+        most = max(blocks, key=lambda block: sum(sheet.column(block, need) is not None for need in sheet.needs))
+        why = sheet.lacking(most) or f"{most.file}:{most.lines[0]}: fewer than {LEAST_ROWS} whole rows"
+        raise InputError(
+            f"{why}; {sheet.name} needs {_needed(sheet)}. A column map (--columns) says which column is what"
+        )
+    measure = import_module(f"tvimdesign.simulation.measurement.kinds.{sheet.name}").measure
+    return Measured(sheet, files, fitting, measure(fitting, values))
+
+
+def _rows(block: Block, sheet: KindSheet) -> int:
+    return block.complete([name for need in sheet.needs if (name := sheet.column(block, need))])
+
+
+def _likely_kind(blocks: Sequence[Block]) -> KindSheet:
+    """The one kind whose columns a table has. Raises InputError where there is none, or several."""
+    likely = [sheet for sheet in kind_sheets().values() if any(sheet.fits(block) for block in blocks)]
+    if len(likely) == 1:
+        return likely[0]
+    names = [sheet.name for sheet in likely or kind_sheets().values()]
+    found = sorted({name for block in blocks for name in block.columns})
+    said = "may be " if likely else "are of no kind there is: "
+    problems = [why for block in blocks for why in block.problems.values()]
+    raise InputError(
+        f"the columns ({', '.join(found) or 'none of a known name'}) {said}{', '.join(names)}; say which with --as"
+        + (f"\n{problems[0]}" if problems else "")
+    )
+
+
+def _needed(sheet: KindSheet) -> str:
+    return ", ".join(" or ".join(need) for need in sheet.needs)

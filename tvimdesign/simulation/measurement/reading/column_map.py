@@ -1,0 +1,76 @@
+"""What a user says about a file that it does not say itself: which column is what, units, separator, decimal sign."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, plain, unit_of
+from tvimdesign.simulation.measurement.reading.separated import DECIMALS, SEPARATORS
+
+_WORDS: dict[str, Mapping[str, str]] = {"separator": SEPARATORS, "decimal": DECIMALS}
+_ENTRY = ("heading", "column", "unit")
+
+
+@dataclass(frozen=True)
+class ColumnMap:
+    """Columns by quantity, each `heading`, or `column` from 1, and `unit` where the file has none or a wrong one."""
+
+    columns: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    separator: str = ""
+    decimal: str = ""
+
+    def applied(self, headings: list[Heading]) -> list[Heading]:
+        """The headings with what the map says; a quantity it names is no longer found elsewhere."""
+        taken = [one._replace(quantity="") if one.quantity in self.columns else one for one in headings]
+        for quantity, entry in self.columns.items():
+            for i, one in enumerate(taken):
+                meant = (
+                    plain(one.text) == plain(str(entry["heading"])) if "heading" in entry else i + 1 == entry["column"]
+                )
+                if meant:
+                    taken[i] = one._replace(quantity=quantity, unit=str(entry.get("unit", one.unit)))
+        return taken
+
+
+def read_column_map(path: Path) -> ColumnMap:
+    """Read a column map: YAML such as `{angle: {column: 2, unit: deg}, decimal: comma}`. Raises InputError."""
+    try:
+        tree = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError, yaml.YAMLError) as error:
+        raise InputError(f"{path}: cannot be read as a column map in YAML ({str(error)[:80]})") from None
+    return column_map(tree, str(path))
+
+
+def column_map(tree: Any, file: str) -> ColumnMap:
+    """A column map from plain data. Raises InputError naming the key and what was expected."""
+    if not isinstance(tree, Mapping):
+        raise InputError(f"{file}: expected quantities with their columns, as in `angle: {{column: 2, unit: deg}}`")
+    quantities = known()["quantities"]
+    columns = {}
+    for key, entry in tree.items():
+        if key in _WORDS:
+            if entry not in _WORDS[key]:
+                raise InputError(f"{file}: {key}: expected {', '.join(_WORDS[key])}")
+            continue
+        if key not in quantities:
+            raise InputError(f"{file}: {str(key)[:40]} is no quantity; there are {', '.join(quantities)}")
+        columns[key] = _entry(key, entry, file)
+    return ColumnMap(columns, str(tree.get("separator", "")), str(tree.get("decimal", "")))
+
+
+def _entry(key: str, entry: Any, file: str) -> Mapping[str, Any]:
+    if isinstance(entry, str):
+        return {"heading": entry}
+    if isinstance(entry, int) and not isinstance(entry, bool):
+        return {"column": entry}
+    if not isinstance(entry, Mapping) or set(entry) - set(_ENTRY) or not {"heading", "column"} & set(entry):
+        raise InputError(f"{file}: {key}: expected a heading, the count of the column, or {{column: 2, unit: deg}}")
+    if "unit" in entry and conversion(str(entry["unit"]), unit_of(key)) is None:
+        raise InputError(f"{file}: {key}: {entry['unit']!r} is no unit of it, such as {unit_of(key)}")
+    return entry

@@ -1,0 +1,191 @@
+"""A file of measured data: blocks of named columns in SI, with the place of everything in the file."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import pretty
+from tvimdesign.simulation.measurement.reading.column_map import ColumnMap
+from tvimdesign.simulation.measurement.reading.decoded import decoded, file_bytes
+from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, unit_of
+from tvimdesign.simulation.measurement.reading.separated import Sheet, separated
+from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blocks_of
+from tvimdesign.simulation.measurement.reading.trios_json import json_sheets
+from tvimdesign.simulation.measurement.reading.workbook import ENDINGS, workbook_sheets
+
+Array = NDArray[np.float64]
+_NOTHING = {"", "-", "--", "---", "n/a", "na", "nan", "none", "nd", "no value"}
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column that is understood: its quantity, how the file calls it, its unit there, and its values in SI."""
+
+    quantity: str
+    heading: str
+    unit: str
+    values: Array
+    """Not a number where the cell is empty."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A table of a file; every column is as long as it has rows."""
+
+    file: str
+    title: str
+    lines: tuple[int, int]
+    columns: Mapping[str, Column]
+    unused: tuple[str, ...]
+    settings: Mapping[str, str]
+    skipped: tuple[int, ...] = ()
+    """Lines among the rows that hold no number."""
+    problems: Mapping[str, str] = field(default_factory=dict)
+    """Why a column of a known name could not be read, by its quantity: with line and column."""
+
+    def values(self, quantity: str) -> Array:
+        """The values of a column in SI. Raises KeyError where the block lacks it."""
+        return self.columns[quantity].values
+
+    def complete(self, quantities: Sequence[str]) -> int:
+        """Rows in which all these stand; 0 where a column lacks. Raises InputError where one could not be read."""
+        for quantity in quantities:
+            if quantity in self.problems:
+                raise InputError(self.problems[quantity])
+        if any(quantity not in self.columns for quantity in quantities):
+            return 0
+        return int(np.sum(np.all([np.isfinite(self.values(one)) for one in quantities], axis=0)))
+
+    def number(self, setting: str) -> float | None:
+        """A setting said before the table, in SI; None where it is not there or no number."""
+        words = self.settings.get(setting, "").replace(",", ".").split()
+        entry = known()["settings"][setting]
+        try:
+            value = float(words[0])
+        except (IndexError, ValueError):
+            return None
+        found = conversion(words[1] if len(words) > 1 else entry["unit"], entry["unit"])
+        return None if found is None else found[0] + found[1] * value
+
+    def shown(self, uses: Sequence[str] = ()) -> list[str]:
+        """Its columns with their units and ranges, in lines: those of `uses`, or all, and what is unused then."""
+        rows = max((len(column.values) for column in self.columns.values()), default=0)
+        title = f" {self.title!r}" if self.title else ""
+        lines = [f"  lines {self.lines[0]} to {self.lines[1]}{title}: {rows} rows"]
+        lines += [f"    {name}: {_range(column)}" for name, column in self.columns.items() if not uses or name in uses]
+        lines += [f"    {name}: not read ({why})" for name, why in self.problems.items() if not uses or name in uses]
+        if self.unused and not uses:
+            lines.append(f"    not used: {', '.join(self.unused)}")
+        if self.skipped:
+            lines.append(f"    without a number: line {', '.join(map(str, self.skipped))}")
+        return lines
+
+
+@dataclass(frozen=True)
+class DataFile:
+    """A file as it was understood."""
+
+    path: Path
+    sha256: str
+    how: str
+    """Encoding, separator and decimal sign, in words."""
+    blocks: tuple[Block, ...]
+
+    def shown(self) -> list[str]:
+        """What was understood, in lines: each block with its columns, their units and ranges, and what is unused."""
+        lines = [f"{self.path}: {self.how}, {len(self.blocks)} {'table' if len(self.blocks) == 1 else 'tables'}"]
+        return [*lines, *(line for block in self.blocks for line in block.shown())]
+
+
+def read_data_file(path: Path, columns: ColumnMap | None = None) -> DataFile:
+    """Read a file of measured data: text, CSV, Excel, TRIOS's JSON, RepTate's .tts, .osc and .gt.
+
+    Raises InputError with the line where rows and headings do not go together. A column in which a cell is no number,
+    or whose unit lacks or is of another kind, is among the block's `problems`: it stops who needs it.
+    """
+    columns = columns or ColumnMap()
+    data = file_bytes(path)
+    sheets, how = _sheets(path, data, columns)
+    raw = [(sheet, block) for sheet in sheets for block in blocks_of(sheet, _place(path, sheet), path.suffix)]
+    if not raw:
+        raise InputError(f"{path}: no table of numbers under headings was found")
+    blocks = tuple(_block(block, sheet, _place(path, sheet), columns) for sheet, block in raw)
+    return DataFile(path, hashlib.sha256(data).hexdigest(), how, blocks)
+
+
+def _place(path: Path, sheet: Sheet) -> str:
+    return f"{path} ({sheet.title})" if sheet.separator == "sheet" and sheet.title else str(path)
+
+
+def _sheets(path: Path, data: bytes, columns: ColumnMap) -> tuple[list[Sheet], str]:
+    if path.suffix.lower() in ENDINGS:
+        return workbook_sheets(data, str(path)), "workbook"
+    text, encoding = decoded(data, str(path))
+    if text.lstrip()[:1] in {"{", "["} and path.suffix.lower() == ".json":
+        return json_sheets(text, str(path)), "JSON"
+    sheet = separated(text, str(path), columns.separator, columns.decimal)
+    return [sheet], f"{encoding}, separated by {sheet.separator}, decimal {sheet.decimal}"
+
+
+def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
+    found: dict[str, Column] = {}
+    problems: dict[str, str] = {}
+    unused = []
+    for i, one in enumerate(columns.applied(raw.headings)):
+        if not one.quantity or one.quantity in found:
+            unused += [one.text] if one.text and not one.text.startswith("column ") else []
+            continue
+        try:
+            column = _column(i, one, raw, sheet, file)
+        except InputError as error:
+            problems.setdefault(one.quantity, str(error))
+            continue
+        if column is not None:
+            found[one.quantity] = column
+    lines = raw.rows[0].line, raw.rows[-1].line
+    unread = {quantity: why for quantity, why in problems.items() if quantity not in found}
+    return Block(file, raw.title, lines, found, tuple(unused), raw.settings, tuple(raw.skipped), unread)
+
+
+def _column(at: int, one: Heading, raw: RawBlock, sheet: Sheet, file: str) -> Column | None:
+    """A column in SI; None where all its cells are empty. Raises InputError."""
+    cells = [row.cells[at] if at < len(row.cells) else "" for row in raw.rows]
+    if all(cell.lower() in _NOTHING for cell in cells):
+        return None
+    wanted = unit_of(one.quantity)
+    where = f"{file}:{raw.rows[0].line}: column {at + 1}, {one.text!r}"
+    if not one.unit:
+        raise InputError(
+            f"{where}, has no unit; write it into the heading, as in '{one.text} [{wanted}]', or into a column map"
+        )
+    found = conversion(one.unit, wanted)
+    if found is None:
+        raise InputError(f"{where}: {one.unit!r} is no unit of {one.quantity}, such as {wanted}")
+    numbers = [_number(cell, row.line, at, sheet, file) for cell, row in zip(cells, raw.rows, strict=True)]
+    return Column(one.quantity, one.text, one.unit, found[0] + found[1] * np.array(numbers, dtype=float))
+
+
+def _number(cell: str, line: int, at: int, sheet: Sheet, file: str) -> float:
+    value = sheet.number(cell)
+    if value is None:
+        if cell.lower() in _NOTHING:
+            return float("nan")
+        raise InputError(f"{file}:{line}: column {at + 1}: {cell[:30]!r} is no number")
+    return value
+
+
+def _range(column: Column) -> str:
+    """`'G'' [Pa], 120 to 4.1e5`, in the file's own unit."""
+    found = conversion(column.unit, unit_of(column.quantity))
+    assert found is not None
+    finite = column.values[np.isfinite(column.values)]
+    low, high = ((end - found[0]) / found[1] for end in (finite.min(), finite.max()))
+    unit = pretty(column.unit) or "plain number"
+    return f"{column.heading!r} in {unit}, {low:.4g} to {high:.4g}"

@@ -1,0 +1,205 @@
+"""Rows of cells as blocks: headings, units, numbers, and what the lines before them say."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.reading.headings import Heading, heading, is_unit, known, plain, setting_name
+from tvimdesign.simulation.measurement.reading.separated import Row, Sheet
+
+_LEAST_NUMBERS = 2
+_HEADING_ROWS = 4
+_MOST = 0.6
+_MOST_COLUMNS = 100
+_PAIRS = re.compile(r"\s*([A-Za-z][\w ]*?)\s*=\s*([^;=]*);?")
+
+
+@dataclass
+class RawBlock:
+    """A table as it stands in a file: headings over rows of text."""
+
+    title: str
+    headings: list[Heading]
+    rows: list[Row]
+    settings: dict[str, str] = field(default_factory=dict)
+    skipped: list[int] = field(default_factory=list)
+    """Lines between its rows in which a single cell stands, and no number: points that an instrument calls invalid."""
+
+
+def blocks_of(sheet: Sheet, file: str, ending: str) -> list[RawBlock]:
+    """Every table of a sheet. Raises InputError, with the line, where rows and headings do not go together."""
+    found: list[RawBlock] = []
+    settings: dict[str, str] = {}
+    titles, begin = [(0, sheet.title)], 0
+    rows = sheet.rows
+    while begin < len(rows):
+        if not _begins(sheet, begin):
+            said = _said(rows[begin], settings)
+            titles += [(rows[begin].line, said)] if said else []
+            begin += 1
+            continue
+        headings, head_line = _headings(sheet, begin, file, ending)
+        title = [text for line, text in titles if line < head_line][-1]
+        end, skipped = _end(sheet, begin, file)
+        kept = [row for row in rows[begin:end] if row.line not in skipped]
+        _refuse_ragged(kept, len(headings), file)
+        found += _divided(RawBlock(title, headings, kept, dict(settings), skipped))
+        titles, begin = [(0, sheet.title)], end
+    return found
+
+
+def _is_data(sheet: Sheet, row: Row) -> bool:
+    return sheet.numbers(row) >= _LEAST_NUMBERS
+
+
+def _end(sheet: Sheet, begin: int, file: str) -> tuple[int, list[int]]:
+    """Where the numbers that begin at a row end, and the lines among them to leave out."""
+    rows, skipped, end = sheet.rows, [], begin
+    while end < len(rows) and not rows[end].empty:
+        row = rows[end]
+        if sheet.numbers(row) == 0:
+            goes_on = end + 1 < len(rows) and _is_data(sheet, rows[end + 1])
+            if not goes_on or any(heading(cell).quantity for cell in row.cells):
+                break
+            if row.filled > 1:
+                raise InputError(f"{file}:{row.line}: no number in this row, though numbers stand above and below it")
+            skipped.append(row.line)
+        end += 1
+    return end, skipped
+
+
+def _begins(sheet: Sheet, at: int) -> bool:
+    """Whether a table's numbers begin here: two such rows, or one under headings."""
+    rows = sheet.rows
+    if not _is_data(sheet, rows[at]):
+        return False
+    if any(heading(cell).quantity for row in _rows_above(sheet, at) for cell in row.cells if cell):
+        return True
+    return at + 1 < len(rows) and sheet.numbers(rows[at + 1]) >= 1
+
+
+def _may_head(row: Row, sheet: Sheet) -> bool:
+    """Whether headings may stand in a row or above it: a line of separators alone does not end them."""
+    return _heads(row, sheet) or (row.empty and len(row.cells) > 1)
+
+
+def _heads(row: Row, sheet: Sheet) -> bool:
+    return not row.empty and sheet.numbers(row) == 0
+
+
+def _said(row: Row, settings: dict[str, str]) -> str:
+    """Note what a line says of the tables below it; returns the title in it, if it is one."""
+    cells = [cell for cell in row.cells if cell]
+    text = " ".join(cells)
+    if "=" in text:
+        settings.update({setting_name(name): value for name, value in _PAIRS.findall(text) if setting_name(name)})
+        return ""
+    pair = cells if len(cells) == 2 else re.split(r":\s*|\t", text, maxsplit=1)
+    if len(pair) == 2:
+        name, value = pair
+        unit = re.search(r"/\s*(\w+)\s*:?$", name)
+        key = setting_name(name) or setting_name(name[: unit.start()] if unit else name)
+        if key:
+            settings[key] = f"{value} {unit[1]}" if unit else value
+        return value if plain(name) in {"step name", "test type", "action name"} else ""
+    return text if len(cells) == 1 and re.search(r"[A-Za-z]{3}", text) and not text.startswith(("[", "#")) else ""
+
+
+def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> tuple[list[Heading], int]:
+    """Headings of the numbers that begin at a row, and the line where they begin.
+
+    Names and units are from the rows above it, or the format's own.
+    """
+    rows = sheet.rows
+    names, units = _names_and_units(_rows_above(sheet, begin), sheet.numbers(rows[begin]))
+    default = known()["formats"].get(ending.lower(), [])
+    found = _aligned(names, units, rows[begin], sheet, default) if names else []
+    width = sum(map(bool, rows[begin].cells))
+    line = min((row.line for row in (names, units) if row), default=rows[begin].line)
+    if default:  # by place, as the format has them, where the headings do not say it
+        if not {one.quantity for one in found} >= {name for name, _ in default}:
+            found = [heading(f"{name} [{unit}]") for name, unit in default]
+        return found + [Heading(f"column {i}", "", "") for i in range(len(found) + 1, _MOST_COLUMNS)], line
+    if not found:
+        raise InputError(
+            f"{file}:{rows[begin].line}: numbers without a row of headings above them; write one, such as "
+            "'time [s]; angle [deg]'"
+        )
+    if sheet.separator == "blanks" and len(found) != width:
+        raise InputError(
+            f"{file}:{rows[begin].line}: {width} numbers under {len(found)} headings; where blanks separate, a heading "
+            "is one word: separate by tabs or semicolons"
+        )
+    return found, line
+
+
+def _rows_above(sheet: Sheet, begin: int) -> list[Row]:
+    """The rows with several cells and no number right above some numbers, nearest first."""
+    above: list[Row] = []
+    at = begin - 1
+    while at >= 0 and len(above) < _HEADING_ROWS and _may_head(sheet.rows[at], sheet):
+        above += [sheet.rows[at]] if sheet.rows[at].filled > 1 else []
+        at -= 1
+    return above
+
+
+def _names_and_units(above: Sequence[Row], enough: int) -> tuple[Row | None, Row | None]:
+    """The row of names and that of units among the rows above the numbers, nearest first."""
+    units = next((row for row in above if _are_units(row)), None)
+    names = next((row for row in above if row is not units and row.filled >= enough), None)
+    if names is None and units is not None and units.filled >= enough:
+        return units, None
+    return names, units
+
+
+def _are_units(row: Row) -> bool:
+    """Most cells are units, and none is a name: some instruments have units of their own, such as g.cm."""
+    cells = [cell for cell in (row.cells[1:] if plain(row.cells[0]) in {"units", "unit"} else row.cells) if cell]
+    return sum(map(is_unit, cells)) >= _MOST * len(cells)
+
+
+def _aligned(
+    names: Row, units: Row | None, first: Row, sheet: Sheet, default: Sequence[tuple[str, str]]
+) -> list[Heading]:
+    """Headings over the columns of the numbers; a label before the names, such as `Interval data:`, is not one."""
+    texts, given = list(names.cells), list(units.cells) if units else []
+    if texts[0] == "#":
+        texts = texts[1:]
+    labelled = texts[0].endswith(":") or plain(texts[0]) == "variables"
+    if labelled and sheet.number(first.cells[0]) is not None:
+        texts, given = texts[1:], given[1:] if given and not given[0] else given
+    elif labelled:
+        texts[0] = ""
+    given = [unit or "1" for unit in given] + ["1" if units else ""] * (len(texts) - len(given))
+    found = [heading(text, unit) for text, unit in zip(texts, given, strict=False)]
+    fallback = dict(default)
+    return [one if one.unit else one._replace(unit=fallback.get(one.quantity, "")) for one in found]
+
+
+def _refuse_ragged(rows: Sequence[Row], count: int, file: str) -> None:
+    for row in rows:
+        if any(row.cells[count:]):
+            raise InputError(
+                f"{file}:{row.line}: {sum(map(bool, row.cells))} cells, but {count} headings; "
+                f"{row.cells[count][:20]!r} has none"
+            )
+
+
+def _divided(block: RawBlock) -> list[RawBlock]:
+    """A table by the column that names its parts, such as Malvern's `Action Name` or NETZSCH's `Segment`."""
+    names = [plain(one.text) for one in block.headings]
+    column = next((names.index(name) for name in known()["divided_by"] if name in names), None)
+    if column is None:
+        return [block]
+    parts: list[RawBlock] = []
+    last = None
+    for row in block.rows:
+        word = row.cells[column] if column < len(row.cells) else ""
+        if word != last or not parts:
+            parts.append(RawBlock(f"{block.title} {word}".strip(), block.headings, [], block.settings))
+            last = word
+        parts[-1].rows.append(row)
+    return parts
