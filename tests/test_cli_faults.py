@@ -35,11 +35,13 @@ def test_a_study_whose_name_looks_like_markup_runs_on_any_terminal(tmp_path: Pat
     assert "Yield  " in (tmp_path / "[/bold]/summary.txt").read_text(encoding="utf-8")  # the child read those letters
 
 
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("words", [["rows"], ["--help"]])
-def test_output_that_cannot_be_written_is_one_line(words: list[str]) -> None:
+def test_output_that_cannot_be_written_is_one_line(words: list[str], unbuffered: str) -> None:
+    around = {**environment(), "PYTHONUNBUFFERED": unbuffered}
     with Path("/dev/full").open("wb") as full:
         command = [sys.executable, "-m", "tvimdesign", *words]
-        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False, timeout=100, env=environment())
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False, timeout=100, env=around)
     assert done.returncode == 4
     assert b"No space left on device" in done.stderr
     assert done.stderr.count(b"\n") == 1

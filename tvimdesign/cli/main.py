@@ -14,7 +14,7 @@ from tvimdesign.base import interrupts
 from tvimdesign.base.errors import InputError, OutputError, RenamedWarning, TvimError
 from tvimdesign.base.interrupts import heeding_interrupts, raise_pending
 from tvimdesign.cli.commands import app
-from tvimdesign.cli.output_streams import flush_output, speak_plainly
+from tvimdesign.cli.output_streams import drop_what_cannot_be_written, flush_output, speak_plainly
 
 _STOPPED = "interrupted; what was finished is kept\n"
 
@@ -26,6 +26,7 @@ def main() -> None:
     gc.set_threshold(200_000, 20, 20)  # a command makes many objects and keeps most: looking for garbage costs 5 %
     with heeding_interrupts():
         code = _guarded(_command)
+        drop_what_cannot_be_written()
     gc.freeze()  # or the interpreter looks through all of them once more on its way out, for nothing: 5 %
     sys.exit(code)
 

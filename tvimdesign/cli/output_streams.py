@@ -43,6 +43,14 @@ def flush_output() -> None:
         raise OutputError(f"standard output cannot be written: {error.strerror}") from error
 
 
+def drop_what_cannot_be_written() -> None:
+    """Empty standard output, once an error was told: the interpreter would fail over what is left in it."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        _drop()
+
+
 def _drop() -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
