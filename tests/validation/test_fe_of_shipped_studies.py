@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import csv
 import importlib.util
-import os
-import sys
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -87,18 +84,3 @@ def test_today_s_optimum_is_the_design_that_fe_looked_at(study: str) -> None:
     now = MODELS.model_values(study, {name: inputs[name] for name in read.vary})
     for name in ("spring_rate", "hub"):
         assert now[name][1] == pytest.approx(then[name][1], rel=MOVED), name
-
-
-@pytest.mark.slow
-def test_fe_on_parts_exported_today_finds_what_stands_in_the_table(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    fe_python = os.environ.get("TVIMDESIGN_FE_PYTHON")
-    if not fe_python:  # FE cannot share a process with CadQuery and is a development tool: its own environment has it
-        pytest.skip("TVIMDESIGN_FE_PYTHON names no Python that has netgen-mesher, ngsolve and pyyaml")
-    monkeypatch.setitem(sys.modules, "models", MODELS)
-    found, _ = _load("run").solved("paper_as_published", tmp_path, Path(fe_python))
-    rows = looked_at("paper_as_published")
-    assert set(rows) <= set(found)
-    for name, row in rows.items():
-        assert found[name] == pytest.approx(float(row["fe"]), rel=0.02), name

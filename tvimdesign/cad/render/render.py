@@ -115,8 +115,8 @@ def poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
     """Triangles of a mesh, placed."""
     points = vtkPoints()
     placed = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
-    points.SetData(numpy_to_vtk(placed, deep=True))  # type: ignore[no-untyped-call]  # vtk says no types here
-    corners = numpy_to_vtkIdTypeArray(mesh.faces.ravel().astype(np.int64), deep=True)  # type: ignore[no-untyped-call]  # vtk says no types here
+    points.SetData(numpy_to_vtk(placed, deep=True))
+    corners = numpy_to_vtkIdTypeArray(mesh.faces.ravel().astype(np.int64), deep=True)
     triangles = vtkCellArray()
     triangles.SetData(3, corners)
     data = vtkPolyData()
