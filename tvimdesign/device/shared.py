@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.device.core import clearances, layout, mass_properties, materials, molten, motor_choice, shrinkage
-from tvimdesign.device.core.heat import softening, stiffening, thermal_stack, viscous_heating
+from tvimdesign.device.core.heat import heater_form, softening, stiffening, thermal_stack, viscous_heating
 from tvimdesign.device.core.impedance import (
     creep_under_hold,
     joint_impedance,
@@ -61,6 +61,7 @@ BOOKS = (
     materials.quantities,
     process.limits,
     *(room.quantities for room in ROOMS[1:]),
+    *heater_form.groups,
     *molten.groups,
     *screws.groups,
     *tang.groups,

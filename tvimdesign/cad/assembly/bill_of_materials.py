@@ -25,6 +25,7 @@ _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffen
 _WIRED = {
     "series": "all pads in series",
     "arcs_parallel": "arcs in parallel, the pads of each in series",
+    "vanes_parallel": "vanes in parallel, the pads of each in series",
     "all_parallel": "all pads in parallel",
 }
 """By the word of `heater_wiring`."""
@@ -159,7 +160,7 @@ def _of_the_heater(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Thermal cut-out and wires, and a thermistor where none is drawn; through a hole of its own below a spreader."""
     items = []
     if design.values.get("thermistor_diameter", 0.0) <= 0.0:
-        hole = design.values.get("lead_hole_diameter", 0.0) if design.values.get("spreader_depth", 0.0) else 0.0
+        hole = design.values.get("lead_hole_diameter", 0.0) if _has_lead_holes(design) else 0.0
         through = f", through a hole of {1e3 * hole:.3g} mm" if hole else ""
         count = round(design.value("arc_count")) if hole else 1
         items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
@@ -168,6 +169,11 @@ def _of_the_heater(design: Design, titles: Mapping[str, str]) -> list[Item]:
         items.append(Item("thermal_cutout", 1, False, record, titles["heater_fuse"], 0.0, ()))
     wire = wire_in_words(design, round(design.values.get("heater_count", 1.0)))
     return items + ([Item("heater_wire", 1, False, "", wire, 0.0, ())] if wire else [])
+
+
+def _has_lead_holes(design: Design) -> bool:
+    """Whether the floor has a hole for a thermistor at each spreader: below arcs, not beside vanes."""
+    return design.mode == "shear" and design.values.get("spreader_depth", 0.0) > 0.0
 
 
 def _supply(design: Design) -> list[Item]:

@@ -20,6 +20,7 @@ from tvimdesign.cad.parts import (
     shear_parts,
     thermistor_parts,
     tile_parts,
+    vane_tile_parts,
 )
 
 
@@ -29,6 +30,8 @@ class ModuleParts:
 
     made: Mapping[str, Callable[[Dimensions], cq.Shape]]
     """How one of each kind is drawn, by kind; without springs and what is bought, which all modes have."""
+    spreaders: Mapping[str, Callable[[Dimensions], cq.Shape]]
+    """How one of what lies on rigid Peltier modules is drawn, by kind."""
     stand: Callable[[Dimensions, Mapping[str, cq.Solid], float], dict[str, cq.Shape]]
     """Places pads and PCL, the rotor at an angle [rad], by name."""
     fixed: tuple[str, ...]
@@ -39,7 +42,7 @@ class ModuleParts:
         adjusters = {"adjuster": adjuster_parts.adjuster, "adjuster_screw": adjuster_parts.adjuster_screw}
         return {
             **self.made,
-            **(tile_parts.DRAWN if dims.spreader_depth else {}),
+            **(self.spreaders if dims.spreader_depth else {}),
             **thermistor_parts.drawn(dims),
             **purchased_parts.drawn(dims),
             **(adjusters if dims.adjuster_radius else {}),
@@ -56,10 +59,14 @@ class ModuleParts:
 
 MODULES = {
     "shear": ModuleParts(
-        made=shear_parts.DRAWN, stand=shear_parts.stand, fixed=(*shear_parts.FIXED, *motor_parts.FIXED)
+        made=shear_parts.DRAWN,
+        spreaders=tile_parts.DRAWN,
+        stand=shear_parts.stand,
+        fixed=(*shear_parts.FIXED, *motor_parts.FIXED),
     ),
     "compression": ModuleParts(
         made=compression_parts.DRAWN,
+        spreaders=vane_tile_parts.DRAWN,
         stand=compression_parts.stand,
         fixed=(*compression_parts.FIXED, *motor_parts.FIXED),
     ),

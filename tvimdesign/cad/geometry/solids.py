@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import acos, cos, pi, sin, sqrt
+from math import acos, cos, pi, sin, sqrt, tan
 
 import cadquery as cq
 from OCP.StdFail import StdFail_NotDone
@@ -62,6 +62,17 @@ def sector(inner: float, outer: float, span: float, bottom: float, top: float) -
         cq.Edge.makeThreePointArc(at(inner, last), at(inner, 0.0), at(inner, first)),
         cq.Edge.makeLine(at(inner, first), at(outer, first)),
     ])  # fmt: skip
+    return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+
+
+def wedge(along_x: Point, span: float, inset: float, bottom: float, top: float) -> cq.Solid:
+    """Upright trapezoid about the x axis, between two places on it, its legs `inset` within a sector of that span."""
+    _require(length=along_x[1] - along_x[0], span=span, height=top - bottom)
+    halves = [x * tan(0.5 * span) - inset / cos(0.5 * span) for x in along_x]
+    _require(width_of_a_wedge=min(halves))
+    (near, far), (start, end) = halves, along_x
+    corners = [(start, -near), (end, -far), (end, far), (start, near)]
+    outline = cq.Wire.makePolygon([cq.Vector(*corner, bottom) for corner in corners], close=True)
     return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
 
 

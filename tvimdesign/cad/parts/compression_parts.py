@@ -13,11 +13,12 @@ import cadquery as cq
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
+from tvimdesign.cad.parts import vane_tile_parts
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw", "adjuster_insert",
-    "cover", "cover_screw", "cover_insert",
+    "housing", "peltier_pad", "spreader", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw",
+    "adjuster_insert", "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 """Not the blocks: they change their shape as the rotor turns, and each is held against all that stands and turns."""
 _SIDES = (1.0, -1.0)
@@ -27,20 +28,23 @@ def housing(dims: Dimensions) -> cq.Shape:
     """Housing with its vanes, which have pockets for two pads and a slot between these, down through the floor."""
     vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.housing_vane_angle, 0, dims.vane_height)
     # The pads drop in from above: their pockets are open there, and at both ends.
-    end = dims.peltier_thickness
-    seat, roof = dims.running_clearance, dims.vane_height - dims.window_ledge
+    end = dims.pad_depth
+    seat, roof = dims.running_clearance, dims.slot_top_level
     pocketed = vane.cut(*_beside_faces(dims, end, end, (seat, dims.vane_height + end)))
     # Beside the pads a slot's corners open into their pockets. Below, it is wider by its corners: a cutter can come by.
-    foot = rounded(_slot(dims, end - dims.corner_radius, -dims.floor_thickness, seat), dims.corner_radius)
-    slot = foot.fuse(_slot(dims, end, seat, roof))
+    feet = [rounded(foot, dims.corner_radius) for foot in _slots(dims, dims.pad_seat, -dims.floor_thickness, seat)]
+    slots = [foot.fuse(upper) for foot, upper in zip(feet, _slots(dims, end, seat, roof), strict=True)]
     azimuths = _housing_vanes(dims)
-    return bare_housing(dims, [turned(pocketed, at) for at in azimuths], [turned(slot, at) for at in azimuths])
+    openings = [turned(slot, at) for at in azimuths for slot in slots]
+    return bare_housing(dims, [turned(pocketed, at) for at in azimuths], openings)
 
 
-def _slot(dims: Dimensions, seat: float, bottom: float, top: float) -> cq.Shape:
-    """The slot of a housing vane between two levels, so far behind the vane's faces."""
+def _slots(dims: Dimensions, seat: float, bottom: float, top: float) -> list[cq.Shape]:
+    """The slots of a housing vane between two levels, so far behind the vane's faces."""
+    if dims.spreader_depth:
+        return vane_tile_parts.slots(dims, seat, bottom, top)
     whole = sector(dims.slot_inner_radius, dims.slot_outer_radius, dims.housing_vane_angle, bottom, top)
-    return whole.cut(*_beside_faces(dims, seat, dims.peltier_thickness, (bottom, top)))
+    return [whole.cut(*_beside_faces(dims, seat, dims.pad_depth, (bottom, top)))]
 
 
 def rotor(dims: Dimensions) -> cq.Shape:
@@ -63,7 +67,9 @@ def pcl_block(dims: Dimensions, squeeze: float = 0.0) -> cq.Shape:
 
 
 def peltier_pad(dims: Dimensions) -> cq.Shape:
-    """One flat Peltier pad, upright along the x axis."""
+    """One Peltier module, upright along the x axis: a flat pad, or a tile whose middle is on the axis."""
+    if dims.spreader_depth:
+        return vane_tile_parts.tile(dims)
     along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
     return block(along, dims.peltier_thickness, dims.running_clearance, dims.vane_height)
 
@@ -86,9 +92,8 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
     """
     placed: dict[str, cq.Shape] = {}
     for index, azimuth in enumerate(_housing_vanes(dims)):
-        for pad, side in enumerate(_SIDES):
-            at, beside = _pad_place(dims, side)
-            placed[f"peltier_pad_{2 * index + pad + 1}"] = turned(drawn["peltier_pad"], azimuth + at, beside)
+        for face, side in enumerate(_SIDES):
+            placed |= _heaters(dims, drawn, 2 * index + face, azimuth, side)
     shapes = {side: max(side * rotor_angle, 0.0) for side in _SIDES}
     pressed = {side: pcl_block(dims, squeeze) if squeeze else drawn["pcl_block"] for side, squeeze in shapes.items()}
     for index, azimuth in enumerate(dims.azimuths("vane_count")):
@@ -104,14 +109,29 @@ def _housing_vanes(dims: Dimensions) -> list[float]:
     return [azimuth + pi / dims.count("vane_count") for azimuth in dims.azimuths("vane_count")]
 
 
-def _pad_place(dims: Dimensions, side: float) -> tuple[float, float]:
-    """Azimuth from the middle of a housing vane to the hot face of a pad, and how far the pad's middle is beside it."""
-    return _behind_face(dims, side, dims.peltier_thickness)
+def _heaters(
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], face: int, azimuth: float, side: float
+) -> dict[str, cq.Shape]:
+    """What stands in one face of a housing vane, faces counted around the axis: a pad, or spreader and tiles."""
+    if not dims.spreader_depth:
+        at, beside = _behind_face(dims, side, dims.peltier_thickness)
+        return {f"peltier_pad_{face + 1}": turned(drawn["peltier_pad"], azimuth + at, beside)}
+    at, beside = _behind_face(dims, side, dims.spreader_depth)
+    placed = {f"spreader_{face + 1}": turned(drawn["spreader"], azimuth + at, beside)}
+    at, beside = _behind_face(dims, side, dims.peltier_thickness, dims.spreader_depth)
+    places = vane_tile_parts.row(dims)
+    for index, along in enumerate(places):
+        tile = drawn["peltier_pad"].moved(cq.Location(cq.Vector(along, 0.0, 0.0)))
+        placed[f"peltier_pad_{face * len(places) + index + 1}"] = turned(tile, azimuth + at, beside)
+    return placed
 
 
-def _behind_face(dims: Dimensions, side: float, thickness: float) -> tuple[float, float]:
-    """Azimuth of a face of a housing vane, and how far beside it the middle of a plate is that lies behind it."""
-    return side * 0.5 * dims.housing_vane_angle, -side * 0.5 * thickness
+def _behind_face(dims: Dimensions, side: float, thickness: float, before: float = 0.0) -> tuple[float, float]:
+    """Azimuth of a face of a housing vane, and how far beside it the middle of a plate is that lies behind it.
+
+    `before` is the thickness of what lies between the two.
+    """
+    return side * 0.5 * dims.housing_vane_angle, -side * (before + 0.5 * thickness)
 
 
 def _beside_faces(dims: Dimensions, thickness: float, more: float, levels: tuple[float, float]) -> list[cq.Shape]:

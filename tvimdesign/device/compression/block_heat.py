@@ -19,36 +19,6 @@ from tvimdesign.physics.layers import film
 quantities = QuantityGroup(shared.group)
 
 
-@quantities.helper()
-def cold_area(vane_count: Scalar, slot_width: Scalar, slot_height: Scalar) -> Scalar:
-    """Open area of the pads' cold sides [m^2]: what of them the slots show."""
-    return 2.0 * vane_count * slot_width * slot_height
-
-
-@quantities.output("mm^2")
-def heated_area(pcl_area: Scalar) -> Scalar:
-    """Area of all Peltier modules towards the layer."""
-    return pcl_area
-
-
-@quantities.output("1")
-def heater_strings() -> Scalar:
-    """Strings of Peltier modules in parallel, which share the current."""
-    return 1.0
-
-
-@quantities.helper()
-def pad_contact(hot_contact: Scalar) -> Scalar:
-    """Conductance from the pads' hot side to the blocks [W/m^2 K]: that of their contact."""
-    return hot_contact
-
-
-@quantities.helper()
-def spreader_capacity() -> Scalar:
-    """Heat capacity of spreaders [J/K]: none, the blocks lie on their pads."""
-    return 0.0
-
-
 @quantities.helper(instant=True)
 def moment_now(
     slice_moduli: tuple[Scalar, Scalar],
@@ -92,10 +62,10 @@ def plate_mass(
 
 @quantities.helper()
 def faced_area(
-    block_width: Scalar, vane_count: Scalar, plate_depth: Scalar, block_depth: Scalar, peltier_thickness: Scalar
+    block_width: Scalar, vane_count: Scalar, plate_depth: Scalar, block_depth: Scalar, pad_depth: Scalar
 ) -> Scalar:
     """Plan area of rotor's vanes, blocks and pads [m^2]: what of floor and rotor plate they heat."""
-    return 2.0 * vane_count * block_width * (plate_depth + block_depth + peltier_thickness)
+    return 2.0 * vane_count * block_width * (plate_depth + block_depth + pad_depth)
 
 
 @quantities.helper()

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.base.record import Record
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
@@ -21,8 +22,6 @@ from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.physics.solids import structure, vane
 
 quantities = QuantityGroup(shared.group)
-SHEET = 3.0
-"""Young's over shear modulus of a pad pressed through its thickness, as of rubber; its pellets' share not counted."""
 
 
 @quantities.output("1")
@@ -85,12 +84,11 @@ def frozen_block_stiffness(
     shape_factor: Scalar,
     block_area: Scalar,
     block_depth: Scalar,
-    peltier_shear_modulus: Scalar,
-    peltier_thickness: Scalar,
+    pad_press_stiffness: Scalar,
 ) -> Scalar:
     """Stiffness of a frozen block with its pad [N/m], which decides how it presses on its vanes."""
     pressed = pcl_flexural_modulus * block.shape_stiffening(shape_factor) * block_area / block_depth
-    return structure.series(pressed, SHEET * peltier_shear_modulus * block_area / peltier_thickness)
+    return structure.series(pressed, pad_press_stiffness)
 
 
 @quantities.helper()
@@ -119,10 +117,16 @@ def housing_vane_thickness(slot_angle: Scalar, pcl_mean_radius: Scalar) -> Scala
 
 
 @quantities.helper()
+def vane_webs(slot_web: Scalar, slot_count: Scalar) -> Scalar:
+    """Radial width of all that a housing vane has beside its slots [m]."""
+    return 2.0 * slot_web * slot_count
+
+
+@quantities.helper()
 def housing_vane_stiffness(
     structure_youngs_modulus: Scalar,
     structure_shear_modulus: Scalar,
-    slot_web: Scalar,
+    vane_webs: Scalar,
     housing_vane_thickness: Scalar,
     block_height: Scalar,
     running_clearance: Scalar,
@@ -136,7 +140,7 @@ def housing_vane_stiffness(
     Of the vanes what stands on either side of their slots.
     """
     one = vane.stiffness(
-        structure_youngs_modulus, structure_shear_modulus, 2.0 * slot_web, housing_vane_thickness, block_height,
+        structure_youngs_modulus, structure_shear_modulus, vane_webs, housing_vane_thickness, block_height,
         running_clearance, frozen_block_stiffness, vane.on_floor(floor_thickness),
     )  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
@@ -163,12 +167,10 @@ def structure_compliances(
     floor_stiffness: Scalar,
     pcl_mean_radius: Scalar,
     vane_count: Scalar,
-    peltier_shear_modulus: Scalar,
-    peltier_thickness: Scalar,
-    block_area: Scalar,
+    pad_press_stiffness: Scalar,
 ) -> Compliances:
     """What is in series with the blocks: core, plate, vanes of both, floor up to its feet or its flange, and pads."""
-    pads = block.stiffness(SHEET * peltier_shear_modulus, vane_count, block_area, pcl_mean_radius, peltier_thickness)
+    pads = vane_count * pad_press_stiffness * pcl_mean_radius**2
     return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness, 1.0 / rotor_vane_stiffness,
                        1.0 / housing_vane_stiffness, 1.0 / floor_stiffness, 1.0 / pads)  # fmt: skip
 
@@ -254,7 +256,7 @@ def rotor_vane_holding_torque(
 @quantities.output("N*m")
 def housing_vane_holding_torque(
     cold_layer_strength: Scalar,
-    slot_web: Scalar,
+    vane_webs: Scalar,
     housing_vane_thickness: Scalar,
     vane_arm: Scalar,
     vane_count: Scalar,
@@ -262,19 +264,21 @@ def housing_vane_holding_torque(
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque at which the roots of the housing's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = vane.force_at_yield(cold_layer_strength, 2.0 * slot_web, housing_vane_thickness, vane_arm)
+    force = vane.force_at_yield(cold_layer_strength, vane_webs, housing_vane_thickness, vane_arm)
     return vane_count * force * pcl_mean_radius / holding_safety
 
 
 _PARTS = (
-    "block_holding_torque", "rotor_vane_holding_torque", "housing_vane_holding_torque", "core_holding_torque",
-    *LINK_PARTS, "bearing_holding_torque",
+    "block_holding_torque", "heater_holding_torque", "rotor_vane_holding_torque", "housing_vane_holding_torque",
+    "core_holding_torque", *LINK_PARTS, "bearing_holding_torque",
 )  # fmt: skip
 
 
 @quantities.output("N*m", headline=True, least_of=_PARTS)
 def holding_torque(
     block_holding_torque: Scalar,
+    heater_form: str,
+    heater_holding_torque: Scalar,
     rotor_vane_holding_torque: Scalar,
     housing_vane_holding_torque: Scalar,
     core_holding_torque: Scalar,
@@ -282,9 +286,10 @@ def holding_torque(
     bearing: Record | str,
     bearing_holding_torque: Scalar,
 ) -> Scalar:
-    """Torque the frozen joint holds: the least of what blocks, vanes, core, what holds the link, and bearings bear."""
+    """Torque the frozen joint holds: the least of what blocks, rigid modules, vanes, core, link and bearings bear."""
     vanes = np.fmin(rotor_vane_holding_torque, housing_vane_holding_torque)
-    held = np.fmin(np.fmin(block_holding_torque, vanes), np.fmin(core_holding_torque, link_holding_torque))
+    pressed = block_holding_torque if heater_form == CUT else np.fmin(block_holding_torque, heater_holding_torque)
+    held = np.fmin(np.fmin(pressed, vanes), np.fmin(core_holding_torque, link_holding_torque))
     return with_bearings(bearing, held, bearing_holding_torque)
 
 

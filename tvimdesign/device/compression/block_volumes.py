@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, corners, radial_strip, sector
+from tvimdesign.physics.bodies.shapes import Section, between_planes, corners, radial_strip, sector, wedge_corners
 
 quantities = QuantityGroup(shared.group)
 
@@ -29,15 +30,23 @@ def pcl_volume(pcl_area: Scalar, block_depth: Scalar) -> Scalar:
 
 
 @quantities.output("mm^3")
-def peltier_volume(pcl_area: Scalar, peltier_thickness: Scalar) -> Scalar:
-    """Volume of all Peltier pads together; they have the faces of the blocks."""
-    return pcl_area * peltier_thickness
+def peltier_volume(
+    heater_form: str,
+    pcl_area: Scalar,
+    heater_count: Scalar,
+    peltier_length: Scalar,
+    peltier_width: Scalar,
+    peltier_thickness: Scalar,
+) -> Scalar:
+    """Volume of all Peltier modules together: pads with the faces of the blocks, or rectangular tiles."""
+    area = pcl_area if heater_form == CUT else heater_count * peltier_length * peltier_width
+    return area * peltier_thickness
 
 
-@quantities.output("g")
-def spreader_mass() -> Scalar:
-    """Mass of all spreaders together; zero without."""
-    return 0.0
+@quantities.output("mm^3", requires=WITH_TILES)
+def spreader_volume(pcl_area: Scalar, spreader_depth: Scalar) -> Scalar:
+    """Volume of all spreaders together, which have the faces of the blocks; zero without."""
+    return pcl_area * spreader_depth
 
 
 @quantities.output("g")
@@ -48,28 +57,44 @@ def thermistor_mass() -> Scalar:
 
 @quantities.helper()
 def slot_section(
+    heater_form: str,
     vane_count: Scalar,
     housing_vane_angle: Scalar,
     slot_inner_radius: Scalar,
     slot_outer_radius: Scalar,
-    peltier_thickness: Scalar,
+    pad_depth: Scalar,
+    slot_count: Scalar,
+    slot_width: Scalar,
+    tile_slot_radius: Scalar,
 ) -> Scalar:
-    """Area of the slots in plan view beside the pads [m^2]: sectors of the vanes, less the pads on either side."""
+    """Area of the slots in plan view beside the pads [m^2]: sectors of the vanes, less the pads on either side.
+
+    Behind tiles: what lies between the tiles of a vane, with flat ends.
+    """
+    if heater_form != CUT:
+        return vane_count * slot_count * slot_width * between_planes(housing_vane_angle, pad_depth, tile_slot_radius)
     whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
-    pads = 2.0 * radial_strip(peltier_thickness, slot_inner_radius, slot_outer_radius)
+    pads = 2.0 * radial_strip(pad_depth, slot_inner_radius, slot_outer_radius)
     return vane_count * (whole - pads)
 
 
 @quantities.helper()
 def slot_foot_section(
+    heater_form: str,
     vane_count: Scalar,
     housing_vane_angle: Scalar,
     slot_inner_radius: Scalar,
     slot_outer_radius: Scalar,
     pad_seat: Scalar,
     corner_radius: Scalar,
+    slot_count: Scalar,
+    slot_width: Scalar,
+    tile_slot_radius: Scalar,
 ) -> Scalar:
     """Area of the slots in plan view below the pads [m^2]: less what the pads stand on, corners rounded."""
+    if heater_form != CUT:
+        between = slot_width * between_planes(housing_vane_angle, pad_seat, tile_slot_radius)
+        return vane_count * slot_count * (between - wedge_corners(corner_radius, housing_vane_angle))
     whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
     seats = 2.0 * radial_strip(pad_seat, slot_inner_radius, slot_outer_radius)
     rounded = corners(corner_radius, slot_inner_radius, slot_outer_radius, pad_seat)
@@ -85,21 +110,28 @@ def housing_vanes_volume(
     vane_height: Scalar,
     block_height: Scalar,
     slot_height: Scalar,
-    peltier_thickness: Scalar,
+    pad_depth: Scalar,
     slot_section: Scalar,
     slot_foot_section: Scalar,
 ) -> Scalar:
     """Volume of the housing's vanes, less the pads let into them and their slots."""
     whole = sector(housing_vane_angle, pcl_inner_radius, pcl_outer_radius).area * vane_height
-    pads = 2.0 * radial_strip(peltier_thickness, pcl_inner_radius, pcl_outer_radius) * block_height
+    pads = 2.0 * radial_strip(pad_depth, pcl_inner_radius, pcl_outer_radius) * block_height
     slots = slot_section * slot_height + slot_foot_section * (vane_height - block_height)
     return vane_count * (whole - pads) - slots
 
 
 @quantities.helper()
-def floor_openings(slot_foot_section: Scalar, pcl_mean_radius: Scalar, floor_thickness: Scalar) -> Section:
-    """What the floor has not got, volume and its polar moment: the slots, at their mean radius."""
-    return Section(slot_foot_section, slot_foot_section * pcl_mean_radius**2).times(floor_thickness)
+def floor_openings(
+    slot_foot_section: Scalar,
+    pcl_mean_radius: Scalar,
+    floor_thickness: Scalar,
+    slot_count: Scalar,
+    tile_spacing: Scalar,
+) -> Section:
+    """What the floor has not got, volume and its polar moment: the slots, each at its mean radius."""
+    spread = pcl_mean_radius**2 + tile_spacing**2 * (slot_count**2 - 1.0) / 12.0
+    return Section(slot_foot_section, slot_foot_section * spread).times(floor_thickness)
 
 
 @quantities.output("mm^3")

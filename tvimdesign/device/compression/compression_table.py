@@ -8,13 +8,17 @@ from tvimdesign.device.compression import (
     block_shrinkage,
     block_volumes,
     ring_heat,
+    tile_heat,
+    tile_load,
     vane_clearances,
     vane_layout,
+    vane_tiles,
 )
 from tvimdesign.device.shared import BOOKS
 from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (vane_layout, block_impedance, block_heat, ring_heat, block_volumes, vane_clearances)
-TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *block_shrinkage.groups], "compression"), PHASES)
+ROOMS = (vane_layout, block_impedance, block_heat, ring_heat, block_volumes, vane_clearances, tile_heat, tile_load)
+GROUPS = (*vane_tiles.groups, *block_shrinkage.groups)
+TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "compression"), PHASES)

@@ -14,7 +14,7 @@ from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
 from tvimdesign.physics.heat_flow import lumps
-from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link
+from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link, Place
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
@@ -31,17 +31,23 @@ Calibrated to times of the compression modules in two dimensions (`docs/theory/h
 
 @quantities.helper()
 def wall_depth(
-    pcl_mean_radius: Scalar, vane_count: Scalar, plate_depth: Scalar, block_depth: Scalar, peltier_thickness: Scalar
+    pcl_mean_radius: Scalar, vane_count: Scalar, plate_depth: Scalar, block_depth: Scalar, pad_depth: Scalar
 ) -> Scalar:
     """Half the thickness of a housing vane, which a pad leans against [m]: what is left of the ring at its mean
     radius."""
-    return np.pi * pcl_mean_radius / vane_count - plate_depth - block_depth - peltier_thickness
+    return np.pi * pcl_mean_radius / vane_count - plate_depth - block_depth - pad_depth
 
 
 @quantities.helper()
 def ring_width(vane_count: Scalar, block_width: Scalar) -> Scalar:
     """Width of all blocks together [m]: plan area of what stands in the ring over its depth."""
     return 2.0 * vane_count * block_width
+
+
+@quantities.helper()
+def ring_places() -> tuple[Place, Place, Place, Place]:
+    """Where the floor's upper face, the rotor plate's lower face, the housing's vanes and the housing stand."""
+    return ("around", FLOOR[0]), ("beside", 0), ("around", WALLS), ("around", HOUSING)
 
 
 @quantities.helper()
@@ -195,19 +201,21 @@ def side_links(
     open_sides: Scalar,
     block_depth: Scalar,
     peltier_thickness: Scalar,
-    pcl_area: Scalar,
+    heated_area: Scalar,
     cold_area: Scalar,
     wall_depth: Scalar,
     structure_conductivity: Scalar,
+    spreader_links: tuple[Link, ...],
 ) -> tuple[Link, ...]:
     """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes."""
     housing, half = ("around", HOUSING), 0.5 * peltier_thickness * open_sides
-    into_walls = 3.0 * structure_conductivity * (pcl_area - cold_area) / wall_depth
+    into_walls = 3.0 * structure_conductivity * (heated_area - cold_area) / wall_depth
     return (
         Link(("layer", 0), housing, open_sides * block_depth),
         Link(("hot", 0), housing, half),
         Link(("cold", 0), housing, half),
         Link(("cold", 0), ("around", WALLS), into_walls),
+        *spreader_links,
     )
 
 

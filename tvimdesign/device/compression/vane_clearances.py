@@ -6,8 +6,10 @@ import numpy as np
 
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.clearances import quantities as shared
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.bodies.shapes import between_planes
 from tvimdesign.physics.layers import block
 
 quantities = QuantityGroup(shared.group)
@@ -26,9 +28,11 @@ def block_breadth(block_width: Scalar) -> Scalar:
 
 
 @quantities.output("mm", at_least(2.0 * MM, "air must pass between the two pads of a housing vane", 0.0))
-def slot_opening(housing_vane_angle: Scalar, slot_inner_radius: Scalar, peltier_thickness: Scalar) -> Scalar:
+def slot_opening(heater_form: str, housing_vane_angle: Scalar, slot_inner_radius: Scalar, pad_depth: Scalar) -> Scalar:
     """Distance of the two pads of a housing vane around the axis, at the inner end of the slot."""
-    return slot_inner_radius * (housing_vane_angle - 2.0 * np.arcsin(peltier_thickness / slot_inner_radius))
+    if heater_form == CUT:
+        return slot_inner_radius * (housing_vane_angle - 2.0 * np.arcsin(pad_depth / slot_inner_radius))
+    return between_planes(housing_vane_angle, pad_depth, slot_inner_radius)
 
 
 @quantities.output("mm", at_least(1.0 * MM, "the pads' cold sides must be open somewhere", 0.0))
@@ -38,9 +42,9 @@ def slot_reach(slot_height: Scalar) -> Scalar:
 
 
 @quantities.output("mm", at_least(0.0, "the housing's vanes must carry their pads beside the slot", 0.0))
-def slot_web(block_width: Scalar, slot_width: Scalar) -> Scalar:
-    """Radial width of what a housing vane has on either side of its slot."""
-    return 0.5 * (block_width - slot_width)
+def slot_web(heater_form: str, block_width: Scalar, tile_slot_pitch: Scalar, slot_width: Scalar) -> Scalar:
+    """Radial width of what a housing vane has on either side of a slot; between two slots it has twice that."""
+    return 0.5 * ((block_width if heater_form == CUT else tile_slot_pitch) - slot_width)
 
 
 @quantities.output(
@@ -65,16 +69,32 @@ def vane_root_margin(vane_root: Scalar, minimum_wall: Scalar) -> Scalar:
     return vane_root - minimum_wall
 
 
+@quantities.output("mm", hidden=True)
+def slot_top_level(running_clearance: Scalar, slot_height: Scalar) -> Scalar:
+    """Upper end of the slots in the housing's vanes."""
+    return running_clearance + slot_height
+
+
+@quantities.helper()
+def slot_reach_below(
+    heater_form: str, corner_radius: Scalar, peltier_thickness: Scalar, lead_hole_diameter: Scalar
+) -> Scalar:
+    """How far the slots reach under the pads [m]: by their rounded corners; under tiles to the leads between their
+    plates."""
+    if heater_form == CUT:
+        return corner_radius
+    return np.fmax(corner_radius, 0.5 * (peltier_thickness + lead_hole_diameter))
+
+
 @quantities.output("mm", at_least(0.0, "the slots are too narrow for their depth: the cutter cannot reach their ends"))
 def slot_pocket_margin(
     slot_opening: Scalar,
     pocket_depth_ratio: Scalar,
     floor_thickness: Scalar,
-    vane_height: Scalar,
-    window_ledge: Scalar,
+    slot_top_level: Scalar,
 ) -> Scalar:
     """Depth the slots, milled from below, may have for their width beyond the one they have."""
-    return pocket_depth_ratio * slot_opening - (floor_thickness + vane_height - window_ledge)
+    return pocket_depth_ratio * slot_opening - (floor_thickness + slot_top_level)
 
 
 @quantities.output("mm", at_least(0.0, "the slots are too deep, the cutter cannot reach into their corners so far"))
@@ -82,11 +102,10 @@ def slot_corner_margin(
     corner_radius: Scalar,
     corner_depth_ratio: Scalar,
     floor_thickness: Scalar,
-    vane_height: Scalar,
-    window_ledge: Scalar,
+    slot_top_level: Scalar,
 ) -> Scalar:
     """Depth the corners of the slots, milled from below, may have beyond the one they have."""
-    return corner_depth_ratio * corner_radius - (floor_thickness + vane_height - window_ledge)
+    return corner_depth_ratio * corner_radius - (floor_thickness + slot_top_level)
 
 
 _NARROW = "a slot must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
@@ -142,6 +161,6 @@ _FALLS = "slots are wider below the pads, by the radius of their corners, and le
 
 
 @quantities.output("mm", at_least(0.2 * MM, _FALLS, 0.0))
-def pad_seat(peltier_thickness: Scalar, corner_radius: Scalar) -> Scalar:
-    """Width of what a pad stands on beside its slot."""
-    return peltier_thickness - corner_radius
+def pad_seat(pad_depth: Scalar, slot_reach_below: Scalar) -> Scalar:
+    """Width of what a pad, or a spreader with its tiles, stands on beside its slot."""
+    return pad_depth - slot_reach_below

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.layout import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.bodies.shapes import between_planes
 
 quantities = QuantityGroup(shared.group)
-
-
-@quantities.output("mm")
-def spreader_depth() -> Scalar:
-    """Depth the spreader takes of the pocket below the PCL; zero without one."""
-    return 0.0
+SHEET = 3.0
+"""Young's over shear modulus of a pad pressed through its thickness, as of rubber; its pellets' share not counted."""
 
 
 @quantities.output("mm", hidden=True)
@@ -66,30 +64,55 @@ def housing_vane_angle(vane_count: Scalar, block_angle: Scalar, rotor_vane_angle
 
 
 @quantities.output("mm")
-def slot_width(slot_share: Scalar, block_width: Scalar) -> Scalar:
-    """Radial width of the slots in the housing's vanes."""
-    return slot_share * block_width
+def slot_width(
+    heater_form: str, slot_share: Scalar, block_width: Scalar, tile_window: Scalar, housing_vane_angle: Scalar
+) -> Scalar:
+    """Radial width of each slot in the housing's vanes."""
+    if heater_form == CUT:
+        return slot_share * block_width
+    return tile_window * np.cos(0.5 * housing_vane_angle)
 
 
 @quantities.output("mm")
-def slot_inner_radius(pcl_mean_radius: Scalar, slot_width: Scalar) -> Scalar:
+def slot_inner_radius(
+    heater_form: str,
+    pcl_mean_radius: Scalar,
+    slot_width: Scalar,
+    tile_slot_radius: Scalar,
+    tile_slot_pitch: Scalar,
+    slot_count: Scalar,
+) -> Scalar:
     """Inner radius of the slots in the housing's vanes."""
-    return pcl_mean_radius - 0.5 * slot_width
+    if heater_form == CUT:
+        return pcl_mean_radius - 0.5 * slot_width
+    return tile_slot_radius - 0.5 * (slot_count - 1.0) * tile_slot_pitch - 0.5 * slot_width
 
 
 @quantities.output("mm")
-def slot_outer_radius(pcl_mean_radius: Scalar, slot_width: Scalar) -> Scalar:
-    """Outer radius of the slots in the housing's vanes."""
-    return pcl_mean_radius + 0.5 * slot_width
+def slot_outer_radius(
+    heater_form: str,
+    pcl_mean_radius: Scalar,
+    slot_width: Scalar,
+    tile_slot_radius: Scalar,
+    tile_slot_pitch: Scalar,
+    slot_count: Scalar,
+    housing_vane_angle: Scalar,
+    pad_seat: Scalar,
+) -> Scalar:
+    """Outer radius of the slots in the housing's vanes; of flat ends, that of their corners."""
+    if heater_form == CUT:
+        return pcl_mean_radius + 0.5 * slot_width
+    far = tile_slot_radius + 0.5 * (slot_count - 1.0) * tile_slot_pitch + 0.5 * slot_width
+    return np.sqrt(far**2 + (0.5 * between_planes(housing_vane_angle, pad_seat, far)) ** 2)
 
 
 @quantities.output("mm")
-def slot_height(block_height: Scalar, window_ledge: Scalar) -> Scalar:
+def slot_height(heater_form: str, block_height: Scalar, peltier_width: Scalar, window_ledge: Scalar) -> Scalar:
     """Height over which the pads' cold sides are open to the slots."""
-    return block_height - window_ledge
+    return (block_height if heater_form == CUT else peltier_width) - window_ledge
 
 
 @quantities.helper()
-def slot_angle(housing_vane_angle: Scalar, peltier_thickness: Scalar, pcl_mean_radius: Scalar) -> Scalar:
+def slot_angle(housing_vane_angle: Scalar, pad_depth: Scalar, pcl_mean_radius: Scalar) -> Scalar:
     """Angle between the cold sides of a housing vane's two pads at the mean radius [rad]."""
-    return housing_vane_angle - 2.0 * np.arcsin(peltier_thickness / pcl_mean_radius)
+    return housing_vane_angle - 2.0 * np.arcsin(pad_depth / pcl_mean_radius)

@@ -27,8 +27,6 @@ quantities.record(
     "peltiers",
     "flexible_1600",
     "Peltier module under the layer",
-    only=("form", "flexible", "the pads have the outline of the PCL, which a rigid module cannot be cut to"),
-    unless="heater_form",
 )
 
 quantities.record(

@@ -6,7 +6,7 @@ import numpy as np
 
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.clearances import quantities as shared
-from tvimdesign.device.shear.tiles import CUT
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 

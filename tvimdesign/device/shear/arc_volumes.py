@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.mass_properties import quantities as shared
-from tvimdesign.device.shear.tiles import CUT
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section, corners, rectangle_at, sector, stacked

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.clearances import quantities as gaps
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.mass_properties import quantities as bodies
-from tvimdesign.device.shear.tiles import CUT
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, stacked

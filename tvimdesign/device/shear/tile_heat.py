@@ -1,13 +1,10 @@
-"""What Peltier modules and a spreader on them are to the layer: area, contact, capacity, and how far they give.
-
-A flexible module is a pad of the layer's area on the layer. Rigid ones cover a part of it; the spreader takes their
-heat to the rest, at a resistance in series with the layer's own contact.
-"""
+"""What Peltier modules and a spreader on them are to the layer in shear: strings, what spreading costs, how far they
+give."""
 
 from __future__ import annotations
 
+from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
-from tvimdesign.device.shear.tiles import CUT, WITH_TILES
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
@@ -26,18 +23,6 @@ def heater_strings(heater_wiring: str, arc_count: Scalar, heater_count: Scalar) 
     return {"series": 1.0, "arcs_parallel": arc_count, "all_parallel": heater_count}[heater_wiring]
 
 
-@quantities.output("mm^2")
-def heated_area(heater_form: str, pcl_area: Scalar, heater_count: Scalar, peltier_area: Scalar) -> Scalar:
-    """Area of all Peltier modules towards the layer."""
-    return pcl_area if heater_form == CUT else heater_count * peltier_area
-
-
-@quantities.output("%")
-def heater_coverage(heated_area: Scalar, pcl_area: Scalar) -> Scalar:
-    """Share of the layer's area that lies above Peltier modules."""
-    return heated_area / pcl_area
-
-
 @quantities.output("K*mm^2/W", requires=WITH_TILES)
 def spreader_resistance(
     pcl_area: Scalar,
@@ -51,31 +36,6 @@ def spreader_resistance(
     """Resistance of the way along the spreader to what its modules do not cover, times the layer's area."""
     outlines = 2.0 * heater_count * (peltier_length + peltier_width)
     return spreader.spreading_resistance(pcl_area, heated_area, outlines, spreader_conductivity, spreader_thickness)
-
-
-@quantities.helper()
-def pad_contact(
-    heater_form: str,
-    hot_contact: Scalar,
-    spreader_conductivity: Scalar,
-    spreader_thickness: Scalar,
-    heater_coverage: Scalar,
-    spreader_contact: Scalar,
-    spreader_resistance: Scalar,
-) -> Scalar:
-    """Conductance from the modules' hot side to the layer [W/m^2 K]: contact, and the spreader where there is one."""
-    if heater_form == CUT:
-        return hot_contact
-    through = spreader.contact_resistance(
-        hot_contact, spreader_conductivity, spreader_thickness, heater_coverage, spreader_contact
-    )
-    return 1.0 / (through + spreader_resistance)
-
-
-@quantities.helper(requires=WITH_TILES)
-def spreader_capacity(spreader_mass: Scalar, spreader_specific_heat: Scalar) -> Scalar:
-    """Heat capacity of all spreaders [J/K], counted at the modules' hot side; zero without."""
-    return spreader_mass * spreader_specific_heat
 
 
 @quantities.helper()

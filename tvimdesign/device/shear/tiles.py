@@ -12,77 +12,40 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.base.errors import InputError
-from tvimdesign.base.record import Record
 from tvimdesign.device.core.clearances import quantities as gaps
+from tvimdesign.device.core.heat.heater_form import WITH_TILES
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.core.materials import quantities as materials
-from tvimdesign.device.table.quantity import Feature, Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, rectangle_at
 
-CUT = "flexible"
-WITH_TILES = (Feature("heater_form", CUT),)
-
-kinds = QuantityGroup(materials.group)
 places, weights, rules = (
     QuantityGroup(layout.group, WITH_TILES),
     QuantityGroup(bodies.group, WITH_TILES),
     QuantityGroup(gaps.group, WITH_TILES),
 )
+kinds = QuantityGroup(materials.group)
 groups = (kinds, places, weights, rules)
 
-kinds.option(
-    "heater_form",
-    (CUT, "rigid"),
-    "How the Peltier modules lie under the arcs: cut to their outline, or as rectangles below a spreader",
-    record=("peltier_module", "form"),
-)
 kinds.option(
     "heater_wiring",
     ("series", "arcs_parallel", "all_parallel"),
     "How the Peltier modules are wired: all in series, the arcs in parallel each in series, or all in parallel",
 )
-kinds.record(
-    "spreader_material", "spreaders", "aluminum_6061", "Sheet between rigid Peltier modules and the PCL",
-    requires=WITH_TILES,
-)  # fmt: skip
-for name, unit, field, description in (
-    ("peltier_length", "mm", "length", "Length of one rectangular Peltier module, along the arc"),
-    ("peltier_width", "mm", "width", "Width of one rectangular Peltier module, across the arc"),
-):
-    kinds.property(name, unit, ("peltier_module", field), description, mode="shear", default=0.0)
-for name, unit, field, description in (
-    ("spreader_density", "kg/m^3", "density", "Density of the spreader"),
-    ("spreader_conductivity", "W/m/K", "thermal_conductivity", "Thermal conductivity of the spreader"),
-    ("spreader_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the spreader"),
-    ("spreader_shear_modulus", "GPa", "shear_modulus", "Shear modulus of the spreader"),
-    ("spreader_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the spreader"),
-):
-    kinds.property(name, unit, ("spreader_material", field), description, mode="shear")
 
 
-@places.output("1", default=1.0, requires=())
-def heater_count(heater_form: str, peltier_module: Record, arc_count: Scalar, tiles_per_arc: Scalar) -> Scalar:
-    """Peltier modules of the module: one pad under each arc, or all its tiles."""
-    if heater_form != CUT:
-        return arc_count * tiles_per_arc
-    if peltier_module.word("form") != CUT:
-        raise InputError(f"heater_form: {CUT} needs a module that can be cut; {peltier_module.name} is rigid")
+@places.helper(requires=())
+def pocket_count(arc_count: Scalar) -> Scalar:
+    """Pockets for Peltier modules [1]: one under each arc."""
     return arc_count
 
 
-@places.output("mm")
-def spreader_depth(spreader_thickness: Scalar) -> Scalar:
-    """Depth the spreader takes of the pocket below the PCL; zero without one."""
-    return spreader_thickness
-
-
-@places.output("mm", requires=())
-def pad_depth(peltier_thickness: Scalar, spreader_depth: Scalar) -> Scalar:
-    """Depth of the pockets for the Peltier modules and the spreader on them."""
-    return peltier_thickness + spreader_depth
+@places.helper(requires=())
+def tiles_per_pocket(tiles_per_arc: Scalar) -> Scalar:
+    """Rectangular Peltier modules in each pocket [1]."""
+    return tiles_per_arc
 
 
 @places.helper()
@@ -126,12 +89,6 @@ def lead_hole_section(arc_count: Scalar, lead_hole_diameter: Scalar, tile_radius
 def spreader_volume(pad_section: Section, spreader_depth: Scalar) -> Scalar:
     """Volume of all spreaders together; zero without."""
     return pad_section.area * spreader_depth
-
-
-@weights.output("g")
-def spreader_mass(spreader_volume: Scalar, spreader_density: Scalar) -> Scalar:
-    """Mass of all spreaders together; zero without."""
-    return spreader_volume * spreader_density
 
 
 @rules.output("mm", at_least(0.0, "a Peltier module is too wide for its arc: choose a smaller one, or a wider arc"))

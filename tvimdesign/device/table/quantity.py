@@ -114,10 +114,6 @@ class Choice:
     """(choice, word): where the default comes from, of a choice that stands before this one."""
     stock_record: tuple[str, str] | None = None
     """(choice, word): where it comes from, and from nowhere else, in a study that chooses such a record before."""
-    only: tuple[str, str, str] | None = None
-    """(word, value, reason): a record fits only if its word has that value."""
-    unless: str = ""
-    """A choice in whose modules every record fits."""
     requires: tuple[Feature, ...] = ()
     """What a module must have for it to be of any effect."""
     idealized: Mapping[str, str] = field(default_factory=dict)

@@ -104,14 +104,11 @@ class QuantityGroup:
         category: str,
         default: str | tuple[str, str],
         description: str,
-        only: tuple[str, str, str] | None = None,
-        unless: str = "",
         others: tuple[str, ...] = (),
         requires: tuple[Feature, ...] = (),
         stock_record: tuple[str, str] | None = None,
     ) -> None:
-        """Add the choice of a catalogue record; `only` is (word, value, reason) of the records that fit,
-        in modes that do not have the choice `unless`.
+        """Add the choice of a catalogue record.
 
         `default` is the name of one, or (choice, word) of the chosen record that names it. `others` are words that may
         stand for no record at all. `stock_record` is (choice, word) of a record that brings this one along.
@@ -119,7 +116,7 @@ class QuantityGroup:
         word, record = (default, None) if isinstance(default, str) else ("", default)
         quantity = Choice(
             name=name, description=description, group=self.group, default=word, record=record, category=category,
-            only=only, unless=unless, options=others, requires=requires, stock_record=stock_record,
+            options=others, requires=requires, stock_record=stock_record,
         )  # fmt: skip
         self.quantities.append(quantity)
 

@@ -162,6 +162,24 @@ def radial_strip(thickness: Any, inner_radius: Any, outer_radius: Any) -> Any:
     return up_to(outer_radius) - up_to(inner_radius)
 
 
+def between_planes(span: Any, offset: Any, distance: Any) -> Any:
+    """Distance [m] of two planes that lie `offset` within the sides of a sector, across its middle at `distance`.
+
+    2 (d tan(a/2) - t/cos(a/2)): times a length along the middle, the area of the trapezoid around `distance`.
+    """
+    return 2.0 * (distance * np.tan(0.5 * span) - offset / np.cos(0.5 * span))
+
+
+def wedge_corners(fillet_radius: Any, span: Any) -> Any:
+    """Area [m^2] that fillets take from a trapezoid whose legs are inclined by `span` to each other.
+
+    In a corner of the angle b a fillet leaves r^2 (cot(b/2) - (pi - b)/2) empty; b is pi/2 plus and minus half of it.
+    """
+    half = 0.5 * span
+    taken = [1.0 / np.tan(0.25 * np.pi + 0.5 * side) - 0.25 * np.pi + 0.5 * side for side in (half, -half)]
+    return 2.0 * fillet_radius**2 * sum(taken)
+
+
 def outer_corner(fillet_radius: Any, circle_radius: Any, offset: Any) -> Any:
     """Area [m^2] that a fillet takes from the corner inside a circle about the axis and beside a straight line.
 

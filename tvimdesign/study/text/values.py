@@ -155,21 +155,9 @@ def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
         return word
     if row.category:
         found = record(reading, node, path, row.category, word)
-        return word if found and _fits(reading, node, path, row, found) else None
+        return word if found else None
     reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
     return None
-
-
-def _fits(reading: Reading, node: Node, path: str, row: Choice, found: Record) -> bool:
-    """Whether a record is of the kind the row takes; a problem where it is not."""
-    if row.only is None or row.unless in reading.table.by_name:
-        return True
-    key, wanted, reason = row.only
-    value = found.words.get(key, "not said")
-    if value == wanted:
-        return True
-    reading.problems.add(node, path, f"{found.name} has the {key} {value}; {reason}", f"a record with {key}: {wanted}")
-    return False
 
 
 def record(reading: Reading, node: Node, path: str, category: str, name: str) -> Record | None:

@@ -1,0 +1,103 @@
+"""Rigid Peltier modules in the housing's vanes, as they are bought: rectangular tiles in a row behind a spreader.
+
+Behind the face of each block stands a spreader of the block's face, flush with the vane, and behind that a row of
+`tiles_per_block` tiles, upright: their length along the radius, evenly spread over the block's width, their width along
+the axis. Spreader and tiles stand on the floor of the pocket, which is open above and at both ends as a pad's is. The
+vane has a slot behind each tile, with flat ends across the vane's middle, as wide as `slot_share` of the tile; the two
+tiles of a vane share it. A `window_ledge` below a tile's upper edge the slot ends, so a tile bears on both its sides
+and above. Below the tiles the slot reaches under their middle, for the leads.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.clearances import quantities as gaps
+from tvimdesign.device.core.heat.heater_form import WITH_TILES
+from tvimdesign.device.core.layout import quantities as layout
+from tvimdesign.device.core.materials import quantities as materials
+from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.table.quantity_group import QuantityGroup
+
+kinds = QuantityGroup(materials.group)
+places, rules = QuantityGroup(layout.group, WITH_TILES), QuantityGroup(gaps.group, WITH_TILES)
+groups = (kinds, places, rules)
+
+kinds.option(
+    "heater_wiring",
+    ("series", "vanes_parallel", "all_parallel"),
+    "How the Peltier modules are wired: all in series, the vanes in parallel each in series, or all in parallel",
+)
+
+
+@places.helper(requires=())
+def pocket_count(vane_count: Scalar) -> Scalar:
+    """Pockets for Peltier modules [1]: one in each face of the housing's vanes."""
+    return 2.0 * vane_count
+
+
+@places.helper(requires=())
+def tiles_per_pocket(tiles_per_block: Scalar) -> Scalar:
+    """Rectangular Peltier modules in each pocket [1]."""
+    return tiles_per_block
+
+
+@places.helper(default=1.0)
+def slot_count(tiles_per_block: Scalar) -> Scalar:
+    """Slots of a housing vane [1]: one behind each tile; one behind pads."""
+    return tiles_per_block
+
+
+@places.output("mm")
+def tile_spacing(block_width: Scalar, tiles_per_block: Scalar) -> Scalar:
+    """Distance from one tile of a row to the next."""
+    return block_width / tiles_per_block
+
+
+@places.output("mm")
+def tile_window(slot_share: Scalar, peltier_length: Scalar) -> Scalar:
+    """Width of a tile that its slot leaves open."""
+    return slot_share * peltier_length
+
+
+@places.output("mm")
+def tile_slot_radius(pcl_mean_radius: Scalar, pad_depth: Scalar, housing_vane_angle: Scalar) -> Scalar:
+    """Distance from the axis, along a vane's middle, of what lies behind the middle of its rows of tiles."""
+    half = 0.5 * housing_vane_angle
+    return pcl_mean_radius * np.cos(half) + pad_depth * np.sin(half)
+
+
+@places.output("mm")
+def tile_slot_pitch(tile_spacing: Scalar, housing_vane_angle: Scalar) -> Scalar:
+    """Distance of a vane's slots along its middle."""
+    return tile_spacing * np.cos(0.5 * housing_vane_angle)
+
+
+@rules.output("mm", at_least(0.0, "the Peltier modules are too long for the block's width: fewer, or a wider block"))
+def tile_side_margin(tile_spacing: Scalar, peltier_length: Scalar, tile_clearance: Scalar) -> Scalar:
+    """Gap between neighbouring tiles of a row beyond the least; of one, to both ends of its block."""
+    return tile_spacing - peltier_length - tile_clearance
+
+
+@rules.output("mm", at_least(0.0, "the Peltier modules are taller than the block: a smaller one, or a taller block"))
+def tile_height_margin(block_height: Scalar, peltier_width: Scalar) -> Scalar:
+    """Height of the block beyond that of the tiles."""
+    return block_height - peltier_width
+
+
+@rules.output("mm", at_least(0.0, "the slot behind a Peltier module is too narrow for its leads"))
+def lead_slot_margin(slot_width: Scalar, lead_hole_diameter: Scalar) -> Scalar:
+    """Width of the slots beyond what the leads of a tile need."""
+    return slot_width - lead_hole_diameter
+
+
+@rules.output("mm", at_least(0.0, "a slot breaks through the inner end of its vane: choose a smaller slot_share"))
+def inner_web_margin(slot_inner_radius: Scalar, pcl_inner_radius: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Housing vane within its innermost slot beyond the process's least wall."""
+    return slot_inner_radius - pcl_inner_radius - minimum_wall
+
+
+@rules.output("mm", at_least(0.0, "a slot breaks through the outer end of its vane: choose a smaller slot_share"))
+def outer_web_margin(pcl_outer_radius: Scalar, slot_outer_radius: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Housing vane without the corners of its outermost slot beyond the process's least wall."""
+    return pcl_outer_radius - slot_outer_radius - minimum_wall

@@ -1,0 +1,122 @@
+"""In which form Peltier modules come: cut to the outline of the PCL, or rectangles behind a spreader, as they are sold.
+
+A flexible module is cut to the face of the PCL. A rigid one is a rectangle: as many as have room share a pocket, and a
+spreader of the PCL's outline lies on them, flush with the structure, and takes their heat to what they do not cover.
+Each mode says how many pockets there are (`pocket_count`), how many modules lie in each (`tiles_per_pocket`), and what
+the spreader resists (`spreader_resistance`).
+"""
+
+from __future__ import annotations
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.record import Record
+from tvimdesign.device.core.heat.thermal_stack import quantities as heat
+from tvimdesign.device.core.layout import quantities as layout
+from tvimdesign.device.core.mass_properties import quantities as bodies
+from tvimdesign.device.core.materials import quantities as materials
+from tvimdesign.device.table.quantity import Feature, Scalar
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.heat_flow import spreader
+
+CUT = "flexible"
+WITH_TILES = (Feature("heater_form", CUT),)
+
+kinds = QuantityGroup(materials.group)
+places, weights = QuantityGroup(layout.group, WITH_TILES), QuantityGroup(bodies.group, WITH_TILES)
+flows = QuantityGroup(heat.group)
+groups = (kinds, places, weights, flows)
+
+kinds.option(
+    "heater_form",
+    (CUT, "rigid"),
+    "How the Peltier modules face the PCL: cut to its outline, or as rectangles behind a spreader",
+    record=("peltier_module", "form"),
+)
+kinds.record(
+    "spreader_material", "spreaders", "aluminum_6061", "Sheet between rigid Peltier modules and the PCL",
+    requires=WITH_TILES,
+)  # fmt: skip
+for name, unit, field, description in (
+    ("peltier_length", "mm", "length", "Length of one rectangular Peltier module, along its row"),
+    ("peltier_width", "mm", "width", "Width of one rectangular Peltier module, across its row"),
+):
+    kinds.property(name, unit, ("peltier_module", field), description, default=0.0)
+for name, unit, field, description in (
+    ("spreader_density", "kg/m^3", "density", "Density of the spreader"),
+    ("spreader_conductivity", "W/m/K", "thermal_conductivity", "Thermal conductivity of the spreader"),
+    ("spreader_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the spreader"),
+    ("spreader_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the spreader"),
+):
+    kinds.property(name, unit, ("spreader_material", field), description)
+kinds.property(
+    "spreader_shear_modulus",
+    "GPa",
+    ("spreader_material", "shear_modulus"),
+    "Shear modulus of the spreader",
+    mode="shear",
+)
+
+
+@places.output("1", default=1.0, requires=())
+def heater_count(heater_form: str, peltier_module: Record, pocket_count: Scalar, tiles_per_pocket: Scalar) -> Scalar:
+    """Peltier modules of the module: one pad at each arc or block, or all its tiles."""
+    if heater_form != CUT:
+        return pocket_count * tiles_per_pocket
+    if peltier_module.word("form") != CUT:
+        raise InputError(f"heater_form: {CUT} needs a module that can be cut; {peltier_module.name} is rigid")
+    return pocket_count
+
+
+@places.output("mm")
+def spreader_depth(spreader_thickness: Scalar) -> Scalar:
+    """Depth the spreader takes of the pocket behind the PCL; zero without one."""
+    return spreader_thickness
+
+
+@places.output("mm", requires=())
+def pad_depth(peltier_thickness: Scalar, spreader_depth: Scalar) -> Scalar:
+    """Depth of the pockets for the Peltier modules and the spreader on them."""
+    return peltier_thickness + spreader_depth
+
+
+@weights.output("g")
+def spreader_mass(spreader_volume: Scalar, spreader_density: Scalar) -> Scalar:
+    """Mass of all spreaders together; zero without."""
+    return spreader_volume * spreader_density
+
+
+@flows.output("mm^2")
+def heated_area(heater_form: str, pcl_area: Scalar, heater_count: Scalar, peltier_area: Scalar) -> Scalar:
+    """Area of all Peltier modules towards the layer."""
+    return pcl_area if heater_form == CUT else heater_count * peltier_area
+
+
+@flows.output("%")
+def heater_coverage(heated_area: Scalar, pcl_area: Scalar) -> Scalar:
+    """Share of the layer's area that faces Peltier modules."""
+    return heated_area / pcl_area
+
+
+@flows.helper()
+def pad_contact(
+    heater_form: str,
+    hot_contact: Scalar,
+    spreader_conductivity: Scalar,
+    spreader_thickness: Scalar,
+    heater_coverage: Scalar,
+    spreader_contact: Scalar,
+    spreader_resistance: Scalar,
+) -> Scalar:
+    """Conductance from the modules' hot side to the layer [W/m^2 K]: contact, and the spreader where there is one."""
+    if heater_form == CUT:
+        return hot_contact
+    through = spreader.contact_resistance(
+        hot_contact, spreader_conductivity, spreader_thickness, heater_coverage, spreader_contact
+    )
+    return 1.0 / (through + spreader_resistance)
+
+
+@flows.helper(requires=WITH_TILES)
+def spreader_capacity(spreader_mass: Scalar, spreader_specific_heat: Scalar) -> Scalar:
+    """Heat capacity of all spreaders [J/K], counted at the modules' hot side; zero without."""
+    return spreader_mass * spreader_specific_heat
