@@ -79,6 +79,15 @@ SPRUNG_BLOCKS = BLOCKS | {"axial_preload": "wave_17x21"}
 # Two rectangular Peltier modules of 20 by 10 mm below each of three arcs, and a spreader on them.
 TILES = {"peltier_module": "ma10_063_05_1", "tiles_per_arc": 2, "arc_count": 3, "arc_span": 1.7,
          "floor_thickness": 6.5 * MM}  # fmt: skip
+# In compression: one of 15 by 15 mm behind each of eight blocks, or two of 11.4 by 11.4 mm; springs as tall as these.
+VANE_TILES = {
+    "peltier_module": "cp30138", "pcl_inner_radius": 16 * MM, "pcl_outer_radius": 32 * MM, "block_height": 15.5 * MM,
+    "vane_count": 4, "coil_diameter": 12 * MM, "coil_count": 10.6, "wire_diameter": 2 * MM, "block_depth": 6 * MM,
+    "rotor_rim": 4 * MM,
+}  # fmt: skip
+VANE_TILE_ROWS = VANE_TILES | {
+    "peltier_module": "qc_17", "tiles_per_block": 2, "pcl_outer_radius": 40.4 * MM, "block_height": 12 * MM,
+}  # fmt: skip
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
@@ -88,6 +97,7 @@ CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "sprung": ("shear", SPRUNG), "sprung bearings": ("shear", SPRUNG_BEARINGS),
     "sprung blocks": ("compression", SPRUNG_BLOCKS), "driven": ("shear", DRIVEN),
     "driven blocks": ("compression", DRIVEN_BLOCKS), "tiles": ("shear", TILES),
+    "tiles in vanes": ("compression", VANE_TILES),
 }  # fmt: skip
 
 

@@ -1,11 +1,11 @@
-"""Which Peltier modules a study may name: rigid ones in shear mode, where they lie as they are, not in compression."""
+"""Which Peltier modules a study may name: rigid ones in both modes, as they are, and what is told of them."""
 
 import pytest
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.solve.result import answer
 from tvimdesign.study import given, read_study_text
-from tvimdesign.study.text.mistakes import StudyError
+from tvimdesign.study.record_checks import record_checks
 
 
 def test_shear_takes_rigid_modules_as_tiles() -> None:
@@ -14,9 +14,28 @@ def test_shear_takes_rigid_modules_as_tiles() -> None:
     assert (known["heater_form"], known["peltier_length"]) == ("rigid", 20e-3)
 
 
-def test_compression_has_pads_cut_to_its_blocks_and_refuses_them() -> None:
-    with pytest.raises(StudyError, match=r"tm_31_14_85 has the form rigid.*cannot be cut"):
-        read_study_text("mode: compression\nmodule: {peltier_module: tm_31_14_85}\n", "a test")
+def test_compression_takes_them_as_they_are_too() -> None:
+    study = read_study_text("mode: compression\nmodule: {peltier_module: tm_31_14_85}\n", "a test")
+    known = given(study)
+    assert (known["heater_form"], known["tiles_per_block"]) == ("rigid", 1.0)
+
+
+def test_a_module_whose_record_names_no_pressure_is_told_where_blocks_press_on_it() -> None:
+    def said(mode: str, module: str) -> list[str]:
+        text = f"mode: {mode}\nmodule: {{{module}}}\n"
+        return [line for line in record_checks(read_study_text(text, "a test")) if "pressure" in line]
+
+    (line,) = said("compression", "peltier_module: qc_17")
+    assert line.startswith("QC-17-1.0-2.5AS: its record does not say what pressure it bears; 1.5 MPa is assumed")
+    assert said("compression", "peltier_module: qc_17, heater_pressure_limit: 1 MPa") == []
+    assert said("compression", "peltier_module: pc_072") == said("compression", "peltier_module: flexible_1600") == []
+    assert said("shear", "peltier_module: qc_17") == []
+
+
+def test_the_pressure_of_a_sheet_comes_before_the_assumed_one() -> None:
+    # The drawing PC-XXX-XX-XX of Laird: max mounting pressure 2.5 MPa.
+    study = read_study_text("mode: compression\nmodule: {peltier_module: pc_072}\n", "a test")
+    assert given(study)["heater_pressure_limit"] == 2.5e6
 
 
 def test_what_counts_only_with_tiles_is_refused_beside_a_sheet() -> None:

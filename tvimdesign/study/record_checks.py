@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.peltier_ratings import contradiction
 from tvimdesign.study.resolve import given
 from tvimdesign.study.study import Study
 
 
 def record_checks(study: Study) -> list[str]:
-    """A sentence for each chosen record that contradicts itself, and for one that is to cool and cannot."""
+    """A sentence for each chosen record that contradicts itself, cannot do what is asked of it, or names no limit."""
     values = given(study)
     records = [record for record in values.values() if isinstance(record, Record)]
     said = [said for record in records if record.category == "peltiers" and (said := contradiction(record))]
@@ -18,4 +22,18 @@ def record_checks(study: Study) -> list[str]:
         heats = format_quantity(values["cooling_current"], study.table.unit("cooling_current"))
         title = values["peltier_module"].title
         said.append(f"cooling_current of {heats} heats: {title} cannot cool; leave it out, and the air cools")
-    return said
+    return said + _pressed(study, values)
+
+
+def _pressed(study: Study, values: Mapping[str, Any]) -> list[str]:
+    """A sentence where blocks press on rigid modules whose record says nothing of the pressure they bear."""
+    limit = "heater_pressure_limit"
+    pressed = limit in values and values["heater_form"] != CUT
+    module = values["peltier_module"]
+    if not pressed or limit in study.module or "max_pressure" in module.entries:
+        return []
+    bears = format_quantity(values[limit], study.table.unit(limit))
+    return [
+        f"{module.title}: its record does not say what pressure it bears; {bears} is assumed (makers mount modules "
+        f"with 1 to 2.1 MPa). Ask the maker, and set {limit}."
+    ]

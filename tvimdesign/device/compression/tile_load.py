@@ -37,12 +37,6 @@ def pad_press_stiffness(
     return structure.series(tiles, spreader_youngs_modulus * block_area / spreader_thickness)
 
 
-@quantities.output("mm^2", requires=WITH_TILES)
-def tile_seat_area(peltier_length: Scalar, peltier_width: Scalar, tile_window: Scalar, slot_height: Scalar) -> Scalar:
-    """Area with which one tile bears on its vane: all of it but the slot's."""
-    return peltier_length * peltier_width - tile_window * slot_height
-
-
 @quantities.helper(requires=WITH_TILES)
 def tile_edge_rise(block_height: Scalar, peltier_width: Scalar) -> Scalar:
     """Pressure at a tile's upper edge over its mean [1], 1 + 6 e/w: the block's middle is e above the tile's."""

@@ -73,6 +73,12 @@ def tile_slot_pitch(tile_spacing: Scalar, housing_vane_angle: Scalar) -> Scalar:
     return tile_spacing * np.cos(0.5 * housing_vane_angle)
 
 
+@places.output("mm^2")
+def tile_seat_area(peltier_length: Scalar, peltier_width: Scalar, tile_window: Scalar, slot_height: Scalar) -> Scalar:
+    """Area with which one tile bears on its vane: all of it but the slot's."""
+    return peltier_length * peltier_width - tile_window * slot_height
+
+
 @rules.output("mm", at_least(0.0, "the Peltier modules are too long for the block's width: fewer, or a wider block"))
 def tile_side_margin(tile_spacing: Scalar, peltier_length: Scalar, tile_clearance: Scalar) -> Scalar:
     """Gap between neighbouring tiles of a row beyond the least; of one, to both ends of its block."""
@@ -83,6 +89,15 @@ def tile_side_margin(tile_spacing: Scalar, peltier_length: Scalar, tile_clearanc
 def tile_height_margin(block_height: Scalar, peltier_width: Scalar) -> Scalar:
     """Height of the block beyond that of the tiles."""
     return block_height - peltier_width
+
+
+@rules.output("mm", at_least(0.0, "a Peltier module reaches beyond the outer end of its vane: a wider block"))
+def tile_end_margin(
+    pcl_outer_radius: Scalar, tile_spacing: Scalar, peltier_length: Scalar, pad_depth: Scalar
+) -> Scalar:
+    """Vane beyond the back corner of its outermost tiles, which bear on it up to there."""
+    end = pcl_outer_radius - 0.5 * (tile_spacing - peltier_length)
+    return pcl_outer_radius - np.sqrt(end**2 + pad_depth**2)
 
 
 @rules.output("mm", at_least(0.0, "the slot behind a Peltier module is too narrow for its leads"))

@@ -65,7 +65,9 @@ def unmeasured_inputs(resolved: ResolvedModule) -> list[UnmeasuredInput]:
 def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
     assert row.record is not None
     entry = _entry(resolved.values[row.record[0]], row.record[1])
-    if entry is None or entry.low is None or entry.high is None:
+    if entry is None:
+        return _of_table(row, resolved)
+    if entry.low is None or entry.high is None:
         return None
     return _within(row, resolved, entry.value, (entry.low, entry.high), entry.status)
 

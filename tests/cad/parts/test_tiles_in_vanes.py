@@ -1,0 +1,126 @@
+"""Solids of rectangular Peltier modules in vanes: as large as their rows, apart, each over a slot its leads leave by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import cadquery as cq
+import pytest
+from cad_designs import VANE_TILE_ROWS, VANE_TILES, broken_rules, design_of
+
+from tvimdesign.cad.assembly.assembly import drawn_part
+from tvimdesign.cad.assembly.assembly_note import steps_of
+from tvimdesign.cad.assembly.bill_of_materials import beside, bill
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
+from tvimdesign.cad.parts import compression_parts
+from tvimdesign.study.design import Design
+
+KINDS = ("housing", "peltier_pad", "spreader", "pcl_block")
+
+
+@pytest.fixture(scope="module", params=[VANE_TILES, VANE_TILE_ROWS], ids=["one a block", "two a block"])
+def design(request: pytest.FixtureRequest) -> Design:
+    return design_of("tiles", request.param, "compression")
+
+
+@pytest.fixture(scope="module")
+def dims(design: Design) -> Dimensions:
+    return dimensions(design)
+
+
+@pytest.fixture(scope="module")
+def placed(dims: Dimensions) -> dict[str, cq.Solid]:
+    drawn = {kind: drawn_part(dims, kind) for kind in KINDS}
+    standing = {name: shape.Solids()[0] for name, shape in compression_parts.stand(dims, drawn, 0.0).items()}
+    return {"housing": drawn["housing"], **standing}
+
+
+def tiles(placed: dict[str, cq.Solid]) -> Iterator[tuple[str, cq.Solid]]:
+    return ((name, solid) for name, solid in placed.items() if kind_of(name) == "peltier_pad")
+
+
+def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
+    design: Design, dims: Dimensions, placed: dict[str, cq.Solid]
+) -> None:
+    assert broken_rules(design) == []
+    counts = {kind: sum(kind_of(name) == kind for name in placed) for kind in KINDS}
+    row = round(dims.tiles_per_block)
+    assert counts == {"housing": 1, "peltier_pad": 8 * row, "spreader": 8, "pcl_block": 8}
+    named = [f"{kind}_volume" for kind in ("housing", "peltier_pad", "spreader", "pcl_block")]
+    sizes = {check.name: check for check in size_checks(design, placed) if check.name in named}
+    assert sorted(sizes) == sorted(named)
+    assert all(check.ok for check in sizes.values()), [check.text for check in sizes.values()]
+    assert [check.text for check in interference_checks(placed, "here") if not check.ok] == []
+
+
+def test_each_tile_touches_its_spreader_and_each_spreader_its_block(placed: dict[str, cq.Solid]) -> None:
+    def touching(solid: cq.Solid, kind: str) -> int:
+        others = [other for name, other in placed.items() if kind_of(name) == kind]
+        return sum(solid.distance(other) < 1e-7 for other in others)
+
+    for name, tile in tiles(placed):
+        assert (touching(tile, "spreader"), touching(tile, "housing")) == (1, 1), name
+    spreaders = [solid for name, solid in placed.items() if kind_of(name) == "spreader"]
+    assert [touching(one, "pcl_block") for one in spreaders] == [1] * 8
+
+
+def behind(tile: cq.Solid, housing: cq.Solid, depth: float = 0.01) -> float:
+    """Area [mm^2] of a tile's two large faces that the housing lies behind, to a sliver's depth."""
+    faces = sorted(tile.Faces(), key=lambda face: face.Area())[-2:]
+    found = 0.0
+    for face in faces:
+        sliver = cq.Solid.extrudeLinear(face.outerWire(), [], face.normalAt() * depth)
+        found += sum(part.Volume() for part in sliver.intersect(housing).Solids()) / depth
+    return found
+
+
+def test_the_seat_of_a_tile_is_as_large_as_its_row(design: Design, placed: dict[str, cq.Solid]) -> None:
+    for name, tile in list(tiles(placed))[:4]:
+        assert behind(tile, placed["housing"]) == pytest.approx(1e6 * design.values["tile_seat_area"], rel=2e-3), name
+
+
+def test_below_the_middle_of_each_tile_is_a_way_out_through_the_floor(
+    dims: Dimensions, placed: dict[str, cq.Solid]
+) -> None:
+    for name, tile in tiles(placed):
+        middle = tile.Center()
+        for level in (dims.running_clearance - 0.01, -0.5 * dims.floor_thickness, -dims.floor_thickness + 0.01):
+            assert not placed["housing"].isInside(cq.Vector(middle.x, middle.y, level)), f"{name} at {level:.2f} mm"
+
+
+def test_the_note_sets_spreaders_into_the_vanes_and_says_where_wires_go() -> None:
+    texts = [step["text"] for step in steps_of({*KINDS, "rotor"})]
+    (step,) = [text for text in texts if "carry {number_of_peltier_pad} tiles" in text]
+    assert "down through the slots" in step
+    assert not any("Slide the {number_of_peltier_pad} Peltier pads" in text for text in texts)
+    assert not any("the hole at one end of" in text for text in texts)
+    pads = [step["text"] for step in steps_of({*KINDS, "rotor"} - {"spreader"})]
+    assert any("Slide the {number_of_peltier_pad} Peltier pads" in text for text in pads)
+
+
+def test_modules_spreaders_adhesive_and_wires_are_in_the_list(design: Design, placed: dict[str, cq.Solid]) -> None:
+    counted = {item.kind: item.quantity for item in bill(design, {}, placed)}
+    assert counted["peltier_pad"] == round(design.values["heater_count"])
+    assert counted["spreader"] == 8
+    design.values.update(peak_voltage=20.0, peak_current=1.5)
+    listed = {item.kind: item for item in beside(design, {})}
+    assert "heat_conducting_adhesive" in listed
+    assert (listed["thermistor"].quantity, "hole" in listed["thermistor"].title) == (1, False)
+    assert f"for the {counted['peltier_pad']} heaters" in listed["heater_wire"].title
+
+
+def test_the_supply_is_for_the_vanes_as_they_are_wired() -> None:
+    wired = design_of("wired", VANE_TILES | {"heater_wiring": "vanes_parallel"}, "compression")
+    wired.values.update(peak_voltage=9.0, peak_current=2.0)
+    assert "vanes in parallel" in next(item.title for item in beside(wired, {}) if item.kind == "supply")
+
+
+def test_tiles_that_overlap_are_found_by_rule_and_solid() -> None:
+    crowded = design_of("crowded", VANE_TILE_ROWS | {"pcl_outer_radius": 38e-3}, "compression")
+    assert "tile_side_margin" in broken_rules(crowded)
+    dims = dimensions(crowded)
+    drawn = {kind: drawn_part(dims, kind) for kind in ("peltier_pad", "pcl_block", "spreader")}
+    placed = {name: shape.Solids()[0] for name, shape in compression_parts.stand(dims, drawn, 0.0).items()}
+    assert any("peltier_pad_1 and peltier_pad_2" in c.text for c in interference_checks(placed, "here") if not c.ok)

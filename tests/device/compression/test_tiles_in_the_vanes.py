@@ -1,0 +1,227 @@
+"""Rectangular Peltier modules in the vanes: where they fit, what they weigh, pass, bear and give, by hand."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+import pytest
+from cad_designs import VANE_TILE_ROWS, VANE_TILES
+from scipy.sparse import coo_matrix
+from scipy.sparse.linalg import spsolve
+
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.physics.heat_flow import heat, lumps, peltier
+from tvimdesign.study import given, read_study_text
+
+MM = 1e-3
+TABLE = table_for("compression")
+
+
+def inputs_of(of: dict[str, Any] = VANE_TILES, **module: Any) -> dict[str, Any]:
+    """Inputs of that compression module but for what is said (SI, records by name)."""
+    study = read_study_text("mode: compression\n", "a test").model_copy(update={"module": {**of, **module}})
+    return given(study)
+
+
+def values_of(rows: str, of: dict[str, Any] = VANE_TILES, **module: Any) -> dict[str, Any]:
+    return TABLE.evaluate(inputs_of(of, **module), rows.split())
+
+
+@pytest.mark.parametrize(
+    ("rule", "of", "module"),
+    [
+        ("tile_side_margin", VANE_TILES, {"pcl_outer_radius": 31.2 * MM}),
+        ("tile_side_margin", VANE_TILE_ROWS, {"pcl_outer_radius": 39 * MM}),
+        ("tile_height_margin", VANE_TILES, {"block_height": 14.9 * MM}),
+        ("lead_slot_margin", VANE_TILES, {"slot_share": 0.17}),
+        ("inner_web_margin", VANE_TILES, {"slot_share": 0.9, "vane_count": 3, "block_depth": 3 * MM}),
+        ("outer_web_margin", VANE_TILES, {"slot_share": 0.75}),
+        ("tile_end_margin", VANE_TILES, {"spreader_thickness": 3 * MM}),
+        ("slot_opening", VANE_TILES, {"block_depth": 11 * MM}),
+    ],
+)
+def test_a_module_without_room_breaks_its_rule(rule: str, of: dict[str, Any], module: dict[str, float]) -> None:
+    def kept(**changes: float) -> bool:
+        return bool(values_of(rule, of, **changes)[rule] >= TABLE.output(rule).rules[0].value)
+
+    assert kept()
+    assert not kept(**module)
+
+
+def test_they_cover_weigh_and_take_depth_as_the_sheet_says() -> None:
+    rows = "heater_count heater_coverage pcl_area peltier_mass peltier_scale pad_depth spreader_mass module_mass"
+    values, record = values_of(rows), Catalog().record("peltiers", "cp30138")
+    assert values["heater_count"] == values["peltier_scale"] == 8.0
+    assert values["heater_coverage"] * values["pcl_area"] == pytest.approx(8 * 15 * 15 * MM**2)
+    assert values["peltier_mass"] == pytest.approx(8 * record.value("mass"))
+    assert values["pad_depth"] == pytest.approx(4.8 * MM)
+    assert values["spreader_mass"] == pytest.approx(2700.0 * 8 * 16 * 15.5 * 1.0 * MM**3)
+    of_copper = values_of("spreader_mass module_mass", spreader_material="copper")
+    heavier = of_copper["spreader_mass"] - values["spreader_mass"]
+    assert of_copper["module_mass"] - values["module_mass"] == pytest.approx(heavier)
+    assert heavier > 0.0
+
+
+@pytest.mark.parametrize(("wiring", "strings"), [("series", 1), ("vanes_parallel", 4), ("all_parallel", 16)])
+def test_as_wired_they_are_sixteen_modules_that_share_current_and_voltage(wiring: str, strings: int) -> None:
+    values = values_of("pads heater_strings", VANE_TILE_ROWS, heater_wiring=wiring)
+    record = Catalog().record("peltiers", "qc_17")
+    one = peltier.PeltierModule(*(record.value(name) for name in ("seebeck", "resistance", "conductance")))
+    current, hot, cold = 2.4, 360.0, 320.0
+    assert values["heater_strings"] == strings
+    for heat_of in (peltier.hot_side_heat, peltier.cold_side_heat):
+        alone = 16 * heat_of(one, current / strings, hot, cold)
+        # The record's 130 mm^2 are 11.4 by 11.4 mm to three figures.
+        assert heat_of(values["pads"], current, hot, cold) == pytest.approx(alone, rel=1e-9)
+    in_series = 16 / strings * peltier.voltage(one, current / strings, hot, cold)
+    assert peltier.voltage(values["pads"], current, hot, cold) == pytest.approx(in_series)
+
+
+def test_the_stack_has_the_spreader_between_modules_and_blocks() -> None:
+    stack: heat.Stack = values_of("stack")["stack"]
+    values = values_of("spreader_mass spreader_resistance")
+    covered = 15 * 15 / (16 * 15.5)
+    # 1/h + t/k + 1/(f h_m) + what spreading costs, by hand
+    expected = 1e-4 + 1e-3 / 167.0 + 1e-4 / covered + values["spreader_resistance"]
+    assert 1.0 / stack.hot_contact == pytest.approx(expected, rel=1e-9)
+    assert stack.hot_capacity - stack.cold_capacity == pytest.approx(896.0 * values["spreader_mass"])
+    # Half of each tile's length is open, from its lower edge to 2 mm below its upper one.
+    assert stack.cold_surface.area == pytest.approx(8 * 7.5 * 13 * MM**2)
+
+
+def link_between(stack: heat.Stack, first: lumps.Place, second: lumps.Place) -> float:
+    """Conductance of all links from one place to another [W/K]."""
+    return float(sum(link.conductance for link in stack.links if (link.first, link.second) == (first, second)))
+
+
+def test_spreaders_lose_heat_at_their_edges_and_backs() -> None:
+    # What a spreader of twice the thickness passes more to floor and plate, through the air of 0.3 mm clearances.
+    one, two = (values_of("stack ring_places", spreader_thickness=t)["stack"] for t in (1 * MM, 2 * MM))
+    floor, above, walls, housing = values_of("ring_places")["ring_places"]
+    known = inputs_of()
+    gap = known["air_conductivity"] * 8 * 16 * 1.0 * MM**2 / known["running_clearance"]
+    for face in (floor, above):
+        assert link_between(two, ("hot", 0), face) - link_between(one, ("hot", 0), face) == pytest.approx(gap)
+    # Beside the tiles 3.8 mm of air lie behind the spreaders.
+    backs = known["air_conductivity"] * 8 * (16 * 15.5 - 15 * 15) * MM**2 / (3.8 * MM)
+    assert link_between(one, ("hot", 0), walls) == pytest.approx(backs)
+    assert link_between(two, ("hot", 0), housing) > link_between(one, ("hot", 0), housing)
+
+
+def test_what_the_modules_are_given_is_stored_where_nothing_reaches_the_air() -> None:
+    # First law: along the rates the stored energy grows by the electrical power, whatever the links pass within.
+    surfaces = ("rotor_coefficient", "housing_coefficient", "cold_side_coefficient", "surface_emissivity")
+    closed = dict.fromkeys(surfaces, 1e-12)
+    known = {**inputs_of(), **closed}
+    stack: heat.Stack = TABLE.evaluate(known, ["stack"])["stack"]
+    begin = heat.initial_state(stack, 8, 295.15)
+    state = begin + 0.05 * np.random.default_rng(3).random(len(begin))
+    rates, step = np.asarray(heat.rates(state, stack, 1.5)), 1e-4
+    stored = (heat.stored_energy(state + step * rates, stack) - heat.stored_energy(state - step * rates, stack)) / (
+        2.0 * step
+    )
+    power = heat.electrical_power(heat.profile(state, stack), stack, 1.5)
+    assert power > 5.0
+    assert stored == pytest.approx(power, rel=1e-6)
+
+
+def in_the_plane(width: float, height: float, row: int, tile: tuple[float, float], depth: float, k: float) -> float:
+    """Mean rise over its fed parts of a thin plate that gives off 1 W/m^2, tiles at its lower edge held at 0 K."""
+    step = 0.25 * MM
+    columns, rows = round(width / step), round(height / step)
+    index = np.arange(columns * rows).reshape(columns, rows)
+    pairs = [(index[:-1].ravel(), index[1:].ravel()), (index[:, :-1].ravel(), index[:, 1:].ravel())]
+    a, b = (np.concatenate(side) for side in zip(*pairs, strict=True))
+    x, z = (np.arange(columns) + 0.5) * step, (np.arange(rows) + 0.5) * step
+    pitch = width / row
+    fed = (np.abs(x % pitch - 0.5 * pitch) < 0.5 * tile[0])[:, None] & (z < tile[1])[None, :]
+    # A fed cell is at one temperature up to its side, so the way to the next one is half as long.
+    between = k * depth * np.where(fed.ravel()[a] != fed.ravel()[b], 2.0, 1.0)
+    diagonal = np.zeros(index.size)
+    np.add.at(diagonal, np.concatenate((a, b)), np.tile(between, 2))
+    diagonal[index[fed]] += 1e9
+    cells = np.arange(index.size)
+    entries = np.concatenate((-between, -between, diagonal))
+    places = (np.concatenate((a, b, cells)), np.concatenate((b, a, cells)))
+    found = spsolve(coo_matrix((entries, places)).tocsr(), np.full(index.size, step**2))
+    return float(np.mean(found))
+
+
+@pytest.mark.parametrize(
+    ("row", "width", "height"), [(1, 24 * MM, 15.5 * MM), (1, 16 * MM, 24 * MM), (2, 40 * MM, 20 * MM)]
+)
+def test_spreading_in_two_directions_costs_no_less_than_a_thin_plate_does(
+    row: int, width: float, height: float
+) -> None:
+    module = {"pcl_outer_radius": 16 * MM + width, "block_height": height, "tiles_per_block": row}
+    # What goes around the tiles' corners into the plate's thickness is in the plate's own test: thin, it is little.
+    module["spreader_thickness"] = 0.2 * MM
+    found = values_of("spreader_resistance", VANE_TILES, **module)["spreader_resistance"]
+    plane = in_the_plane(width, height, row, (15 * MM, 15 * MM), 0.2 * MM, 167.0)
+    print(found/plane)
+    assert plane < found < 1.3 * plane
+
+
+@pytest.mark.parametrize("of", [VANE_TILES, VANE_TILE_ROWS], ids=["one a block", "two a block"])
+def test_they_bear_what_their_sheet_says_where_they_lie_on_the_vane(of: dict[str, Any]) -> None:
+    side, row, height = (15.0, 1, 15.5) if of is VANE_TILES else (11.4, 2, 12.0)
+    radius = 24.0 if row == 1 else 28.2
+    seat = side * side - 0.5 * side * (side - 2.0)
+    rise = 1.0 + 6.0 * 0.5 * (height - side) / side  # eccentric by half of what the block is taller
+    force = 1.5 * row * seat / rise  # N at 1.5 MPa
+    expected = 4 * force * radius * MM
+    rows = "heater_holding_torque holding_torque"
+    values = values_of(rows, of)
+    assert values["heater_holding_torque"] == pytest.approx(expected, rel=1e-9)
+    # Where they bear least, they say what the joint holds; pads cut to the blocks limit nothing.
+    weak = values_of(rows, of, heater_pressure_limit=0.2e6)
+    assert weak["holding_torque"] == weak["heater_holding_torque"] == pytest.approx(expected * 0.2 / 1.5, rel=1e-9)
+
+
+def test_pressure_in_a_hold_is_the_block_s_on_the_seats() -> None:
+    point = {"hold_torque": 2.0}
+    values = values_of("heater_pressure@cold block_pressure@cold", **point)
+    seat, rise = 225.0 - 7.5 * 13.0, 1.0 + 6.0 * 0.25 / 15.0
+    pressed = values["block_pressure@cold"] * 16 * 15.5 / seat * rise
+    assert values["heater_pressure@cold"] == pytest.approx(pressed, rel=1e-9)
+    assert values["heater_pressure@cold"] > 0.0
+
+
+def test_tiles_and_spreader_give_in_series_under_a_block() -> None:
+    # Young's modulus three times the shear modulus of 1 GPa on 15 by 15 mm, 3.8 mm thick; 1 mm of aluminium, 71.7 GPa.
+    tile, sheet = 3e9 * 225e-6 / 3.8e-3, 71.7e9 * 16 * 15.5e-6 / 1e-3
+    found = values_of("pad_press_stiffness structure_compliances")
+    assert found["pad_press_stiffness"] == pytest.approx(1.0 / (1.0 / tile + 1.0 / sheet), rel=1e-9)
+    about_the_axis = 4 * found["pad_press_stiffness"] * (24e-3) ** 2
+    assert found["structure_compliances"][-1] == pytest.approx(1.0 / about_the_axis, rel=1e-9)
+
+
+def test_a_vane_with_two_slots_bends_as_its_three_webs() -> None:
+    values = values_of("vane_webs slot_width housing_vane_angle", VANE_TILE_ROWS)
+    along = 24.4 * MM * np.cos(0.5 * values["housing_vane_angle"])
+    assert values["vane_webs"] == pytest.approx(along - 2 * values["slot_width"], rel=1e-9)
+
+
+def test_symbols_give_what_floats_give() -> None:
+    rows = [
+        "tile_side_margin", "inner_web_margin", "outer_web_margin", "slot_opening", "heater_coverage",
+        "spreader_resistance", "heater_holding_torque", "housing_volume", "module_mass", "structure_stiffness",
+    ]  # fmt: skip
+    known = inputs_of(VANE_TILE_ROWS)
+    names = ["pcl_inner_radius", "pcl_outer_radius", "block_height", "tiles_per_block", "vane_count", "slot_share"]
+    symbols = ca.SX.sym("x", len(names))
+    found = TABLE.evaluate({**known, **{name: symbols[i] for i, name in enumerate(names)}}, rows)
+    function = ca.Function("f", [symbols], [ca.vertcat(*(found[row] for row in rows))])
+    expected = TABLE.evaluate(known, rows)
+    assert np.array(function([known[name] for name in names])).ravel() == pytest.approx([expected[row] for row in rows])
+
+
+def test_a_pad_is_as_it_was() -> None:
+    flat = given(read_study_text("mode: compression\n", "a test"))
+    rows = "heater_count heater_coverage spreader_mass pad_depth pad_seat slot_width slot_web heater_holding_torque"
+    values = TABLE.evaluate(flat, rows.split())
+    seat = flat["peltier_thickness"] - flat["corner_radius"]
+    assert list(values.values()) == pytest.approx([12.0, 1.0, 0.0, flat["peltier_thickness"], seat, 7e-3, 3.5e-3, 0.0])
