@@ -161,7 +161,6 @@ def test_spreading_in_two_directions_costs_no_less_than_a_thin_plate_does(
     module["spreader_thickness"] = 0.2 * MM
     found = values_of("spreader_resistance", VANE_TILES, **module)["spreader_resistance"]
     plane = in_the_plane(width, height, row, (15 * MM, 15 * MM), 0.2 * MM, 167.0)
-    print(found/plane)
     assert plane < found < 1.3 * plane
 
 
