@@ -1,4 +1,4 @@
-"""Solids of rectangular Peltier modules in vanes: as large as their rows, apart, each over a slot its leads leave by."""
+"""Solids of rectangular Peltier modules in vanes: as large as their rows, apart, each over a slot for its leads."""
 
 from __future__ import annotations
 

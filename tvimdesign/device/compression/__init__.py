@@ -19,6 +19,8 @@ radius, so a block is strained alike from its inner to its outer end and K = n E
   in the middle of it; the slot ends a `window_ledge` below the vane's top. The pads bear on what is left of the vane.
   Beside the pads the slot's corners open into their pockets; below them the slot is wider by the `corner_radius` of its
   rounded corners, so that a cutter of that radius comes by, and the pads stand on the `pad_seat` that is left.
+- Rigid modules stand in the same pockets, made deeper by a spreader before them: `vane_tiles` has their drawing in
+  words.
 - Rotor vanes hang at azimuths 0, 360/N, ... degrees, housing vanes stand half a pitch further.
 
 The blocks touch both faces at rest and are bonded to at most one of them. They do not slip there while pressed. They

@@ -46,7 +46,7 @@ def spreader_resistance(
     """Resistance of the way along the spreader to what its modules do not cover, times the layer's area.
 
     First upwards from the tiles' upper edges, as they stand at the spreader's lower one; then along the radius, from
-    both sides of each tile. A thin plate solved in two dimensions resists 5 to 18 % less, as heat takes both ways at once.
+    both sides of each tile. A thin plate solved in two dimensions resists 5 to 18 % less: heat takes both ways at once.
     """
     k, t, row = spreader_conductivity, spreader_thickness, tiles_per_block * peltier_length
     upright, covered = row * block_height, row * peltier_width
