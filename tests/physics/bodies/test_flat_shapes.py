@@ -185,6 +185,15 @@ def test_what_lies_between_two_planes_of_a_vane_is_its_strips(corner: float) -> 
                 return float(middle + np.sqrt(max(corner**2 - (x - centre) ** 2, 0.0)))
         return float(leg)
 
-    area = by_strips(height, near, far).area
-    found = (far - near) * shapes.between_planes(span, inset, 0.5 * (near + far)) - shapes.wedge_corners(corner, span)
-    assert found == pytest.approx(area, rel=1e-7)
+    strips = by_strips(height, near, far)
+    whole = shapes.wedge(span, inset, far - near, 0.5 * (near + far))
+    assert whole.area - shapes.wedge_corners(corner, span) == pytest.approx(strips.area, rel=1e-7)
+    if not corner:
+        assert whole.polar == pytest.approx(strips.polar, rel=1e-9)
+
+
+def test_trapezoids_in_a_row_are_one_by_one() -> None:
+    span, inset = np.radians(40.0), 3e-3
+    singles = [shapes.wedge(span, inset, 6e-3, 26e-3 + shift) for shift in (-9e-3, 0.0, 9e-3)]
+    row = shapes.wedge(span, inset, 6e-3, 26e-3, 3, 9e-3)
+    assert row == pytest.approx(singles[0].plus(*singles[1:]), rel=1e-12)

@@ -6,7 +6,7 @@ from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, between_planes, corners, radial_strip, sector, wedge_corners
+from tvimdesign.physics.bodies.shapes import Section, corners, radial_strip, sector, stacked, wedge, wedge_corners
 
 quantities = QuantityGroup(shared.group)
 
@@ -62,20 +62,23 @@ def slot_section(
     housing_vane_angle: Scalar,
     slot_inner_radius: Scalar,
     slot_outer_radius: Scalar,
+    pcl_mean_radius: Scalar,
     pad_depth: Scalar,
     slot_count: Scalar,
     slot_width: Scalar,
     tile_slot_radius: Scalar,
-) -> Scalar:
-    """Area of the slots in plan view beside the pads [m^2]: sectors of the vanes, less the pads on either side.
+    tile_slot_pitch: Scalar,
+) -> Section:
+    """Plan view of the slots beside the pads: sectors of the vanes, less the pads on either side.
 
     Behind tiles: what lies between the tiles of a vane, with flat ends.
     """
     if heater_form != CUT:
-        return vane_count * slot_count * slot_width * between_planes(housing_vane_angle, pad_depth, tile_slot_radius)
+        row = wedge(housing_vane_angle, pad_depth, slot_width, tile_slot_radius, slot_count, tile_slot_pitch)
+        return row.times(vane_count)
     whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
-    pads = 2.0 * radial_strip(pad_depth, slot_inner_radius, slot_outer_radius)
-    return vane_count * (whole - pads)
+    area = vane_count * (whole - 2.0 * radial_strip(pad_depth, slot_inner_radius, slot_outer_radius))
+    return Section(area, area * pcl_mean_radius**2)
 
 
 @quantities.helper()
@@ -85,24 +88,28 @@ def slot_foot_section(
     housing_vane_angle: Scalar,
     slot_inner_radius: Scalar,
     slot_outer_radius: Scalar,
+    pcl_mean_radius: Scalar,
     pad_seat: Scalar,
     corner_radius: Scalar,
     slot_count: Scalar,
     slot_width: Scalar,
     tile_slot_radius: Scalar,
-) -> Scalar:
-    """Area of the slots in plan view below the pads [m^2]: less what the pads stand on, corners rounded."""
+    tile_slot_pitch: Scalar,
+) -> Section:
+    """Plan view of the slots below the pads: less what the pads stand on, corners rounded."""
     if heater_form != CUT:
-        between = slot_width * between_planes(housing_vane_angle, pad_seat, tile_slot_radius)
-        return vane_count * slot_count * (between - wedge_corners(corner_radius, housing_vane_angle))
+        row = wedge(housing_vane_angle, pad_seat, slot_width, tile_slot_radius, slot_count, tile_slot_pitch)
+        taken = slot_count * wedge_corners(corner_radius, housing_vane_angle)
+        return (row - Section(taken, taken * tile_slot_radius**2)).times(vane_count)
     whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
     seats = 2.0 * radial_strip(pad_seat, slot_inner_radius, slot_outer_radius)
     rounded = corners(corner_radius, slot_inner_radius, slot_outer_radius, pad_seat)
-    return vane_count * (whole - seats - rounded)
+    area = vane_count * (whole - seats - rounded)
+    return Section(area, area * pcl_mean_radius**2)
 
 
-@quantities.output("mm^3")
-def housing_vanes_volume(
+@quantities.helper()
+def housing_vanes_moments(
     vane_count: Scalar,
     housing_vane_angle: Scalar,
     pcl_inner_radius: Scalar,
@@ -111,27 +118,35 @@ def housing_vanes_volume(
     block_height: Scalar,
     slot_height: Scalar,
     pad_depth: Scalar,
-    slot_section: Scalar,
-    slot_foot_section: Scalar,
-) -> Scalar:
+    slot_section: Section,
+    slot_foot_section: Section,
+) -> Section:
+    """Volume and its polar moment about the axis, of the housing's vanes less the pads let into them and their slots.
+
+    A pad's moment is that of a plate without thickness.
+    """
+    whole = sector(housing_vane_angle, pcl_inner_radius, pcl_outer_radius)
+    strip = 2.0 * radial_strip(pad_depth, pcl_inner_radius, pcl_outer_radius)
+    mean_square = (pcl_inner_radius**2 + pcl_inner_radius * pcl_outer_radius + pcl_outer_radius**2) / 3.0
+    pads = Section(strip, strip * mean_square)
+    return stacked(
+        (whole.times(vane_count), vane_height),
+        (pads.times(vane_count), -block_height),
+        (slot_section, -slot_height),
+        (slot_foot_section, block_height - vane_height),
+    )
+
+
+@quantities.output("mm^3")
+def housing_vanes_volume(housing_vanes_moments: Section) -> Scalar:
     """Volume of the housing's vanes, less the pads let into them and their slots."""
-    whole = sector(housing_vane_angle, pcl_inner_radius, pcl_outer_radius).area * vane_height
-    pads = 2.0 * radial_strip(pad_depth, pcl_inner_radius, pcl_outer_radius) * block_height
-    slots = slot_section * slot_height + slot_foot_section * (vane_height - block_height)
-    return vane_count * (whole - pads) - slots
+    return housing_vanes_moments.area
 
 
 @quantities.helper()
-def floor_openings(
-    slot_foot_section: Scalar,
-    pcl_mean_radius: Scalar,
-    floor_thickness: Scalar,
-    slot_count: Scalar,
-    tile_spacing: Scalar,
-) -> Section:
-    """What the floor has not got, volume and its polar moment: the slots, each at its mean radius."""
-    spread = pcl_mean_radius**2 + tile_spacing**2 * (slot_count**2 - 1.0) / 12.0
-    return Section(slot_foot_section, slot_foot_section * spread).times(floor_thickness)
+def floor_openings(slot_foot_section: Section, floor_thickness: Scalar) -> Section:
+    """What the floor has not got, volume and its polar moment: the slots."""
+    return slot_foot_section.times(floor_thickness)
 
 
 @quantities.output("mm^3")
@@ -141,12 +156,9 @@ def floor_volume(floor_moments: Section) -> Scalar:
 
 
 @quantities.helper()
-def housing_moments(
-    bare_housing_moments: Section, housing_vanes_volume: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar
-) -> Section:
-    """Volume and its polar moment about the axis, of the housing with its vanes, spread over their sectors."""
-    spread = 0.5 * (pcl_inner_radius**2 + pcl_outer_radius**2)
-    return bare_housing_moments.plus(Section(housing_vanes_volume, housing_vanes_volume * spread))
+def housing_moments(bare_housing_moments: Section, housing_vanes_moments: Section) -> Section:
+    """Volume and its polar moment about the axis, of the housing with its vanes."""
+    return bare_housing_moments.plus(housing_vanes_moments)
 
 
 @quantities.output("mm^3")

@@ -170,6 +170,22 @@ def between_planes(span: Any, offset: Any, distance: Any) -> Any:
     return 2.0 * (distance * np.tan(0.5 * span) - offset / np.cos(0.5 * span))
 
 
+def wedge(span: Any, offset: Any, length: Any, distance: Any, count: Any = 1.0, pitch: Any = 0.0) -> Section:
+    """Trapezoids in a row along the middle of a sector, between planes `offset` within its sides, around `distance`.
+
+    `count` of them, each so long, from middle to middle the `pitch`.
+
+    With the half width y(x) = x tan(a/2) - t/cos(a/2) the area is the length times 2 y(d); the polar moment
+    integral of 2 x^2 y dx in closed form, and of 2 y^3/3 dx with y at the middle and y'^2 beside it.
+    """
+    slope = np.tan(0.5 * span)
+    across = between_planes(span, offset, distance)
+    along = (length**2 + pitch**2 * (count**2 - 1.0)) / 12.0
+    about = across * (distance**2 + along) + 4.0 * distance * slope * along
+    beside = across**3 / 12.0 + across * slope**2 * along
+    return Section(length * across, length * (about + beside)).times(count)
+
+
 def wedge_corners(fillet_radius: Any, span: Any) -> Any:
     """Area [m^2] that fillets take from a trapezoid whose legs are inclined by `span` to each other.
 
