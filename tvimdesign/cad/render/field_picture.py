@@ -19,6 +19,8 @@ _SIZE = (1400, 1000)
 _FROM = (1.0, -1.35, 0.9)
 _TOP_QUANTILE = 0.999
 """Share of the corners within the scale: at a sharp one the stress has no largest value."""
+_BODY = 0.82
+"""Share of the picture's width that the body has; the rest is the scale's."""
 _LARGEST_WAY = 0.06
 """How far the farthest corner is drawn to move, in sizes of the body."""
 
@@ -43,9 +45,12 @@ def write_field_picture(path: Path, points: Array, triangles: Any, values: Array
     surface.GetProperty().SetAmbient(0.35)
     renderer = renderer_on_white()
     renderer.AddActor(surface)
-    renderer.AddViewProp(_scale(colours, title))
-    look(renderer, {"": Instance(mesh, np.eye(4))}, _FROM, _SIZE[1] / _SIZE[0])
-    write_png(path, _SIZE, [renderer])
+    renderer.SetViewport(0.0, 0.0, _BODY, 1.0)
+    look(renderer, {"": Instance(mesh, np.eye(4))}, _FROM, _SIZE[1] / (_BODY * _SIZE[0]))
+    beside = renderer_on_white()
+    beside.SetViewport(_BODY, 0.0, 1.0, 1.0)
+    beside.AddViewProp(_scale(colours, title))
+    write_png(path, _SIZE, [renderer, beside])
 
 
 def _scale(colours: vtkLookupTable, title: str) -> vtkScalarBarActor:
@@ -54,9 +59,10 @@ def _scale(colours: vtkLookupTable, title: str) -> vtkScalarBarActor:
     bar.SetTitle(title)
     bar.SetNumberOfLabels(5)
     bar.SetLabelFormat("%.3g")
-    bar.SetPosition(0.9, 0.1)
-    bar.SetWidth(0.08)
-    bar.SetHeight(0.7)
+    bar.SetPosition(0.05, 0.1)
+    bar.SetWidth(0.9)
+    bar.SetHeight(0.8)
+    bar.SetBarRatio(0.25)
     bar.UnconstrainedFontSizeOn()
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
         text.SetColor(0.1, 0.1, 0.1)

@@ -28,9 +28,9 @@ from tvimdesign.study.design import Design, read_design
 
 FAR = 0.10
 """Share by which model and FE may differ before the row is marked."""
-SOLVED = """Solved with netgen and NGSolve from the exported STEP solids: quadratic tetrahedra, tied where parts are bonded.
-The core's top turns as one, the feet are held."""
-TITLES = {"joint": "von Mises, MPa at 1 N m", "spring": "von Mises, MPa at 1 N m", "link": "von Mises, MPa at 1 N"}
+SOLVED = """Solved with netgen and NGSolve from the exported STEP solids: quadratic tetrahedra, tied where parts are
+bonded. The core's top turns as one, the feet are held."""
+TITLES = {"joint": "von Mises\nMPa at 1 N m", "spring": "von Mises\nMPa at 1 N m", "link": "von Mises\nMPa at 1 N"}
 
 
 def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, pictures: bool, as_json: bool) -> None:
