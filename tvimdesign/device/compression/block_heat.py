@@ -117,7 +117,7 @@ def rotor_beside(
     """
     capacity = rotor_thickness * structure_density * structure_specific_heat
     across = structure_conductivity * faced_area / rotor_thickness
-    first, *others = lumps.strip(faced_area, capacity, across, lumps.NOWHERE)
+    first, *others = lumps.strip(faced_area, capacity, across, lumps.Surface(1.0, 0.0))
     root = 3.0 * structure_conductivity * rotor_vanes.area / vane_height
     above = lumps.Surface(faced_area, rotor_coefficient, surface_emissivity)
     others[-1] = others[-1]._replace(surface=above)

@@ -21,7 +21,7 @@ quantities = QuantityGroup(shared.group)
 
 FLOOR = (0, 1, 2)
 """Places of the floor's bodies below blocks and pads, from its upper face on."""
-WALLS, RIM, BELOW_VANES, HOUSING = 3, 4, 5, 6
+WALLS, RIM, BELOW_VANES, ABOVE_WALLS, HOUSING = 3, 4, 5, 6, 7
 TO_RIM = 0.1
 """Way from where a block has its mean temperature to its lower and upper side, as a share of half its height.
 
@@ -56,6 +56,10 @@ def around_pads(
     rotor_vanes: Section,
     vane_height: Scalar,
     rotor_thickness: Scalar,
+    rotor_radius: Scalar,
+    core_radius: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
     housing_inner_radius: Scalar,
     housing_outer_radius: Scalar,
     rim_level: Scalar,
@@ -68,7 +72,8 @@ def around_pads(
     housing_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> tuple[Body, ...]:
-    """Floor below blocks and pads, housing vanes, rotor plate beside the ring, floor below vanes, the rest."""
+    """Floor below blocks and pads, housing vanes, rotor plate within and without the ring, floor below vanes, rotor
+    plate above the housing's vanes, the rest."""
     volumetric = structure_density * structure_specific_heat
     in_air = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
     heated = faced_area - ring_width * plate_depth
@@ -76,14 +81,18 @@ def around_pads(
     first, second, third = (Body(share * heated * floor_thickness * volumetric, lumps.NOWHERE) for share in STRIP)
     floor = (first, second, third._replace(surface=in_air._replace(area=heated)))
     walls = Body((pcl_area - cold_area) * wall_depth * volumetric, lumps.NOWHERE)
-    rim_area = (plate_mass / structure_density - rotor_vanes.area * vane_height) / rotor_thickness - faced_area
-    rim_volume = plate_mass / structure_density - pcl_area * plate_depth - faced_area * rotor_thickness
+    above_area = ring_width * wall_depth
+    above_walls = Body(above_area * rotor_thickness * volumetric,
+                       lumps.Surface(above_area, rotor_coefficient, surface_emissivity))  # fmt: skip
+    rim_area = np.pi * (rotor_radius**2 - pcl_outer_radius**2 + pcl_inner_radius**2 - core_radius**2)
+    rim_volume = plate_mass / structure_density - pcl_area * plate_depth
+    rim_volume = rim_volume - (faced_area + above_area) * rotor_thickness
     rim = Body(rim_volume * volumetric, lumps.Surface(rim_area, rotor_coefficient, surface_emissivity))
     below_vanes = Body(unheated * floor_thickness * volumetric, in_air._replace(area=unheated))
     outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
     outside = outside + np.pi * housing_inner_radius**2 - heated - unheated
     rest = housing_mass * structure_specific_heat - sum(body.capacity for body in (*floor, walls, below_vanes))
-    return (*floor, walls, rim, below_vanes, Body(rest, in_air._replace(area=outside)))
+    return (*floor, walls, rim, below_vanes, above_walls, Body(rest, in_air._replace(area=outside)))
 
 
 @quantities.helper()
@@ -150,8 +159,9 @@ def stack_links(
     Of what passes a clearance a tenth is radiation, which from blocks and vanes is taken as where the PCL is molten.
     """
     floor, vanes, above = ("around", FLOOR[0]), ("around", BELOW_VANES), ("beside", 0)
+    above_walls = ("around", ABOVE_WALLS)
     faces = {floor: 0.5 * STRIP[0] * floor_thickness, vanes: floor_thickness / 3.0,
-             above: 0.5 * STRIP[0] * rotor_thickness}  # fmt: skip
+             above: 0.5 * STRIP[0] * rotor_thickness, above_walls: rotor_thickness / 3.0}  # fmt: skip
     half = 0.5 * peltier_thickness
     found = []
     for place, depth, faced in (
@@ -159,7 +169,7 @@ def stack_links(
         (("hot", 0), half, (floor, above)),
         (("cold", 0), half, (floor, above)),
         (("plate", 0), plate_depth, (vanes,)),
-        (("around", WALLS), wall_depth, (above,)),
+        (("around", WALLS), wall_depth, (above_walls,)),
     ):
         area = ring_width * depth
         for face in faced:
@@ -214,15 +224,35 @@ def side_links(
 @quantities.helper()
 def plate_losses(
     around_pads: tuple[Body, ...],
+    ring_width: Scalar,
+    wall_depth: Scalar,
+    faced_area: Scalar,
+    core_radius: Scalar,
+    pcl_inner_radius: Scalar,
     pcl_outer_radius: Scalar,
     rotor_radius: Scalar,
     rotor_thickness: Scalar,
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
 ) -> tuple[lumps.Loss, ...]:
-    """From the rotor plate above the ring to what is beside it, to a third of the way to the rim; and the air there."""
-    third = (rotor_radius - pcl_outer_radius) / 3.0
-    out = 2.0 * np.pi * structure_conductivity * rotor_thickness / np.log((pcl_outer_radius + third) / pcl_outer_radius)
-    rim = around_pads[RIM].surface
-    onward = rim.area * lumps.surface_coefficient(rim, ambient_temperature, ambient_temperature)
-    return (lumps.Loss(Link(("beside", 2), ("around", RIM), out), onward),)
+    """From the rotor plate above vanes, blocks and pads to what is above the housing's vanes, and within and without
+    the ring; and the air there.
+
+    A third of the way to where each ends lies its mean temperature.
+    """
+    across = structure_conductivity * rotor_thickness * ring_width / ((faced_area / ring_width + wall_depth) / 3.0)
+    found = [
+        _onward(Link(("beside", i), ("around", ABOVE_WALLS), share * across), around_pads, ambient_temperature, share)
+        for i, share in enumerate(STRIP)
+    ]
+    around = 2.0 * np.pi * structure_conductivity * rotor_thickness
+    without = around / np.log(1.0 + (rotor_radius - pcl_outer_radius) / (3.0 * pcl_outer_radius))
+    within = around / -np.log(1.0 - (pcl_inner_radius - core_radius) / (3.0 * pcl_inner_radius))
+    found.append(_onward(Link(("beside", 2), ("around", RIM), within + without), around_pads, ambient_temperature))
+    return tuple(found)
+
+
+def _onward(link: Link, bodies: tuple[Body, ...], ambient: Scalar, share: Scalar = 1.0) -> lumps.Loss:
+    """A link to a body that loses a share of its heat to the air behind it."""
+    surface = bodies[link.second[1]].surface
+    return lumps.Loss(link, share * surface.area * lumps.surface_coefficient(surface, ambient, ambient))
