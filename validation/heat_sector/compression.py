@@ -21,7 +21,7 @@ WANTED = ("pcl_area", "block_width", "pcl_mean_radius", "pcl_melting", "cold_are
 
 PAD_CONDUCTIVITY = 6.0
 """Of the pads in their plane [W/m K], the default in shear; the compression module's table does not have it."""
-PAD_FILM = 1.0 / 6.0
+PAD_FILM = 1.0 / 12.0
 """Thickness of each side of a pad, over the pad's; assumed. Between them are the legs, which fall evenly in temperature
 and are heated evenly by the current."""
 
@@ -56,9 +56,8 @@ def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
             return "wall" if b < high else "air"
         if b < low or b > high:
             return "air"
-        if a < block:
-            return "layer"
-        return "hot" if a < block + film else "legs" if a < block + pad - film else "cold"
+        upright = ((block, "layer"), (block + film, "hot"), (block + pad - film, "legs"))
+        return next((name for right, name in upright if a < right), "cold")
 
     return _with_borders(Plane(
         x, y, drawn(x, y, what), _materials(v), _polymer(v), _pump(v), False,
