@@ -95,7 +95,8 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     root = 0.24 * 6 * 14e-3 * 5e-3 / (3.9e-3 / 3.0)
     above = 0.24 * 6 * 14e-3 * 5e-3 / (thickness / 3.0)
     assert stack.beside[0].conductance == pytest.approx(1.0 / (1.0 / root + 1.0 / above), rel=1e-9)
-    assert stack.beside[0].capacity == pytest.approx(stack.plate_heat_capacity * 6 * 14e-3 * 5e-3 * thickness, rel=1e-9)
+    volume = 6 * 14e-3 * 5e-3 * thickness
+    assert stack.beside[0].capacity == pytest.approx(stack.plate_heat_capacity * volume, rel=1e-9)
     # Half a vane's two rims of 3.5 mm lose 5 W/m2 K.
     rims = 12 * 2 * 3.5e-3 * 2.5e-3
     assert stack.plate_surface.area * stack.plate_surface.coefficient == pytest.approx(5.0 * rims, rel=1e-9)
