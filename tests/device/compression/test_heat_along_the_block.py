@@ -89,8 +89,8 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
     stack = found["stack"]
     assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
-    # Six roots of 14 by 5 mm, the mean of a vane of 3.9 mm heated all along is a third of its height away; so is that of
-    # the rotor plate above it, from its lower face.
+    # Six roots of 14 by 5 mm, the mean of a vane of 3.9 mm heated all along is a third of its height away. So is
+    # that of the rotor plate above it, from its lower face.
     thickness = TABLE.evaluate(squeezed, ["rotor_thickness"])["rotor_thickness"]
     root = 0.24 * 6 * 14e-3 * 5e-3 / (3.9e-3 / 3.0)
     above = 0.24 * 6 * 14e-3 * 5e-3 / (thickness / 3.0)
