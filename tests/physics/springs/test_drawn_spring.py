@@ -49,7 +49,7 @@ def test_the_highest_stress_is_that_of_fe(name: str) -> None:
     if "coil" in case:
         assert straight * coil_stress_factor(shape, factor) == pytest.approx(case["coil"], rel=0.05)
     if case["bend_ratio"] >= 1.0:  # the least that the table's input allows; tighter ones are within 22 %
-        assert straight * bend_stress_factor(shape) == pytest.approx(case["bend"], rel=0.08)
+        assert straight * bend_stress_factor(shape) == pytest.approx(case["bend"], rel=0.09)
 
 
 def along_the_wire(shape: DrawnSpring, poisson: float) -> float:
