@@ -20,7 +20,7 @@ from tvimdesign.device.fixtures.tang import BONDED
 from tvimdesign.study.design import Design, catalog_of
 
 _N_MM = 1e3
-_BEND = "inside radius; at least 1.5 d, or it may crack (Newcomb Spring)"
+_BEND = "coils to tang; under 1.5 d it may crack (Newcomb)"
 _DIN = "DIN 2194 grade 2"
 _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2)
 
@@ -61,8 +61,8 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
              "right: coils leave the eye clockwise"),
         SpringLine("leg, tangential", _figure(coil.leg_length / cos(coil.rise)), "mm", "± 0.5", "straight; assumed"),
         SpringLine("tang, parallel to the axis", _figure(coil.tang_length), "mm", "+ 0 / - 0.3", "assumed"),
-        SpringLine("bend between coils and tang", _figure(coil.bend_radius - 0.5 * d), "mm", "+ 0.5 / - 0", _BEND),
-        SpringLine("free angle", _figure(_free_angle(coil)), "deg", f"± {_figure(angle)}",
+        SpringLine("inside radius of the bend", _figure(coil.bend_radius - 0.5 * d), "mm", "+ 0.5 / - 0", _BEND),
+        SpringLine("free angle", _figure(_free_angle(coil), 1), "deg", f"± {_figure(angle, 1)}",
              f"from tang to leg around the axis; {_DIN}"),
         SpringLine("rate", _figure(rate, 3), "N.mm/deg"),
         SpringLine(f"torque M1 at {_figure(preload)} deg", _figure(rate * preload), "N.mm", spread_torque,
@@ -168,19 +168,18 @@ def _plan(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
     space.add_circle((x + tang[0], y + tang[1]), half, dxfattribs=outline)
     for beside in (-half / radius, half / radius):
         shift = (beside * begin[0], beside * begin[1])
-        ends = [(x + at[0] + shift[0], y + at[1] + shift[1]) for at in (begin, tang)]
-        space.add_line(*ends, dxfattribs=outline)
+        first, last = ((x + at[0] + shift[0], y + at[1] + shift[1]) for at in (begin, tang))
+        space.add_line(first, last, dxfattribs=outline)
     low, high, far = y - radius - half, y - radius + half, x + coil.leg_length
     space.add_lwpolyline([(x, low), (far, low), (far, high), (x, high)], close=True, dxfattribs=outline)
-    start = begin
-    for end in (start, (0.0, -radius)):
+    for end in (begin, (0.0, -radius)):
         space.add_line((x, y), (x + end[0], y + end[1]), dxfattribs={"layer": "CENTRE"})
     space.add_linear_dim(
         (x, low - 8.0 / sheet.scale), (x, low), (far, low), dimstyle="SHEET", dxfattribs=dimension
     ).render()
     if 1.0 < _free_angle(coil) < 359.0:
         space.add_angular_dim_cra(
-            (x, y), radius + half, degrees(atan2(start[1], start[0])), -90.0, distance=7.0 / sheet.scale,
+            (x, y), radius + half, degrees(atan2(begin[1], begin[0])), -90.0, distance=7.0 / sheet.scale,
             dimstyle="SHEET", dxfattribs=dimension,
         ).render()  # fmt: skip
 
