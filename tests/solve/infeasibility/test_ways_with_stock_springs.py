@@ -8,8 +8,10 @@ from tvimdesign.study import read_study_text
 
 FINGER = """
 mode: shear
-module: {{stock_spring: central_t10160, process: print_pc, placement_radius: 18 mm,
-  pcl_inner_radius: 8 mm, pcl_outer_radius: 13 mm, core_radius: 5 mm, pin_diameter: 2 mm, leg_overhang: 1.5 mm, key_count: 0}}
+module: {{
+  stock_spring: central_t10160, process: print_pc, placement_radius: 18 mm,
+  pcl_inner_radius: 8 mm, pcl_outer_radius: 13 mm, core_radius: 5 mm,
+  pin_diameter: 2 mm, leg_overhang: 1.5 mm, key_count: 0}}
 vary: {{{vary}}}
 require: {{{limit}}}
 minimize: module_mass

@@ -12,7 +12,7 @@ import yaml
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import KINDS
+from tvimdesign.cad.geometry.kinds import is_of_structure
 from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
@@ -53,7 +53,7 @@ def _about(mass: float) -> str:
 def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]:
     """How the made parts are made: the structure by the process, what is of PCL printed or cut either way."""
     is_milled = design.choices["making_method"] == "milled"
-    milled = [kind for kind in kinds if is_milled and KINDS[kind].material == "structure_material"]
+    milled = [kind for kind in kinds if is_milled and is_of_structure(kind)]
     lines = []
     if milled:
         listed = ", ".join(map(_words, milled)).capitalize()

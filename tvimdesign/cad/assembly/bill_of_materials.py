@@ -209,9 +209,9 @@ def _papers(kind: str) -> tuple[str, ...]:
     """Files a part is made from, or ordered by."""
     if kind in SPRINGS:
         return (file_names.SPRING_SHEET, file_names.SPRING_TABLE)
-    if PRODUCTION[kind].down == "bought":
-        return (file_names.step(kind),)
     drawing = (file_names.drawing_pdf(kind),) if PRODUCTION[kind].drawn else ()
+    if PRODUCTION[kind].down == "bought":
+        return (file_names.step(kind), *drawing)
     return (file_names.step(kind), *drawing, file_names.print_3mf(kind))
 
 

@@ -26,7 +26,7 @@ from tvimdesign.cad.export.mesh import CHORD, spring_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, is_of_structure, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION, Production
 from tvimdesign.cad.geometry.spring_solids import free_coil
 from tvimdesign.cad.inspection.casting import casting_checks
@@ -54,7 +54,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
     inspections = [
         Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,))
         for kind in kinds
-        if PRODUCTION[kind].drawn
+        if is_of_structure(kind)
     ]
     return [
         *parts,

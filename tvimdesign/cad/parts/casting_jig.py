@@ -17,11 +17,11 @@ from tvimdesign.cad.geometry.production import Production
 from tvimdesign.cad.geometry.solids import cylinder, join
 
 LAND = 2.0
-"""Width of the dam around the part [mm]; assumed, 1 to 4: the lid lies on it, and what is pressed over it breaks off."""
+"""Width of the dam around the part [mm]; assumed, 1 to 4: the lid lies on it, and what runs over it breaks off."""
 PLATE = 3.0
 """Thickness of mould and lid [mm]; assumed, 2 to 10: they are pressed flat between two boards."""
 PINS = (1.5, 2.5)
-"""Radii of the two guide pins [mm], before and behind the part; assumed, 1 to 4: unlike, so that the lid lies one way."""
+"""Radii of the two guide pins [mm], before and behind the part; assumed, 1 to 4: unlike, so the lid lies one way."""
 WALL = 2.0
 """Least way from dam to pin, and from pin to edge [mm]; assumed, 1 to 4."""
 COLOUR = (0.55, 0.62, 0.50)
