@@ -32,13 +32,15 @@ PRODUCTION = {
     "link": Production(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
     "retainer": Production(down="bottom", drawn=True, why="flat: no support"),
     "pcl_arc": Production(
-        down="bottom", drawn=True, why="flat, keys upwards; cast it, print it of PCL, or without keys cut it from sheet",
+        down="bottom", drawn=True,
+        why="flat, keys upwards; cast it, print it of PCL, or without keys cut it from sheet",
     ),
     "pcl_block": Production(
         down="bottom", drawn=True, why="flat; cast it, print it of PCL, or cut it from sheet",
     ),
     "peltier_pad": Production(
-        down="bought", drawn=True, why="a Peltier module of the catalogue, cut to this outline or of this size as it is sold",
+        down="bought", drawn=True,
+        why="a Peltier module of the catalogue, cut to this outline or of this size as it is sold",
     ),
     "spreader": Production(down="bought", drawn=True, why="cut from sheet of its material by its drawing"),
     "thermistor": Production(down="bought", why="a thermistor in glass with a bead of this size and insulated wires"),
