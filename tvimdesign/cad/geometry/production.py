@@ -26,7 +26,7 @@ PRODUCTION = {
     ),
     "rotor": Production(
         down="top", drawn=True,
-        why="link end of the core on the bed: the face the PCL bonds to, and the vanes, come out on top without marks "
+        why="link end of the core on the bed: the face the PCL bonds to, or the vanes, come out on top without marks "
         "of supports, which stand between plate and bed",
     ),
     "link": Production(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
