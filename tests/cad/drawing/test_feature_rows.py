@@ -11,7 +11,7 @@ from math import atan2, degrees, hypot, pi
 import cadquery as cq
 import ezdxf
 import pytest
-from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, design_of
+from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, design_of
 from ezdxf.document import Drawing
 from test_drawings import measured, no_text_lies_on_another, sheet_of, texts
 
@@ -33,6 +33,7 @@ DESIGNS = [
     pytest.param("shear", DRIVEN, id="driven", marks=LONG),
     pytest.param("shear", TILES, id="tiles", marks=LONG),
     pytest.param("compression", BLOCKS, id="blocks", marks=LONG),
+    pytest.param("compression", VANE_TILES, id="tiles in vanes", marks=LONG),
 ]
 
 
