@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.simulation.measurement.fitting.fit import Estimate
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheet, kind_sheets
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement
-from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
+from tvimdesign.simulation.measurement.measure_files import Measured, measure_files, measure_of
 from tvimdesign.simulation.measurement.reading.data_file import read_data_file
 from tvimdesign.simulation.measurement.reading.headings import known
 from tvimdesign.simulation.measurement.record_file import record_text
@@ -42,14 +41,13 @@ def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Meas
     files = [read_data_file(path) for path in ([paths] if isinstance(paths, Path) else paths)]
     blocks = [block for file in files for block in file.blocks]
     sheet = kind_sheet(kind) if kind else next(one for one in kind_sheets().values() if one.fits(blocks[0]))
-    measure = import_module(f"tvimdesign.simulation.measurement.kinds.{sheet.name}").measure
-    result: Measurement = measure(blocks, sheet.values(settings), profiles=False)
+    result: Measurement = measure_of(sheet)(blocks, sheet.values(settings), profiles=False)
     return result
 
 
 def test_every_kind_is_whole() -> None:
     for sheet in kind_sheets().values():
-        assert callable(import_module(f"tvimdesign.simulation.measurement.kinds.{sheet.name}").measure)
+        assert callable(measure_of(sheet))
         assert {name for need in sheet.needs for name in need} | set(sheet.takes) <= set(known()["quantities"])
         assert not sheet.category or sheet.category in CATEGORIES
         sheet.values({})

@@ -52,6 +52,11 @@ class Parameter:
         return (middle - np.log(FAR), middle + np.log(FAR)) if self.positive else (self.least / self.scale, np.inf)
 
 
+def from_zero(name: str, unit: str, meaning: str, start: float) -> Parameter:
+    """A parameter that may be zero, such as a friction that may not be there; `start` is a usual size too."""
+    return Parameter(name, unit, meaning, start, positive=False, scale=start, least=0.0)
+
+
 @dataclass(frozen=True)
 class Channel:
     """Values that were measured, and what predicts them."""

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 
-Settings = Mapping[str, float]
+Settings = Mapping[str, Any]
+"""By name: numbers in SI, texts as they are."""
 LEAST_ROWS = 3
 
 
@@ -34,8 +36,12 @@ class Measurement:
     record_conditions: Mapping[str, tuple[float, str]] = field(default_factory=dict)
     """Values of a record that were chosen, not measured, and go with the others: in SI, with the unit to write."""
 
+    def with_note(self, note: str) -> Measurement:
+        """The same with one more note, first."""
+        return replace(self, notes=(note, *self.notes))
 
-def required(settings: Settings, name: str, why: str) -> float:
+
+def required(settings: Settings, name: str, why: str) -> Any:
     """A setting that must be there. Raises InputError."""
     if name not in settings:
         raise InputError(f"--set {name}=...: needed, {why}")
