@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.base.record import Record
-from tvimdesign.device.core.joint_impedance import quantities as shared
-from tvimdesign.device.core.warm_structure import Compliances
+from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.fixtures.dowels import LINK_PARTS
 from tvimdesign.device.shear.tiles import CUT

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

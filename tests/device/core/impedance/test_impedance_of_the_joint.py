@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
-from tvimdesign.device.core.joint_impedance import melt_modes
+from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 from tvimdesign.physics.polymers import polymer
 
 TABLE = table_for("shear")
