@@ -8,7 +8,7 @@ import numpy as np
 from made_measurements.joints import frozen_torque_data, release_data, sine_data, torque_angle_data
 from made_measurements.made import Made
 from made_measurements.melts import MELTS
-from made_measurements.warmth import dsc_data, pad_data
+from made_measurements.warmth import dsc_data, heating_log_data, pad_data
 
 MADE: dict[str, Callable[[np.random.Generator], Made]] = {
     "torque_angle": torque_angle_data,
@@ -18,4 +18,5 @@ MADE: dict[str, Callable[[np.random.Generator], Made]] = {
     "pad": pad_data,
     **MELTS,
     "dsc": dsc_data,
+    "heating_log": heating_log_data,
 }

@@ -2,13 +2,43 @@
 
 from __future__ import annotations
 
+from functools import cache
+from pathlib import Path
+
 import numpy as np
-from made_measurements.made import Made, block, numbers
+from made_measurements.made import Array, Made, block, numbers
 
 from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheet
 from tvimdesign.simulation.measurement.kinds.heat import dsc, pad
 from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run
+from tvimdesign.simulation.measurement.kinds.heat.logged_module import Course, LoggedModule
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.study import read_study
+
+STUDY = Path(__file__).parents[2] / "studies" / "paper_as_published.yaml"
+LOGGED = {"rotor_contact": 2000.0, "rotor_coefficient": 8.0, "cold_side_coefficient": 12.0}
+
+
+@cache
+def _logged() -> dict[str, Array]:
+    """The log of the paper's module heated for 250 s and left to the air for 500 s, without noise."""
+    resolved = resolve_study(read_study(STUDY))
+    time = np.concatenate([np.arange(0.0, 250.0, 5.0), np.arange(250.0, 751.0, 10.0)])
+    current = np.where(time < 250.0, 1.5, 0.0)
+    module = LoggedModule(resolved, [*LOGGED, "ambient_temperature"])
+    found = module.temperatures(Course(time, current[:-1], 50), {**LOGGED, "ambient_temperature": 295.0})
+    places = ("cold_temperature", "hot_temperature", "far_face_temperature", "rotor_temperature")
+    return {"time": time, "current": current, **{name: numbers(found[name]) for name in places}}
+
+
+def heating_log_data(noise: np.random.Generator) -> Made:
+    """The paper's module with thermocouples at four places, read to 0.3 K."""
+    columns = {
+        name: values + (noise.normal(0.0, 0.3, len(values)) if name.endswith("temperature") else 0.0)
+        for name, values in _logged().items()
+    }
+    return [block(**columns)], {"study": str(STUDY), "fitted": " ".join(LOGGED)}, LOGGED
 
 
 def pad_data(noise: np.random.Generator) -> Made:

@@ -25,6 +25,7 @@ from tvimdesign.report.output.tables import (
     variable_rows,
 )
 from tvimdesign.report.output.thresholds import meaning
+from tvimdesign.report.run.first_screen.measured import ends_in_words
 from tvimdesign.report.run.why import binding, sentences, slack_in_words
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
@@ -271,7 +272,9 @@ def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Consol
     """What each headline and requirement may be, given what nobody has measured; what to measure first, and how many
     values for half the width (results.json names them).
     """
+    measured = any(one.get("before") for one in intervals.values())
     heads = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    heads += ("before measuring",) if measured else ()
     grid = _grid("What may be, over the ranges of what is not measured (95 %, all together)", heads, right=(1, 2, 3, 7))
     for output, one in intervals.items():
         if one["low"] == one["high"]:
@@ -289,7 +292,8 @@ def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Consol
         first = next(iter(one["shares"]), "")
         share = f"{100.0 * one['shares'][first]:.0f} %" if first else ""
         half = f"{len(one['to_halve'])}" if one["to_halve"] else "many"
-        grid.add_row(output, value, low, high, f"{least} to {most}", one["unit"], first, share, half)
+        earlier = (ends_in_words(one["before"]),) if measured else ()
+        grid.add_row(output, value, low, high, f"{least} to {most}", one["unit"], first, share, half, *earlier)
     if grid.row_count:
         console.print(grid)
 

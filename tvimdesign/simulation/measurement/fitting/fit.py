@@ -59,7 +59,7 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
     best = robust_fit(residuals, start)
     known = spread(residuals, best)
     free = {i for direction in known.free_directions for i in moved_by(direction)}
-    parameters, words = [], in_words(problem, known)
+    parameters, words = [], in_words(problem, known, best.inner)
     for i, one in enumerate(problem.parameters):
         ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
         if one.nuisance:
@@ -76,13 +76,20 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
 def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profiles: bool) -> tuple[float, float]:
     half = known.quantile * float(np.sqrt(known.covariance[at, at]))
     if not profiles or half == 0.0:
-        least = residuals.problem.parameters[at].bounds[0]
-        return max(best.inner[at] - half, least), best.inner[at] + half
+        return _within(residuals.problem.parameters[at], best.inner[at] - half, best.inner[at] + half)
     return profile_end(residuals, best, known, at, -1), profile_end(residuals, best, known, at, 1)
 
 
+def _within(one: Parameter, low: float, high: float) -> tuple[float, float]:
+    """An interval within a parameter's bounds; open where a positive one reaches them: the data do not end it."""
+    least, most = one.bounds
+    if not one.positive:
+        return max(low, least), min(high, most)
+    return low if low > least else -np.inf, high if high < most else np.inf
+
+
 def _estimate(one: Parameter, inner: float, ends: tuple[float | None, float | None]) -> Estimate:
-    low, high = (None if end is None or not np.isfinite(end) else float(one.outer(end)) for end in ends)
+    low, high = (None if end is None or not np.isfinite(end) else float(one.outer(float(end))) for end in ends)
     return Estimate(one.name, one.unit, one.meaning, float(one.outer(inner)), low, high)
 
 

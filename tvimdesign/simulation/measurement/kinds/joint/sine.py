@@ -81,7 +81,8 @@ class Sine(NamedTuple):
         def torque(values: Values) -> Any:
             joint = {**values, **known}
             angle, speed, acceleration = self.course(joint)
-            spring = motion.kelvin_voigt_torque(angle - joint["zero_angle"], speed, joint["damping"], joint["stiffness"])
+            stiffness = joint.get("stiffness", joint.get("dynamic_stiffness"))
+            spring = motion.kelvin_voigt_torque(angle - joint["zero_angle"], speed, joint["damping"], stiffness)
             corner = CORNER * self.size * self.omega
             return joint["inertia"] * acceleration - spring + joint["friction"] * np.tanh(speed / corner)
 
@@ -96,15 +97,22 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     """Fit records of time, angle and torque, together. Raises InputError for what lacks."""
     records = [_record(block, f"_{i}") for i, block in enumerate(blocks, start=1)]
     known = {"inertia": settings["inertia"]} if "inertia" in settings else {}
+    together = not known and _at_one_frequency(records)
+    known = {"inertia": 0.0} if together else known
     problem = Problem(
-        [*_joint(records, known), *(one for record in records for one in record.parameters())],
+        [*_joint(records, known, together=together), *(one for record in records for one in record.parameters())],
         [channel for record in records for channel in record.channels(known)],
         [
             Derived("loss", "N*m/rad", "Part of the stiffness in quadrature at the first record's frequency",
                     lambda values: _quadrature(records[0], values)),
         ],
     )  # fmt: skip
-    return Measurement(fitted(problem, profiles=profiles), tuple(_notes(records, known)))
+    return Measurement(fitted(problem, profiles=profiles), tuple(_notes(records, together=together)))
+
+
+def _at_one_frequency(records: Sequence[Sine]) -> bool:
+    omegas = [record.omega for record in records]
+    return max(omegas) < _ALIKE * min(omegas)
 
 
 def _quadrature(record: Sine, values: Values) -> Any:
@@ -112,8 +120,8 @@ def _quadrature(record: Sine, values: Values) -> Any:
     return values["damping"] * record.omega + 4.0 * values["friction"] / (np.pi * record.size)
 
 
-def _joint(records: Sequence[Sine], known: Values) -> list[Parameter]:
-    """What all records share; starts by linear least squares of the torque."""
+def _joint(records: Sequence[Sine], known: Values, *, together: bool) -> list[Parameter]:
+    """What all records share; starts by linear least squares of the torque. `together`: of K and I only K - I omega^2."""
     table, torque = [], []
     for record in records:
         values = {f"omega{record.end}": record.omega}
@@ -125,13 +133,16 @@ def _joint(records: Sequence[Sine], known: Values) -> list[Parameter]:
     found = np.linalg.lstsq(whole, np.concatenate(torque), rcond=None)[0]
     size = float(np.ptp(torque[0])) / records[0].size
     stiffness = max(abs(float(found[0])), 1e-3 * size)
+    name, meaning = "stiffness", "Stiffness"
+    if together:
+        name, meaning = "dynamic_stiffness", "Stiffness less inertia times omega^2, at the frequency of the records"
     parameters = [
-        Parameter("stiffness", "N*m/rad", "Stiffness", stiffness),
+        Parameter(name, "N*m/rad", meaning, stiffness),
         from_zero("damping", "N*m*s/rad", "Viscous damping", max(float(found[1]), 1e-3 * stiffness / records[0].omega)),
         from_zero("friction", "N*m", "Dry friction: the loop's half-width that no speed changes",
                   max(float(found[2]), 1e-3 * stiffness * records[0].size)),
         Parameter("zero_angle", "deg", "Angle without torque", -float(found[3]) / stiffness, positive=False,
-                  scale=records[0].size),
+                  scale=records[0].size, nuisance=together),
     ]  # fmt: skip
     if not known:
         inertia = max(float(found[4]), 1e-3 * stiffness / records[0].omega ** 2)
@@ -177,13 +188,12 @@ def _left(time: Array, angle: Array, omega: float) -> float:
     return float(np.sum((angle - table @ np.linalg.lstsq(table, angle, rcond=None)[0]) ** 2))
 
 
-def _notes(records: Sequence[Sine], known: Values) -> list[str]:
-    omegas = [record.omega for record in records]
-    told = ", ".join(f"{omega / (2.0 * np.pi):.3g} Hz" for omega in omegas)
+def _notes(records: Sequence[Sine], *, together: bool) -> list[str]:
+    told = ", ".join(f"{record.omega / (2.0 * np.pi):.3g} Hz" for record in records)
     notes = [f"Frequencies: {told}. The angle is taken as {HARMONICS} harmonics."]
-    if not known and max(omegas) < _ALIKE * min(omegas):
+    if together:
         notes.append(
-            "At one frequency inertia and stiffness act alike, as K - I omega^2; give a record at another frequency, "
-            "or --set inertia=..."
+            "One frequency cannot tell inertia and stiffness apart: only dynamic_stiffness, K - I omega^2, is known. Give "
+            "a record at another frequency, or --set inertia=..."
         )
     return notes

@@ -70,7 +70,9 @@ def tests_of(block: Block, settings: Settings) -> list[MeltTest]:
     creeping = _under_load(where, time[loaded], found[loaded])
     curves = [creeping]
     if np.sum(~loaded) >= LEAST_ROWS:
-        curves.append(_recovery(where, time[~loaded], found[~loaded], float(time[loaded][-1])))
+        free = time[~loaded]
+        release = max(float(time[loaded][-1]), float(2.0 * free[0] - free[1]))  # one row before the first without load
+        curves.append(_recovery(where, free, found[~loaded], release))
     return [MeltTest(where, temperature, None, curves, 1.0 / creeping.at, 1.0 / creeping.measured)]
 
 

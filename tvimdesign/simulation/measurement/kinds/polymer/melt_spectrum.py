@@ -51,7 +51,7 @@ class Melt(NamedTuple):
     def factor(self, values: Values, test: MeltTest) -> Any:
         """Shift of the rates of a test: one, or one for each row of a ramp."""
         if self.energy is not None and (test.ramp is not None or self._near(test) != self.reference):
-            at = test.ramp if test.ramp is not None else self._near(test)
+            at = self._near(test) if test.ramp is None else test.ramp
             return polymer.arrhenius_shift(at, self.reference, values.get("flow_activation_energy", self.energy))
         return 1.0 if self._near(test) == self.reference else values[shift_name(self._near(test))]
 
@@ -84,16 +84,16 @@ def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
         if not temperatures or one - temperatures[-1] > _TOGETHER:
             temperatures.append(one)
     wanted = settings.get("reference_temperature", temperatures[len(temperatures) // 2])
-    reference = min(temperatures, key=lambda one: abs(one - wanted))
     known = settings.get("flow_activation_energy")
     ramps = any(test.ramp is not None for test in tests)
-    energy = known if known is not None else _USUAL_ENERGY if ramps else None
-    return Melt(tests, temperatures, reference, energy, known)
+    if known is None and not ramps:
+        return Melt(tests, temperatures, min(temperatures, key=lambda one: abs(one - wanted)))
+    return Melt(tests, temperatures, wanted, _USUAL_ENERGY if known is None else known, known)
 
 
 def _best(melt: Melt, count: int, *, profiles: bool) -> tuple[Fit, list[str]]:
     """The fit with so many modes, by Arrhenius' law where that describes the shifts, and what is to be said of them."""
-    if melt.energy is not None or not melt.shifted:
+    if melt.energy is not None or len(melt.temperatures) == 1:
         return fitted(_problem(melt, count), profiles=profiles), []
     free = fitted(_problem(melt, count), profiles=False)
     shifts = {one: free[shift_name(one)] for one in melt.shifted}
@@ -176,7 +176,7 @@ def modes_of(values: Values, count: int) -> list[tuple[Any, Any]]:
 
 def _modes(melt: Melt, count: int) -> list[Parameter]:
     """Starts: times evenly over the range of the rates, moduli from those nearest to one over each."""
-    shifts = [1.0 if test.ramp is not None else guessed_shift(test.temperature, melt.reference) for test in melt.tests]
+    shifts = [guessed_shift(test.temperature, melt.reference) for test in melt.tests]
     rates = np.concatenate([test.rates * shift for test, shift in zip(melt.tests, shifts, strict=True)])
     size = np.concatenate([test.sizes for test in melt.tests])
     order = np.argsort(rates)
