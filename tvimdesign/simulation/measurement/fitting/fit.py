@@ -13,6 +13,10 @@ from tvimdesign.simulation.measurement.fitting.robust_fit import RobustFit, robu
 from tvimdesign.simulation.measurement.fitting.told_apart import correlation, in_words
 
 
+_UNKNOWN = float(np.log(1e6))
+"""Half the width of a logarithm's interval from which on the data say nothing of what follows."""
+
+
 @dataclass(frozen=True)
 class Estimate:
     """A value with its interval of 95 %, in SI; without one where the data do not determine it."""
@@ -105,6 +109,7 @@ def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Esti
     for one, middle, slope in zip(residuals.problem.derived, logarithms, slopes, strict=True):
         half = known.quantile * float(np.sqrt(max(slope @ known.covariance @ slope, 0.0)))
         open_ = any(abs(slope @ direction) > 1e-6 * np.max(np.abs(slope)) for direction in known.free_directions)
-        ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(min(middle + half, 700.0))))
+        open_ = open_ or half > _UNKNOWN
+        ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(middle + half)))
         found.append(Estimate(one.name, one.unit, one.meaning, float(np.exp(middle)), *ends))
     return tuple(found)

@@ -20,7 +20,7 @@ from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 _GAMMA = 1.0 - np.sqrt(0.5)
-_LONGEST_STEP = 6.0
+_LONGEST_STEP = 12.0
 """s; temperatures are within 0.1 K of CVODES at 1e-8 (test)."""
 _NEWTON = {"linear_solver": "csparse", "abstol": 1e-9, "max_iter": 40, "error_on_fail": False}
 

@@ -73,6 +73,8 @@ def _limit(strain: Array, fallen: Array) -> float:
 
 def _phase(temperatures: Sequence[float], settings: Settings) -> tuple[str, list[str]]:
     """The record's value that the limit is, by the phase at these temperatures."""
+    if np.isnan(temperatures).any():
+        return "", ["A file does not say its temperature: no record is written; --set temperature=... says it."]
     if min(temperatures) >= settings["melting_end"]:
         return "linear_strain_melt", []
     if max(temperatures) <= settings["melting_start"]:

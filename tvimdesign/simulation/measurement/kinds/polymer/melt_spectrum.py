@@ -27,6 +27,10 @@ _TOGETHER = 1.0
 """Tests within so many kelvin are of one temperature."""
 _BETTER = 6.0
 """By how much Schwarz's criterion has to fall for one mode more: strong evidence (Kass and Raftery, 1995)."""
+_UNTOLD = (
+    "The files do not say their temperature: the spectrum is that of their temperature, whichever it was, and no record "
+    "is written; --set temperature=... says it."
+)
 _USUAL_ENERGY = 40e3
 """J/mol, to start from: in the middle of what polymers' melts have."""
 
@@ -53,7 +57,9 @@ class Melt(NamedTuple):
         if self.energy is not None and (test.ramp is not None or self._near(test) != self.reference):
             at = self._near(test) if test.ramp is None else test.ramp
             return polymer.arrhenius_shift(at, self.reference, values.get("flow_activation_energy", self.energy))
-        return 1.0 if self._near(test) == self.reference else values[shift_name(self._near(test))]
+        if np.isnan(self.reference) or self._near(test) == self.reference:
+            return 1.0
+        return values[shift_name(self._near(test))]
 
     def _near(self, test: MeltTest) -> float:
         return min(self.temperatures, key=lambda one: abs(one - test.temperature))
@@ -61,13 +67,16 @@ class Melt(NamedTuple):
     @property
     def shifted(self) -> list[float]:
         """The temperatures whose tests are shifted."""
-        return [one for one in self.temperatures if one != self.reference]
+        return [one for one in self.temperatures if one != self.reference and not np.isnan(one)]
 
 
 def measured(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
     """The spectrum of tests, all together. Raises InputError for what lacks."""
     least = settings.get("least_temperature", 0.0)
-    kept = [test for test in tests if test.temperature >= least]
+    untold = [test for test in tests if np.isnan(test.temperature)]
+    if untold and len(untold) < len(tests):
+        raise InputError(f"{untold[0].name}: the file does not say its temperature, as others do; --set temperature=...")
+    kept = list(tests) if untold else [test for test in tests if test.temperature >= least]
     if not kept:
         raise InputError("--set least_temperature leaves no test")
     most = round(settings["largest_modes"])
@@ -75,10 +84,15 @@ def measured(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -
     count = _fewest_modes(melt, most)
     best, notes = _best(melt, count, profiles=profiles)
     notes = [*_notes(tests, melt, count, most), *notes]
+    if untold:
+        notes.append(_UNTOLD)
+        return Measurement(best, tuple(notes))
     return spectrum_record(best, count, most, melt.reference, notes)
 
 
 def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
+    if np.isnan(tests[0].temperature):
+        return Melt(tests, [np.nan], np.nan)
     temperatures: list[float] = []
     for one in sorted(test.temperature for test in tests):
         if not temperatures or one - temperatures[-1] > _TOGETHER:
@@ -111,7 +125,7 @@ def shift_name(temperature: float) -> str:
 
 def guessed_shift(temperature: Any, reference: float) -> Any:
     """Shift factor to start from."""
-    return polymer.arrhenius_shift(temperature, reference, _USUAL_ENERGY)
+    return 1.0 if np.isnan(reference) else polymer.arrhenius_shift(temperature, reference, _USUAL_ENERGY)
 
 
 def _fewest_modes(melt: Melt, most: int) -> int:
@@ -190,9 +204,9 @@ def _modes(melt: Melt, count: int) -> list[Parameter]:
 
 
 def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list[str]:
-    at = melt.reference - polymer.ZERO_CELSIUS
+    at = "" if np.isnan(melt.reference) else f" at {melt.reference - polymer.ZERO_CELSIUS:.1f} degC"
     notes = [
-        f"{count} {'mode' if count == 1 else 'modes'} at {at:.1f} degC: one more would not better the fit by what it "
+        f"{count} {'mode' if count == 1 else 'modes'}{at}: one more would not better the fit by what it "
         "costs."
         if count < most
         else f"{count} modes, the most that were allowed; the data may bear more (--set largest_modes=...)."

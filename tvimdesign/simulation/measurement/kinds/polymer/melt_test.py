@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
 from tvimdesign.simulation.measurement.kinds.measurement import Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
@@ -45,20 +44,19 @@ class MeltTest(NamedTuple):
 def temperature_of(block: Block, settings: Settings) -> float:
     """Mean temperature of a table [K]: its column's, that of the lines before it, or the one that is set.
 
-    Raises InputError where there is none.
+    Not a number where nobody says it: tests at one temperature have a spectrum all the same.
     """
     if "temperature" in block.columns:
         return float(np.nanmean(block.values("temperature")))
     said = block.number("temperature")
     temperature = settings.get("temperature", said)
-    if temperature is None:
-        raise InputError(f"{block.file}:{block.lines[0]}: the file does not say its temperature; --set temperature=...")
-    return float(temperature)
+    return np.nan if temperature is None else float(temperature)
 
 
 def title_of(block: Block, temperature: float) -> str:
     """A name for a table's channels."""
-    return f"{block.title or block.file}, {temperature - ZERO_CELSIUS:.0f} degC"
+    title = block.title or block.file
+    return title if np.isnan(temperature) else f"{title}, {temperature - ZERO_CELSIUS:.0f} degC"
 
 
 def thinned(time: Array) -> Array:
