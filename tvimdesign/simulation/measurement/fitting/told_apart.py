@@ -26,7 +26,8 @@ def in_words(problem: Problem, known: Spread, inner: Array) -> list[str]:
     for direction in known.free_directions:
         moved = moved_by(direction)
         undetermined.update(moved)
-        said.append(_free(problem.parameters, direction, moved, inner))
+        named = [i for i in moved if not problem.parameters[i].nuisance]
+        said += [_free(problem.parameters, direction, named, inner)] if named else []
     said += _correlated(problem.parameters, correlation(known.covariance), undetermined)
     following = [(rho, channel.name) for channel, rho in zip(problem.channels, known.autocorrelation, strict=True)]
     rho, name = max(following)
