@@ -16,6 +16,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.physics.motions import laplace
 from tvimdesign.physics.polymers import viscoelasticity
 from tvimdesign.physics.polymers.polymer import Modes
+from tvimdesign.simulation.measurement.fitting.problem import Parameter
 from tvimdesign.simulation.measurement.kinds.measurement import LEAST_ROWS, Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.kinds.polymer.melt_spectrum import measured
 from tvimdesign.simulation.measurement.kinds.polymer.melt_test import (
@@ -29,6 +30,7 @@ from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
+_ALMOST = 0.99
 _OFF = 0.1
 """Share of the largest stress below which it is taken off."""
 
@@ -70,9 +72,7 @@ def tests_of(block: Block, settings: Settings) -> list[MeltTest]:
     creeping = _under_load(where, time[loaded], found[loaded])
     curves = [creeping]
     if np.sum(~loaded) >= LEAST_ROWS:
-        free = time[~loaded]
-        release = max(float(time[loaded][-1]), float(2.0 * free[0] - free[1]))  # one row before the first without load
-        curves.append(_recovery(where, free, found[~loaded], release))
+        curves.append(_recovery(where, float(time[loaded][-1]), time[~loaded], found[~loaded]))
     return [MeltTest(where, temperature, None, curves, 1.0 / creeping.at, 1.0 / creeping.measured)]
 
 
@@ -85,14 +85,20 @@ def _under_load(where: str, time: Array, found: Array) -> Curve:
     return Curve(f"compliance of {where}", "1/Pa", found[used], predicted, time[used], "time", "s")
 
 
-def _recovery(where: str, time: Array, found: Array, release: float) -> Curve:
-    used = thinned(time - release)
+def _recovery(where: str, last: float, time: Array, found: Array) -> Curve:
+    """The rows after the last one under load; the moment of the release lies between, and is an unknown."""
+    used = thinned(time - last)
+    time, found = time[used], found[used]
+    gap = float(time[0]) - last
+    release = Parameter(
+        f"release of {where}", "s", "Moment at which the stress goes", last + 0.5 * gap, positive=False, scale=gap,
+        least=last, most=last + _ALMOST * gap, nuisance=True,
+    )  # fmt: skip
 
-    def predicted(modes: Modes, shift: Any) -> Any:
-        whole, since = (compliance(ca.DM(one[used]) / shift, modes) for one in (time, time - release))
-        return whole - since
+    def predicted(modes: Modes, shift: Any, released: Any) -> Any:
+        return compliance(ca.DM(time) / shift, modes) - compliance((ca.DM(time) - released) / shift, modes)
 
-    return Curve(f"recovery of {where}", "1/Pa", found[used], predicted, time[used], "time", "s", relative=False)
+    return Curve(f"recovery of {where}", "1/Pa", found, predicted, time, "time", "s", relative=False, own=release)
 
 
 def _compliance(block: Block, settings: Settings) -> tuple[Array, Array, Any]:

@@ -157,6 +157,7 @@ def _misfit(found: Fit) -> float:
 def _problem(melt: Melt, count: int) -> Problem:
     """Spectrum of `count` modes and shifts."""
     parameters = _modes(melt, count)
+    parameters += [curve.own for test in melt.tests for curve in test.curves if curve.own]
     if melt.energy is None:
         parameters += [
             Parameter(shift_name(one), "1", "Shift of the rates to those of the reference",
@@ -167,7 +168,10 @@ def _problem(melt: Melt, count: int) -> Problem:
         parameters.append(Parameter("flow_activation_energy", "kJ/mol", "Of the shift with temperature", melt.energy))
 
     def predicted(test: MeltTest, curve: Curve) -> Callable[[Values], Any]:
-        return lambda values: curve.predicted(modes_of(values, count), melt.factor(values, test))
+        own = curve.own.name if curve.own else ""
+        return lambda values: curve.predicted(
+            modes_of(values, count), melt.factor(values, test), *([values[own]] if own else [])
+        )
 
     channels = [
         Channel(curve.name, curve.unit, curve.measured, predicted(test, curve), curve.at, curve.at_name, curve.at_unit,

@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.measurement.fitting.problem import Parameter
 from tvimdesign.simulation.measurement.kinds.measurement import Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 
@@ -21,11 +22,14 @@ class Curve(NamedTuple):
     name: str
     unit: str
     measured: Array
-    predicted: Callable[[Modes, Any], Any]
+    predicted: Callable[..., Any]
+    """From modes and factors, and from the value of `own` where there is one."""
     at: Array
     at_name: str
     at_unit: str
     relative: bool = True
+    own: Parameter | None = None
+    """An unknown of this curve alone."""
 
 
 class MeltTest(NamedTuple):
