@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+
 from made_measurements.joints import frozen_torque_data, release_data, sine_data, torque_angle_data
 from made_measurements.made import Made
 from made_measurements.melts import MELTS

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from made_measurements.made import Made, block, numbers
 
+from made_measurements.made import Made, block, numbers
 from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.measurement.kinds.joint import frozen_torque, swing, torque_angle
 

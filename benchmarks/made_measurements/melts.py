@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from made_measurements.made import Array, Made, block
 
+from made_measurements.made import Array, Made, block
 from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.simulation.measurement.reading.data_file import Block
 
@@ -81,7 +81,11 @@ def relaxation_data(noise: np.random.Generator) -> Made:
 def melt_data(noise: np.random.Generator) -> Made:
     """Sweeps at 80 and 100 degC, a creep and a relaxation at 100 degC, together."""
     omega = np.geomspace(0.1, 100.0, 16)
-    return [sweep(noise, 353.15, omega), sweep(noise, REFERENCE, omega), creeping(noise, 5.0), relaxing(noise)], {}, TRUTH
+    return (
+        [sweep(noise, 353.15, omega), sweep(noise, REFERENCE, omega), creeping(noise, 5.0), relaxing(noise)],
+        {},
+        TRUTH,
+    )
 
 
 def amplitude_sweep_data(noise: np.random.Generator) -> Made:

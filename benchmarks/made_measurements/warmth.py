@@ -6,8 +6,8 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-from made_measurements.made import Array, Made, block, numbers
 
+from made_measurements.made import Array, Made, block, numbers
 from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheet
 from tvimdesign.simulation.measurement.kinds.heat import dsc, pad

@@ -36,7 +36,10 @@ quantities.record(
 )
 
 quantities.record(
-    "heat_paths", "heat_paths", "handbook", "How heat passes faces that touch and leaves the module: of handbooks, or its log"
+    "heat_paths",
+    "heat_paths",
+    "handbook",
+    "How heat passes faces that touch and leaves the module: of handbooks, or its log",
 )
 
 for name, unit, field, description in (

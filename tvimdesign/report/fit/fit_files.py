@@ -107,7 +107,8 @@ def _print(measured: Measured, written: Path | None, out: Path, console: Console
 
 
 _CHOICES = {
-    "spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module", "heat_paths": "heat_paths",
+    "spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module",
+    "heat_paths": "heat_paths",
 }  # fmt: skip
 
 

@@ -273,7 +273,7 @@ def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Consol
     values for half the width (results.json names them).
     """
     measured = any(one.get("before") for one in intervals.values())
-    heads = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    heads: tuple[str, ...] = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
     heads += ("before measuring",) if measured else ()
     grid = _grid("What may be, over the ranges of what is not measured (95 %, all together)", heads, right=(1, 2, 3, 7))
     for output, one in intervals.items():

@@ -80,7 +80,9 @@ def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
 def before_measuring(inputs: Sequence[UnmeasuredInput]) -> list[UnmeasuredInput]:
     """The same inputs with the ranges they would have had without measurements; values outside go to the nearer end."""
     return [
-        one if one.before is None else replace(one, low=min(one.before[0], one.value), high=max(one.before[1], one.value))
+        one
+        if one.before is None
+        else replace(one, low=min(one.before[0], one.value), high=max(one.before[1], one.value))
         for one in inputs
     ]
 

@@ -15,7 +15,7 @@ VOLTS, KELVIN = 3e-3, 0.3
 
 
 def faces(hot: Any, current: Any, beta: Any) -> Any:
-    """Voltage and cold face's temperature of an insulated pad, solved by hand from S I T_c - I^2 R/2 = K (T_h - T_c)."""
+    """Voltage and cold face's temperature of an insulated pad, by hand from S I T_c - I^2 R/2 = K (T_h - T_c)."""
     seebeck, resistance, conductance = beta
     cold = (conductance * hot + 0.5 * current**2 * resistance) / (conductance + seebeck * current)
     return np.array([seebeck * (hot - cold) + current * resistance, cold])

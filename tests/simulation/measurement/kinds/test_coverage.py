@@ -24,6 +24,8 @@ def test_few_intervals_of_95_percent_miss_the_truth(kind: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["release", "sine", "frequency_sweep", "temperature_ramp", "creep", "melt", "dsc", "heating_log"])
+@pytest.mark.parametrize(
+    "kind", ["release", "sine", "frequency_sweep", "temperature_ramp", "creep", "melt", "dsc", "heating_log"]
+)
 def test_few_intervals_of_longer_fits_miss_the_truth(kind: str) -> None:
     assert share(kind, 10) > 0.65

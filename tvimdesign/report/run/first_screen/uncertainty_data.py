@@ -90,9 +90,7 @@ class Uncertainty:
         }
 
 
-def interval_entry(
-    name: str, one: Interval, table: Table, before: tuple[float, float] | None = None
-) -> IntervalEntry:
+def interval_entry(name: str, one: Interval, table: Table, before: tuple[float, float] | None = None) -> IntervalEntry:
     """An interval in the unit people read, and in SI, with that of before the measurements, if there were any."""
     unit = table.unit(name)
     return {

@@ -12,7 +12,6 @@ from tvimdesign.simulation.measurement.fitting.residuals import Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import RobustFit, robust_fit
 from tvimdesign.simulation.measurement.fitting.told_apart import correlation, in_words
 
-
 _UNKNOWN = float(np.log(1e6))
 """Half the width of a logarithm's interval from which on the data say nothing of what follows."""
 

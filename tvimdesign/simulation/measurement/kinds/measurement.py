@@ -61,3 +61,18 @@ def rows_of(block: Block, quantities: Sequence[str]) -> list[Array]:
     values = [block.values(quantity) for quantity in quantities]
     whole = np.all([np.isfinite(one) for one in values], axis=0)
     return [one[whole] for one in values]
+
+
+def series_of(block: Block, quantities: Sequence[str], most: int = 0) -> list[Array]:
+    """The same of a series in time, which stands first; of more than `most` rows every second, third, ... one.
+
+    Raises InputError where time does not rise.
+    """
+    import numpy as np
+
+    every = rows_of(block, quantities)
+    step = -(-len(every[0]) // most) if most else 1
+    taken = [one[::step] for one in every]
+    if np.any(np.diff(taken[0]) <= 0.0):
+        raise InputError(f"{block.file}:{block.lines[0]}: {quantities[0]} does not rise from row to row")
+    return taken

@@ -33,7 +33,7 @@ def resolved() -> ResolvedModule:
 
 @cache
 def simulated() -> Mapping[str, np.ndarray]:
-    """Temperatures [K] of the module with `MADE`, heated at 1.5 A and left to the air after that, every five seconds."""
+    """Temperatures [K] of the module with `MADE`, heated at 1.5 A, then left to the air, every five seconds."""
     module = resolved()
     model = DeviceFunctions(module.table, {**module.values, **MADE}, module.points, module.study.solver.cells)
     rows = {"hot_temperature": 1, "far_face_temperature": 31, "rotor_temperature": 39}

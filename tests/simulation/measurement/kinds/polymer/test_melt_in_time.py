@@ -77,13 +77,9 @@ def test_relaxation_after_a_step_and_after_a_ramp(tmp_path: Path, rise: float) -
 def test_a_ramp_has_the_energy_that_made_it_and_leaves_out_what_is_frozen(tmp_path: Path) -> None:
     celsius = np.linspace(40.0, 170.0, 90)
     x = 10.0 * np.exp(30e3 / 8.314462618 * (1.0 / (celsius + CELSIUS) - 1.0 / 373.15))
-    moduli = [
-        sum(modulus * (x * tau) ** power / (1.0 + (x * tau) ** 2) for tau, modulus in MODES) for power in (2, 1)
-    ]
+    moduli = [sum(modulus * (x * tau) ** power / (1.0 + (x * tau) ** 2) for tau, modulus in MODES) for power in (2, 1)]
     noise = np.random.default_rng(3)
-    storage, loss = (
-        np.where(celsius < 62.0, 1e8, one) * np.exp(noise.normal(0.0, 0.01, 90)) for one in moduli
-    )
+    storage, loss = (np.where(celsius < 62.0, 1e8, one) * np.exp(noise.normal(0.0, 0.01, 90)) for one in moduli)
     path = csv(tmp_path / "t.csv", temperature__degC=celsius, angular_frequency__rad_per_s=np.full(90, 10.0),
                **{"G'__Pa": storage, "G''__Pa": loss})  # fmt: skip
     result = measured(path, reference_temperature="100 degC")

@@ -19,7 +19,7 @@ from tvimdesign.device.table.quantity import Feature
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.kinds.heat.logged_module import Course, LoggedModule
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, required, rows_of
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, required, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import read_study
@@ -83,10 +83,8 @@ def _has(resolved: ResolvedModule, feature: Feature) -> bool:
 def _log(block: Block) -> tuple[Array, Array, dict[str, Array]]:
     """Time from zero, current, and the temperatures that are there, at most so many rows. Raises InputError."""
     places = [name for name in PLACES if name in block.columns]
-    time, current, *seen = rows_of(block, ["time", "current", *places])
+    time, current, *seen = series_of(block, ["time", "current", *places])
     where = f"{block.file}:{block.lines[0]}"
-    if np.any(np.diff(time) <= 0.0):
-        raise InputError(f"{where}: time does not rise from row to row")
     first = [one[0] for one in seen]
     if np.ptp(first) > _COLD:
         raise InputError(

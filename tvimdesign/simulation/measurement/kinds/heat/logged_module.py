@@ -22,7 +22,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 _GAMMA = 1.0 - np.sqrt(0.5)
 _LONGEST_STEP = 12.0
 """s; temperatures are within 0.1 K of CVODES at 1e-8 (test)."""
-_NEWTON = {"linear_solver": "csparse", "abstol": 1e-9, "max_iter": 40, "error_on_fail": False}
+_NEWTON: dict[str, Any] = {"linear_solver": "csparse", "abstol": 1e-9, "max_iter": 40, "error_on_fail": False}
 
 
 class Course(NamedTuple):
@@ -104,6 +104,8 @@ class LoggedModule:
         far = 3 + cells
         link = far + plate + beside
         size = phase.temperatures.size1_out(0)
-        places = {"cold_temperature": 0, "hot_temperature": 1, "near_face_temperature": 2, "far_face_temperature": far,
-                  "rotor_temperature": far + plate, "link_temperature": link, "housing_temperature": size - 1}  # fmt: skip
+        places = {
+            "cold_temperature": 0, "hot_temperature": 1, "near_face_temperature": 2, "far_face_temperature": far,
+            "rotor_temperature": far + plate, "link_temperature": link, "housing_temperature": size - 1,
+        }  # fmt: skip
         return places | ({"sink_temperature": link + 1} if size - around > link + 1 else {})

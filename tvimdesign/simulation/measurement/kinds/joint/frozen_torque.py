@@ -93,8 +93,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         torques = np.array([one.most for one in broke])
         channels.append(
             Channel("torque at the break", "N*m", torques,
-                    lambda values: values["holding_torque"] * ca.DM.ones(len(torques)), np.arange(len(torques)) + 1.0,
-                    "joint", "1", relative=True)
+                    lambda values: values["holding_torque"] * ca.DM.ones(len(torques)),
+                    np.arange(1.0, len(torques) + 1.0), "joint", "1", relative=True)
         )  # fmt: skip
     with_bond = bool(gave or broke) and any(name in settings for name in _SIZES)
     found = fitted(Problem(parameters, channels, _bond(settings) if with_bond else []), profiles=profiles)

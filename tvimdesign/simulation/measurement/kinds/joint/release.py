@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.base.errors import InputError
 from tvimdesign.physics.motions import dynamics
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import (
@@ -19,7 +18,7 @@ from tvimdesign.simulation.measurement.fitting.problem import (
     from_zero,
 )
 from tvimdesign.simulation.measurement.kinds.joint.swing import CORNER, period_and_decay, swing
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, rows_of
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 
 _MOST_SAMPLES = 300
@@ -100,11 +99,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
 
 
 def _record(block: Block, end: str) -> Record:
-    time, angle = rows_of(block, ["time", "angle"])
-    every = -(-len(time) // _MOST_SAMPLES)
-    time, angle = time[::every], angle[::every]
-    if np.any(np.diff(time) <= 0.0):
-        raise InputError(f"{block.file}: time does not rise from row to row")
+    time, angle = series_of(block, ["time", "angle"], _MOST_SAMPLES)
     return Record(block.file, time, angle, *period_and_decay(time, angle), end)
 
 

@@ -24,7 +24,7 @@ from tvimdesign.simulation.measurement.fitting.problem import (
     from_zero,
 )
 from tvimdesign.simulation.measurement.kinds.joint.swing import CORNER
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, rows_of
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
@@ -87,8 +87,8 @@ class Sine(NamedTuple):
             return joint["inertia"] * acceleration - spring + joint["friction"] * np.tanh(speed / corner)
 
         return [
-            Channel(f"angle of {self.file}", "deg", self.angle, lambda values: self.course(values)[0], self.time, "time",
-                    "s", noise_of="angle"),
+            Channel(f"angle of {self.file}", "deg", self.angle, lambda values: self.course(values)[0], self.time,
+                    "time", "s", noise_of="angle"),
             Channel(f"torque of {self.file}", "N*m", self.torque, torque, self.time, "time", "s", noise_of="torque"),
         ]  # fmt: skip
 
@@ -121,7 +121,7 @@ def _quadrature(record: Sine, values: Values) -> Any:
 
 
 def _joint(records: Sequence[Sine], known: Values, *, together: bool) -> list[Parameter]:
-    """What all records share; starts by linear least squares of the torque. `together`: of K and I only K - I omega^2."""
+    """What all records share; starts by linear least squares of the torque. `together`: K and I are one."""
     table, torque = [], []
     for record in records:
         values = {f"omega{record.end}": record.omega}
@@ -151,15 +151,11 @@ def _joint(records: Sequence[Sine], known: Values, *, together: bool) -> list[Pa
 
 
 def _record(block: Block, end: str) -> Sine:
-    time, angle, torque = rows_of(block, ["time", "angle", "torque"])
-    every = -(-len(time) // _MOST_SAMPLES)
-    time, angle, torque = time[::every], angle[::every], torque[::every]
-    if np.any(np.diff(time) <= 0.0):
-        raise InputError(f"{block.file}: time does not rise from row to row")
+    time, angle, torque = series_of(block, ["time", "angle", "torque"], _MOST_SAMPLES)
     omega = _frequency(time, angle)
     if omega * (time[-1] - time[0]) < 2.0 * np.pi:
         raise InputError(f"{block.file}: the record holds less than one period")
-    start = np.linalg.lstsq(_harmonics(time - time[0], omega), angle, rcond=None)[0]
+    start: Array = np.linalg.lstsq(_harmonics(time - time[0], omega), angle, rcond=None)[0].astype(np.float64)
     return Sine(block.file, time, angle, torque, omega, start, end)
 
 
@@ -193,7 +189,7 @@ def _notes(records: Sequence[Sine], *, together: bool) -> list[str]:
     notes = [f"Frequencies: {told}. The angle is taken as {HARMONICS} harmonics."]
     if together:
         notes.append(
-            "One frequency cannot tell inertia and stiffness apart: only dynamic_stiffness, K - I omega^2, is known. Give "
-            "a record at another frequency, or --set inertia=..."
+            "One frequency cannot tell inertia and stiffness apart: only dynamic_stiffness, K - I omega^2, is known. "
+            "Give a record at another frequency, or --set inertia=..."
         )
     return notes

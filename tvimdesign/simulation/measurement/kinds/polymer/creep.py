@@ -62,6 +62,11 @@ def compliance(time: Any, modes: Modes) -> Any:
 
 def tests_of(block: Block, settings: Settings) -> list[MeltTest]:
     """The creep of a table, and the recovery in it where there is one: compliance above zero."""
+    if block.settings.get("recovery", "0").strip() not in {"", "0"}:
+        raise InputError(
+            f"{block.file}:{block.lines[0]}: the file says that this is a recovery (rec); it can be fitted only in one "
+            "table with the creep before it, with the stress in a column"
+        )
     time, found, loaded = _compliance(block, settings)
     good = (time > 0.0) & ((found > 0.0) | ~loaded)
     time, found, loaded = time[good], found[good], loaded[good]
@@ -114,8 +119,10 @@ def _compliance(block: Block, settings: Settings) -> tuple[Array, Array, Any]:
     time, found = rows_of(block, ["time", value])
     if value == "strain":
         said = block.number("stress")
-        stress_set = said if said and "stress" not in settings else required(
-            settings, "stress", f"as {block.file} has a strain and neither stress nor compliance"
+        stress_set = (
+            said
+            if said and "stress" not in settings
+            else required(settings, "stress", f"as {block.file} has a strain and neither stress nor compliance")
         )
         found = found / stress_set
     return time, found, np.ones(len(time), bool)

@@ -28,7 +28,7 @@ _TOGETHER = 1.0
 _BETTER = 6.0
 """By how much Schwarz's criterion has to fall for one mode more: strong evidence (Kass and Raftery, 1995)."""
 _UNTOLD = (
-    "The files do not say their temperature: the spectrum is that of their temperature, whichever it was, and no record "
+    "The files do not say their temperature: the spectrum is that of their temperature, whichever it was. No record "
     "is written; --set temperature=... says it."
 )
 _USUAL_ENERGY = 40e3
@@ -43,7 +43,7 @@ class Melt(NamedTuple):
     """Of the tests that have one each [K], those within a kelvin as one."""
     reference: float
     energy: float | None = None
-    """Start of the activation energy where the shift goes by Arrhenius' law; each temperature has a factor otherwise."""
+    """Start of the activation energy where the shift goes by Arrhenius' law; a factor each otherwise."""
     known_energy: float | None = None
     """The activation energy, where it is known."""
 
@@ -75,7 +75,9 @@ def measured(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -
     least = settings.get("least_temperature", 0.0)
     untold = [test for test in tests if np.isnan(test.temperature)]
     if untold and len(untold) < len(tests):
-        raise InputError(f"{untold[0].name}: the file does not say its temperature, as others do; --set temperature=...")
+        raise InputError(
+            f"{untold[0].name}: the file does not say its temperature, as others do; --set temperature=..."
+        )
     kept = list(tests) if untold else [test for test in tests if test.temperature >= least]
     if not kept:
         raise InputError("--set least_temperature leaves no test")
@@ -210,8 +212,7 @@ def _modes(melt: Melt, count: int) -> list[Parameter]:
 def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list[str]:
     at = "" if np.isnan(melt.reference) else f" at {melt.reference - polymer.ZERO_CELSIUS:.1f} degC"
     notes = [
-        f"{count} {'mode' if count == 1 else 'modes'}{at}: one more would not better the fit by what it "
-        "costs."
+        f"{count} {'mode' if count == 1 else 'modes'}{at}: one more would not better the fit by what it costs."
         if count < most
         else f"{count} modes, the most that were allowed; the data may bear more (--set largest_modes=...)."
     ]

@@ -63,7 +63,7 @@ def title_of(block: Block, temperature: float) -> str:
     return title if np.isnan(temperature) else f"{title}, {temperature - ZERO_CELSIUS:.0f} degC"
 
 
-def thinned(time: Array) -> Array:
+def thinned(time: Array) -> Any:
     """Which rows to use: at most `MOST_ROWS`, evenly over the logarithm of time as a melt forgets."""
     if len(time) <= MOST_ROWS:
         return np.arange(len(time))
