@@ -143,6 +143,12 @@ def housing_vane_stiffness(
 
 
 @quantities.helper()
+def core_foot_rise(core_radius: Scalar, rotor_thickness: Scalar) -> Scalar:
+    """Rise of the core's stress at its foot [1]: among the vanes that hang from its plate."""
+    return structure.foot_rise_among_vanes(core_radius, rotor_thickness)
+
+
+@quantities.helper()
 def driven_share() -> Scalar:
     """Share of the circle on which the plate drives the PCL [1]: all of it, its vanes' roots are counted with them."""
     return 1.0

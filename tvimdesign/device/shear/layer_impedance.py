@@ -70,6 +70,12 @@ def held_polar_moment(
 
 
 @quantities.helper()
+def core_foot_rise() -> Scalar:
+    """Rise of the core's stress at its foot [1]: on a plate that the arcs drive."""
+    return structure.FOOT_ON_PLATE
+
+
+@quantities.helper()
 def driven_share(arc_count: Scalar, arc_span: Scalar) -> Scalar:
     """Share of the circle that the arcs cover [1]."""
     return arc_count * arc_span / (2.0 * np.pi)
@@ -190,10 +196,10 @@ def layer_edge_rise(
     Plate and floor stretch, so that the torque leaves at the rim; and what is above the windows bears little.
     """
     held = held_polar_moment / layer_polar_moment
-    per_area = held / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
+    per_area = 1.0 / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
     sheet = np.sqrt(driven_share) / structure_shear_modulus  # of the circle the arcs take up a share: as in the plate
     plate, floor = sheet / rotor_thickness, sheet / floor_web
-    return shear_lag.edge_rise(per_area, plate, floor, arc_width) + 1.0 / held - 1.0
+    return shear_lag.arc_edge_rise(per_area, plate, floor, arc_width, held)
 
 
 @quantities.output("MPa")
