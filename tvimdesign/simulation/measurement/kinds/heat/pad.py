@@ -62,8 +62,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     values = {name: found[name] for name in ("seebeck", "resistance", "conductance")}
     notes = _notes(settings, max(differences))
     if not _two_currents([rows_of(block, ["current"])[0] for block in blocks]):
-        notes.insert(0, _ONE_CURRENT)
-    return Measurement(found, tuple(notes), {} if notes[0] == _ONE_CURRENT else values)
+        return Measurement(found, (_ONE_CURRENT, *notes))
+    return Measurement(found, tuple(notes), values)
 
 
 def _two_currents(every: Sequence[Array]) -> bool:
