@@ -70,6 +70,7 @@ def test_the_commands_of_a_page_work(page: str, tvimdesign: Command, tmp_path: P
     _do(page, tvimdesign, tmp_path, ["--no-plots"] if page != "how-to/scripts.md" else [], LONG)
 
 
+@pytest.mark.slow
 def test_the_measurements_of_the_page_are_fitted_and_their_records_taken(tvimdesign: Command, tmp_path: Path) -> None:
     _do("how-to/measure.md", tvimdesign, tmp_path, [], LONG | {"run"})
     written = {path.stem for path in (tmp_path / "my_records").rglob("*.yaml")}

@@ -31,6 +31,6 @@ def test_the_values_that_shrink_are_told_with_both_intervals_the_most_first() ->
 def test_the_screen_names_what_was_measured() -> None:
     unmeasured = [{"name": "peltier_seebeck", "status": "measured"}, {"name": "rotor_contact", "status": "handbook"}]
     (line,) = measured_lines({"intervals": INTERVALS, "unmeasured": unmeasured}, 200)
-    assert line.startswith("Measured     peltier_seebeck: frozen_time 280 to 330 s, before 200 to never; softening_time")
+    assert line.startswith("Measured     peltier_seebeck: frozen_time 280 to 330 s, before 200 to never; softening")
     assert "rotor_contact" not in line
     assert measured_lines({"intervals": INTERVALS, "unmeasured": unmeasured[1:]}, 200) == []
