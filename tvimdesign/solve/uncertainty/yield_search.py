@@ -7,20 +7,23 @@ limits together if residuals moved as a whole. The optimum is then sought again,
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.yields import Drawn, yields_of
 
 ROUNDS = 8
-_SETTLED = 2e-3
-"""Change of a margin, as a share of its limit's scale, below which it is settled."""
+_SETTLED = 0.05
+"""Change of a margin, in standard deviations of what it is for, below which it is settled."""
+_MEDIAN, _DEVIATION = 0.5, 0.8413
+"""Shares of a normal distribution up to its middle, and up to one standard deviation beyond."""
 _PRESSING = 1e-6
 """Multiplier from which on a limit holds the design, objectives a share of its scale."""
 _UNKNOWN = 0.1
@@ -52,7 +55,7 @@ def reach_yield(
         drawn, margins = yields_of(optimizer).at(run.inputs), dict(optimizer.margins)
         found.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
         moves = _moves(drawn, share, margins, _pressing(optimizer, run))
-        if not moves:
+        if not moves or _no_better(found):
             break
         optimizer.progress(f"{drawn.together.share:.1%} of the modules keep every limit: moving the margins")
         following = _tightened(optimizer, run, within, objective, margins, moves)
@@ -62,6 +65,12 @@ def reach_yield(
     best = min(found, key=lambda one: (not one.reached, one.run.start.objective if one.reached else -one.kept))
     optimizer.margins = best.margins
     return best
+
+
+def _no_better(found: Sequence[Robust]) -> bool:
+    """Whether the last two rounds reached the yield at the same objective."""
+    last = found[-2:]
+    return len(last) > 1 and all(one.reached for one in last) and same_optimum(last[0].run.start, last[1].run.start)
 
 
 def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: Collection[str]) -> dict[str, float]:
@@ -81,8 +90,9 @@ def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: C
             first = middle + 1
     shifts = np.where(np.isinf(shifts := _shifts(ordered, last, may_give)), _UNKNOWN, shifts)
     moved = np.maximum(before + shifts, 0.0) - before
-    moves = {limit.name: float(move) for limit, move in zip(drawn.limits, moved, strict=True)}
-    return {name: move for name, move in moves.items() if abs(move) > _SETTLED}
+    middle, beyond = (ordered[:, int(share_of * (ordered.shape[1] - 1))] for share_of in (_MEDIAN, _DEVIATION))
+    unsettled = np.abs(moved) > _SETTLED * np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
+    return {drawn.limits[i].name: float(moved[i]) for i in np.flatnonzero(unsettled)}
 
 
 def _shifts(ordered: Array, place: int, may_give: NDArray[np.bool_]) -> Array:
