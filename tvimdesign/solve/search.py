@@ -69,6 +69,7 @@ def optimize(
         relaxation, nominal, run = _robust(found)
         if study.robust.share is None:
             recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
+    margined = study.robust is not None and study.robust.share is not None and run is not nominal
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
     settled = put_at_bounds(relaxation.optimizer, run)
     recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
@@ -77,7 +78,6 @@ def optimize(
     for number, (_, one) in enumerate(recorded):
         one.start = replace(one.start, number=number)
     keep(relaxation.optimizer, [one for other, one in recorded if other is relaxation])
-    margined = study.robust is not None and study.robust.share is not None and run is not nominal
     starts = tuple(one.start for _, one in recorded if not (margined and one is run))  # those without margins
     seconds = {
         key: sum(relaxation.optimizer.seconds[key] for relaxation in trees) for key in trees[0].optimizer.seconds

@@ -75,6 +75,7 @@ def _together(study: str, seed: int) -> float:
     return Tolerancing(resolve_design(found.design), lambda _: None).analyse(1 << 13, seed).together.share
 
 
+@pytest.mark.slow
 def test_a_yield_is_of_all_limits_together_and_an_independent_draw_finds_it() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.8 N.m/rad"]')
     assert _together(band, 11) < 0.55
