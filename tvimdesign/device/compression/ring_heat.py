@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.thermal_stack import quantities as shared
+from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section

@@ -12,7 +12,7 @@ import itertools
 
 import numpy as np
 
-from tvimdesign.device.core.thermal_stack import quantities as shared
+from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.thermal_stack import quantities as shared
+from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.tiles import CUT
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.joint_impedance import joint_damping, joint_impedance, joint_stiffness
+from tvimdesign.device.core.impedance.joint_impedance import joint_damping, joint_impedance, joint_stiffness
 from tvimdesign.device.table.quantity import Phase, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
