@@ -20,8 +20,10 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.yields import Drawn, yields_of
 
 ROUNDS = 8
-_SETTLED = 0.05
-"""Change of a margin, in standard deviations of what it is for, below which it is settled."""
+_SETTLED, _SHORT = 0.05, 0.005
+"""Change of a margin, in standard deviations of what it is for, below which it is settled: where the yield is reached,
+and where it is short of that.
+"""
 _MEDIAN, _DEVIATION = 0.5, 0.8413
 """Shares of a normal distribution up to its middle, and up to one standard deviation beyond."""
 _PRESSING = 1e-6
@@ -29,6 +31,8 @@ _PRESSING = 1e-6
 _UNKNOWN = 0.1
 """Step of a margin, as a share of its limit's scale, where too many modules never come to its output at all."""
 _HALVINGS = 3
+_AIM = 0.05
+"""Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +58,7 @@ def reach_yield(
     for _ in range(ROUNDS):
         drawn, margins = yields_of(optimizer).at(run.inputs), dict(optimizer.margins)
         found.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
-        moves = _moves(drawn, share, margins, _pressing(optimizer, run))
+        moves = _moves(drawn, share + _AIM * (1.0 - share), margins, _pressing(optimizer, run))
         if not moves or _no_better(found):
             break
         optimizer.progress(f"{drawn.together.share:.1%} of the modules keep every limit: moving the margins")
@@ -91,7 +95,8 @@ def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: C
     shifts = np.where(np.isinf(shifts := _shifts(ordered, last, may_give)), _UNKNOWN, shifts)
     moved = np.maximum(before + shifts, 0.0) - before
     middle, beyond = (ordered[:, int(share_of * (ordered.shape[1] - 1))] for share_of in (_MEDIAN, _DEVIATION))
-    unsettled = np.abs(moved) > _SETTLED * np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
+    settled = _SETTLED if drawn.together.low >= share else _SHORT
+    unsettled = np.abs(moved) > settled * np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
     return {drawn.limits[i].name: float(moved[i]) for i in np.flatnonzero(unsettled)}
 
 
