@@ -8,7 +8,7 @@ from support import ROOT
 
 from tvimdesign.study import read_study
 
-TO_ORDER = ("ankle", "elbow_printed", "finger")
+TO_ORDER = ("ankle", "elbow_machined", "elbow_printed", "finger")
 named = pytest.mark.parametrize("name", TO_ORDER)
 
 
