@@ -39,7 +39,7 @@ _OVER_STROKE = (
 )  # fmt: skip
 """Between two of these it goes beyond both by less than 0.05 % of itself (a test holds that)."""
 STROKE_SHARES = (0.5, 0.7, 6.0 / 7.0, 1.0)
-"""Angles over the stroke, nearly even in their squares: the stiffness is even in the angle, so nearly linear in those."""
+"""Angles over the stroke, nearly even in their squares: in those the stiffness is nearly linear."""
 
 
 @quantities.output("N*m/rad", headline=True)
@@ -228,6 +228,15 @@ def wire_range_margin(wire_diameter: Scalar, spring_material: Record) -> Scalar:
 def spring_wound_diameter(coil_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar) -> Scalar:
     """Mean coil diameter at full winding."""
     return spring.loaded_coil_diameter(coil_diameter, coil_count, spring_winding)
+
+
+@quantities.output("mm")
+def winding_mandrel(
+    coil_diameter: Scalar, wire_diameter: Scalar, spring_tensile_strength: Scalar, spring_youngs_modulus: Scalar
+) -> Scalar:
+    """Diameter of the mandrel that a spring is wound on, from which it springs back to its size."""
+    wound = spring.wound_coil_diameter(coil_diameter, wire_diameter, spring_tensile_strength, spring_youngs_modulus)
+    return wound - wire_diameter
 
 
 @quantities.output("mm")
