@@ -47,6 +47,7 @@ class Row(NamedTuple):
             f"{self.model / self.fe:.3f}",
         ]
 
+
 LEFT_OUT = {"rigid_modules", "ankle", "elbow_machined", "elbow_printed", "finger_stock", "finger"}
 """Shipped studies without FE: it has no modules below a spreader yet, and no design whose spring is a record."""
 
