@@ -125,7 +125,7 @@ class Optimizer:
 
     def _problem(self, kept: list[Constraint], objectives: Sequence[str]) -> Problem:
         back_offs = None
-        if self.study.robust:
+        if self.study.robust and self.study.robust.sigma is not None:
             from tvimdesign.solve.nlp.back_off import back_offs_of
 
             back_offs = back_offs_of(self.model, self.study, kept)
