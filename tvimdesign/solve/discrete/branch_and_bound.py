@@ -121,7 +121,7 @@ class BranchAndBound:
     def _bound(self, node: Node, box: Box) -> None:
         """Solve one half of a box, and keep it where it may hold better combinations."""
         relaxation, near = node.relaxation, node.run
-        if near is not None and _inside(relaxation, near, box):
+        if near is not None and relaxation.sizes.hold(relaxation.values(near), box):
             self._add(relaxation, box, node.bound, near, node.depth + 1)
             return
         run, certain = relaxation.best_within(box, near)
@@ -139,8 +139,10 @@ class BranchAndBound:
         self._made += 1
 
     def _try(self, relaxation: Relaxation, box: Box, near: Run | None) -> None:
-        """Solve one combination; the better of two where another tree came to it too."""
+        """Solve one combination; the better of two where another box came to it too, and promises better."""
         key = (relaxation.place, box)
+        if key in self.found and near is not None and self.found[key].start.objective <= near.start.objective:
+            return
         run, _ = relaxation.exactly(box, near)
         if run is not None and (key not in self.found or order(run) < order(self.found[key])):
             self.found[key] = run
@@ -155,7 +157,7 @@ class BranchAndBound:
                 continue
             below = int(np.searchsorted(listed[first : last + 1], values[name] * (1.0 + SAME_SIZE), side="right"))
             below = min(max(first + below - 1, first), last - 1)
-            distance = min(_apart(values[name], listed[place], listed[-1]) for place in (below, below + 1))
+            distance = min(sizes.apart(i, values[name], listed[place]) for place in (below, below + 1))
             if distance > far:
                 chosen, cut, far = i, below, distance
         if chosen < 0 or far <= SAME_SIZE:
@@ -172,22 +174,6 @@ class BranchAndBound:
             so_far = "" if best is None else f", objective {best:.5g} so far"
             said = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
             relaxation.optimizer.progress(said)
-
-
-def _inside(relaxation: Relaxation, run: Run, box: Box) -> bool:
-    """Whether a run's own numbers lie in a box."""
-    values = relaxation.values(run)
-    return all(
-        low * (1.0 - SAME_SIZE) <= values[name] <= high * (1.0 + SAME_SIZE)
-        for name, (low, high) in relaxation.sizes.ends(box).items()
-    )
-
-
-def _apart(value: float, size: float, largest: float) -> float:
-    """How far a value is from a size, in shares of it; of the largest size where one of them is nothing."""
-    if value > 0.0 and size > 0.0:
-        return abs(math.log(value / size))
-    return abs(value - size) / (abs(largest) or 1.0)
 
 
 def _slices(box: Box) -> tuple[slice, ...]:

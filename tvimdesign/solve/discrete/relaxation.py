@@ -7,9 +7,12 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 
+import numpy as np
+
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
 from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
+from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
@@ -17,6 +20,11 @@ from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+
+
+_CLOSE = 0.1
+"""Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
+whether the limits can be kept there at all."""
 
 
 @dataclass(eq=False)
@@ -71,21 +79,40 @@ class Relaxation:
             if all(abs(objective - o.start.objective) > SAME_OPTIMUM * abs(objective) for o in self.optima):
                 self.optima.append(run)
         self._ends = [] if self.optima else runs
+        self._sort_records()
         return runs
+
+    def _sort_records(self) -> None:
+        """Put first the records that the best optimum would have, then those that would cost it least.
+
+        What a share costs is what presses on its lower end: to first order, what an optimum with more of it loses.
+        """
+        if not self.optima:
+            return
+        places = {free.name: i for i, free in enumerate(self.optimizer.free)}
+        press = self.optima[0].bound_multipliers
+        mixtures = []
+        for mixture in self.sizes.mixtures:
+            costs = [-press[places[name]] for name in mixture.shares]
+            mixtures.append(mixture.in_order(sorted(range(len(costs)), key=lambda i: (costs[i], i))))
+        self.sizes = self.sizes.mixed(mixtures)
 
     def choices(self, box: Box) -> dict[str, str | float]:
         """Records and sizes of a box of one."""
-        return {**self.records, **{name: low for name, (low, _) in self.sizes.ends(box).items()}}
+        sizes = {name: low for name, (low, _) in self.sizes.numbers(box).items()}
+        return {**self.records, **self.sizes.records(box), **sizes}
 
     def values(self, run: Run) -> dict[str, float]:
-        """The listed numbers where a run ended."""
-        return {name: float(run.inputs[self.optimizer.model.index[name]]) for name in self.sizes.names}
+        """The listed numbers where a run ended, and where it lies among the records."""
+        return self.sizes.values(self._named_inputs(run.inputs))
 
     @property
     def start_values(self) -> dict[str, float]:
-        """The listed numbers of the study's start."""
-        model = self.optimizer.model
-        return {name: float(model.start[model.index[name]]) for name in self.sizes.names}
+        """Those of the study's start."""
+        return self.sizes.values(self._named_inputs(self.optimizer.model.start))
+
+    def _named_inputs(self, inputs: Array) -> dict[str, float]:
+        return dict(zip(self.optimizer.model.names, inputs.tolist(), strict=True))
 
     def best_within(self, box: Box, near: Run | None) -> tuple[Run | None, bool]:
         """The best design within a box, warm from a run nearby; and where there is none, whether that is certain.
@@ -95,7 +122,8 @@ class Relaxation:
         """
         ends = self.sizes.ends(box)
         begins = self._begins(ends, near)
-        if self._screened(ends, begins):
+        close = near is not None and self._screen.broken(begins[0]) <= _CLOSE
+        if not close and self._screened(ends, begins):
             return None, True
         statuses = []
         if near is not None:
@@ -103,6 +131,8 @@ class Relaxation:
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
+        if close and self._screened(ends, begins):
+            return None, True
         for begin in begins:
             run = self._solved(ends, begin=begin)
             if run.start.converged:
@@ -155,8 +185,18 @@ class Relaxation:
             for name, (low, high) in ends.items():
                 place = self.optimizer.model.index[name]
                 point[place] = min(max(point[place], low), high)
-            moved.append(point)
+            moved.append(self._mixed(point, ends))
         return moved
+
+    def _mixed(self, point: Array, ends: Mapping[str, Ends]) -> Array:
+        """Inputs whose shares add up to one; alike among the records in the ends where the point has none of them."""
+        if not isinstance(self.optimizer.model, MixedDevice):
+            return point
+        for mixture in self.sizes.mixtures:
+            places = [self.optimizer.model.index[name] for name in mixture.shares]
+            if not np.any(point[places]):
+                point[places] = [ends[name][1] for name in mixture.shares]
+        return self.optimizer.model.mixed(point)
 
     def _solved(self, ends: Mapping[str, Ends], warm: Run | None = None, begin: Array | None = None) -> Run:
         run = self.optimizer.solve(ends, warm=warm, begin=begin)
