@@ -141,8 +141,10 @@ class BranchAndBound:
     def _try(self, relaxation: Relaxation, box: Box, near: Run | None) -> None:
         """Solve one combination; the better of two where another box came to it too, and promises better."""
         key = (relaxation.place, box)
-        if key in self.found and near is not None and self.found[key].start.objective <= near.start.objective:
-            return
+        if key in self.found and near is not None:
+            known, promised = self.found[key].start.objective, near.start.objective
+            if known <= promised + GAP * abs(promised):
+                return
         run, _ = relaxation.exactly(box, near)
         if run is not None and (key not in self.found or order(run) < order(self.found[key])):
             self.found[key] = run

@@ -27,6 +27,10 @@ _CLOSE = 0.1
 whether the limits can be kept there at all."""
 
 
+_SAME_RECORDS = 0.5
+"""Change of a record's share from which on multipliers of a run nearby say nothing any more."""
+
+
 @dataclass(eq=False)
 class Relaxation:
     """The problem of one choice of records, its free optima, and the work that was done on it."""
@@ -66,7 +70,7 @@ class Relaxation:
             best = min((one.start.objective for one in runs if one.start.converged), default=None)
             so_far = "" if best is None else f", objective {best:.5g} so far"
             self.optimizer.progress(f"start {number + 1} of {count}{so_far}")
-            run = self.optimizer.solve(begin=self.constant_current_optimum.beyond(begin))
+            run = self._from_one_of_each(self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
                 run = second_try.from_conflict_search(run)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
@@ -81,6 +85,27 @@ class Relaxation:
         self._ends = [] if self.optima else runs
         self._sort_records()
         return runs
+
+    def _from_one_of_each(self, begin: Array) -> Run:
+        """The best design from a start, with the records that it has most of first, and then with all of them.
+
+        A mixture that IPOPT begins in the middle of takes several times as long, and ends in worse optima.
+        """
+        if not self.sizes.mixtures:
+            return self.optimizer.solve(begin=begin)
+        index = self.optimizer.model.index
+        point, ends = begin.copy(), {}
+        for mixture in self.sizes.mixtures:
+            most = max(mixture.shares, key=lambda name: begin[index[name]])
+            ends |= {name: (float(name == most),) * 2 for name in mixture.shares}
+        for name, (share, _) in ends.items():
+            point[index[name]] = share
+        point = self._mixed(point, ends)
+        alone = self.optimizer.solve(ends, begin=point)
+        if not alone.start.converged:
+            return self.optimizer.solve(begin=begin)
+        run = self.optimizer.solve(begin=alone.inputs, unknowns=alone.unknowns, beginning="near")
+        return run if run.start.converged else self.optimizer.solve(begin=alone.inputs)
 
     def _sort_records(self) -> None:
         """Put first the records that the best optimum would have, then those that would cost it least.
@@ -127,7 +152,7 @@ class Relaxation:
             return None, True
         statuses = []
         if near is not None:
-            run = self._solved(ends, warm=near)
+            run = self._beside(ends, near, begins[0])
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
@@ -189,14 +214,28 @@ class Relaxation:
         return moved
 
     def _mixed(self, point: Array, ends: Mapping[str, Ends]) -> Array:
-        """Inputs whose shares add up to one; alike among the records in the ends where the point has none of them."""
+        """Inputs whose shares add up to one: the first record in the ends alone where the point has none of them."""
         if not isinstance(self.optimizer.model, MixedDevice):
             return point
         for mixture in self.sizes.mixtures:
             places = [self.optimizer.model.index[name] for name in mixture.shares]
             if not np.any(point[places]):
-                point[places] = [ends[name][1] for name in mixture.shares]
+                first = next(i for i, name in enumerate(mixture.shares) if ends[name][1] > 0.0)
+                point[places[first]] = 1.0
         return self.optimizer.model.mixed(point)
+
+    def _beside(self, ends: Mapping[str, Ends], near: Run, point: Array) -> Run:
+        """A run within some ends from one nearby: warm, or with its states alone where its records are not in them."""
+        index, shares = self.optimizer.model.index, [name for one in self.sizes.mixtures for name in one.shares]
+        places = [index[name] for name in shares]
+        if np.all(np.abs(near.inputs[places] - point[places]) < _SAME_RECORDS):
+            return self._solved(ends, warm=near)
+        unknowns = near.unknowns.copy()
+        for i, free in enumerate(self.optimizer.free):
+            unknowns[i] = free.to_unknown(point[index[free.name]])
+        run = self.optimizer.solve(ends, begin=point, unknowns=unknowns, beginning="near")
+        self.work.count(run.start, warm=True)
+        return run
 
     def _solved(self, ends: Mapping[str, Ends], warm: Run | None = None, begin: Array | None = None) -> Run:
         run = self.optimizer.solve(ends, warm=warm, begin=begin)

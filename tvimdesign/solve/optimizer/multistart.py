@@ -78,12 +78,12 @@ class Multistart:
                 point = self.model.mixed(point)
             values = self.model.values(point, self.cycle.values)
             numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
-            if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table) and self._heats(point):
+            if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table) and self.heats(point):
                 return point
             self.passed_over["no such module"] += 1
         return self.model.start
 
-    def _heats(self, inputs: Array) -> bool:
+    def heats(self, inputs: Array) -> bool:
         """Whether every body that takes heat in the problem's phases is one; others cost seconds to simulate."""
         return all(np.all(np.asarray(block.phase.lumps(inputs)) > 0.0) for block in self.problem.blocks)
 

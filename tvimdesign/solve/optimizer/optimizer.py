@@ -176,8 +176,12 @@ class Optimizer:
         """What is minimised, at the study's start."""
 
     def guess(self, inputs: Array) -> Array:
-        """The unknowns at a point, with the switch simulated there; with the start's where that does not end."""
-        return self.vector.at(inputs, self.multistart.trial(inputs) or self.multistart.cycle)
+        """The unknowns at a point, with the switch simulated there; with the start's where that does not end.
+
+        Nothing is simulated where a body takes no heat: CVODES needs seconds to give that up.
+        """
+        cycle = self.multistart.trial(inputs) if self.multistart.heats(inputs) else None
+        return self.vector.at(inputs, cycle or self.multistart.cycle)
 
     def _reference(self, name: str) -> float:
         value = self.start_values[name]
@@ -198,7 +202,9 @@ class Optimizer:
         left = self.deadline.remaining
         if beginning not in self._solvers or left < 0.5 * self._limits[beginning]:
             known, asked = self._solvers.values(), self.study.solver
-            self._solvers[beginning] = solver_of(self._compiled, asked, known, beginning, most_seconds=left)
+            self._solvers[beginning] = solver_of(
+                self._compiled, asked, known, beginning, of_parameters=not self.mixtures, most_seconds=left
+            )
             self._limits[beginning] = left
         return self._solvers[beginning]
 
