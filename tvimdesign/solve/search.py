@@ -145,8 +145,9 @@ def _choose(
         found, pruned = _each(trees, search.found, proof), 0
         improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
-    alone = {key: exact.solved(trees[key[0]], key[1], found[key]) for key in ranked[: asked.alternatives]}
-    shown = sorted((one for one in alone.values() if one), key=lambda one: order(one[1]))
+    told = [(trees[place], found[place, box]) for place, box in ranked]
+    best = exact.solved(trees[ranked[0][0]], ranked[0][1], found[ranked[0]]) if ranked else None
+    shown = [*([best] if best else []), *told[1 : asked.alternatives]]
     choosing = Choosing(
         combinations=combinations, solved=len(found), pruned=pruned,
         without_design=0 if stopped else combinations - len(found) - pruned,
@@ -155,9 +156,9 @@ def _choose(
         proven=asked.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
         work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
-    others = [(trees[key[0]], found[key]) for key in ranked if key in search.found and key not in alone]
-    plain = [one for one in others if not one[0].sizes.mixtures]
-    return choosing, [*shown, *plain] or [_closest(trees[0], exact)]
+    others = [one for key, one in zip(ranked, told, strict=True) if key in search.found or one in shown]
+    plain = [one for one in others[1:] if not one[0].sizes.mixtures]
+    return choosing, [best, *plain] if best else [_closest(trees[0], exact)]
 
 
 def _between(
@@ -229,6 +230,7 @@ def _standard(relaxation: Relaxation, run: Run) -> Standard:
     optimizer = relaxation.optimizer
     cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
     values = optimizer.model.values(run.inputs, cycle.values)
-    numbers: dict[str, str | float] = dict(relaxation.values(run))
-    reported = {name: values[name] for name in optimizer.study.minimize}
-    return Standard({**relaxation.records, **numbers}, run.start.objective, reported)
+    choices: dict[str, str | float] = {**relaxation.records, **relaxation.values(run)}
+    if relaxation.sizes.mixtures:
+        choices = run.start.choices
+    return Standard(choices, run.start.objective, {name: values[name] for name in optimizer.study.minimize})

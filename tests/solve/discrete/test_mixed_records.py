@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from choosing import listed, with_each_record
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.discrete.discrete_choices import Sizes
 from tvimdesign.solve.discrete.record_families import families_of
@@ -16,7 +17,6 @@ from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.solve.search import optimize
-from tvimdesign.base.errors import InputError
 from tvimdesign.study import Study, given, read_study
 
 SHEAR = """

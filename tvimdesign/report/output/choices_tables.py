@@ -59,8 +59,8 @@ def tally_in_words(choosing: Choosing) -> str:
     if choosing.bound is not None and choosing.best:
         above = choosing.best[0].objective / choosing.bound - 1.0
         said.append(
-            f"Records were divided as sizes are: the best mixture of all, with sizes in between, is {above:.2%} better "
-            "than the best combination."
+            f"Records were divided as sizes are: the best combination is {above:.2%} worse than the best mixture of "
+            "all, with sizes in between."
         )
     if runs and choosing.proven and choosing.improved > _BETTER:
         said.append(
@@ -77,8 +77,8 @@ def tally_in_words(choosing: Choosing) -> str:
         if choosing.inside > _BETTER:
             said.append(f"A design in a box of sizes was {choosing.inside:.1%} better than the bound of the box.")
         said.append(
-            "Each design told was solved exactly. That none left out is better is as sure as the bounds, which are local "
-            "optima: good as far as the starts go. `--prove` solves every combination."
+            "Each design told was solved exactly. That none left out is better is as sure as the bounds: local optima, "
+            "good as far as the starts go. `--prove` solves every combination."
         )
     return " ".join(said)
 

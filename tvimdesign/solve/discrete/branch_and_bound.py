@@ -21,6 +21,8 @@ from tvimdesign.solve.nlp.solver_run import Run
 
 GAP = 1e-6
 """Share by which a box must promise better than what is known to be looked into."""
+_NEXT_RECORDS = 3
+"""Records of each mixture that are tried beside the first combination."""
 _DATA = 20
 """Boxes between two words of progress."""
 
@@ -59,7 +61,9 @@ class BranchAndBound:
             whole = relaxation.sizes.whole
             for optimum in relaxation.optima:
                 self._add(relaxation, whole, optimum.start.objective, optimum, 0)
-                self._try(relaxation, relaxation.sizes.nearest(relaxation.values(optimum), whole), optimum)
+                first = relaxation.sizes.nearest(relaxation.values(optimum), whole)
+                self._try(relaxation, first, optimum)
+                self._try_other_records(relaxation, first)
             if not relaxation.optima:
                 self._add(relaxation, whole, -math.inf, None, 0)
         while self._open and not self.stopped:
@@ -148,6 +152,15 @@ class BranchAndBound:
         run, _ = relaxation.exactly(box, near)
         if run is not None and (key not in self.found or order(run) < order(self.found[key])):
             self.found[key] = run
+
+    def _try_other_records(self, relaxation: Relaxation, box: Box) -> None:
+        """Solve what differs from a combination in one record, one of the next by cost: good ones rule out much."""
+        run = self.found.get((relaxation.place, box))
+        numbers = len(box) - len(relaxation.sizes.mixtures)
+        for axis in range(numbers, len(box) if run else 0):
+            for place in range(min(_NEXT_RECORDS, len(relaxation.sizes.sizes[axis]))):
+                if place != box[axis][0] and not self.stopped:
+                    self._try(relaxation, (*box[:axis], (place, place), *box[axis + 1 :]), run)
 
     def _halves(self, node: Node) -> tuple[Box, Box]:
         """Split where a number lies farthest from its sizes, in shares of it; else the longest list in the middle."""

@@ -12,12 +12,12 @@ from tvimdesign.solve.nlp.solver_run import Ends
 from tvimdesign.study import Options, Study
 
 Box = tuple[tuple[int, int], ...]
-"""First and last place among the sizes of each listed number, or the records of each mixture, in their order."""
+"""First and last place among the sizes of each listed number and the records of each mixture, in their order."""
 
 SAME_SIZE = 1e-6
 """Share of a size within which a number has it."""
 _ONE_RECORD = 1e-4
-"""Share of other records up to which a design is that of one: IPOPT leaves as much of a record that it does not want."""
+"""Share of other records up to which a design is that of one: IPOPT leaves as much of what it does not want."""
 _BESIDE = 0.45
 """A mixed design is nearer to the record it has most of than to the next."""
 

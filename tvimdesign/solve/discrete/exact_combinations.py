@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
-from tvimdesign.solve.discrete.relaxation import Relaxation, order
+from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Run, Trace
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -34,18 +34,23 @@ class ExactCombinations:
             self._built[key] = Relaxation(len(self._built), self.build(records), records, self.sizes, SolverEffort())
         return self._built[key]
 
-    def solved(self, mixed: Relaxation, box: Box, run: Run) -> tuple[Relaxation, Run] | None:
-        """The best design of a combination from the run that found it, warm and cold; None where there is none."""
+    def solved(self, mixed: Relaxation, box: Box, run: Run) -> tuple[Relaxation, Run]:
+        """The best design of a combination from the run that found it: warm, cold, or as it is where time is over."""
         exact = self.of(mixed, box)
         if exact is mixed:
             return mixed, run
         ends = exact.sizes.ends(box[: len(exact.sizes.names)])
         begin = _inputs(mixed.optimizer, exact.optimizer, run)
-        found = exact.optimizer.solve(ends, warm=_trace(mixed.optimizer, exact.optimizer, run, begin), begin=begin)
-        if not found.start.converged:
-            found = min((exact.optimizer.solve(ends, begin=one) for one in (begin, _at(exact, ends))), key=order)
-        found.start = replace(found.start, choices=exact.choices(box[: len(exact.sizes.names)]))
-        return (exact, found) if found.start.converged else None
+        carried = _carried(mixed.optimizer, exact.optimizer, run, begin)
+        runs = []
+        if not exact.optimizer.deadline.passed:
+            runs.append(exact.optimizer.solve(ends, warm=carried, begin=begin))
+        if runs and not runs[0].start.converged:
+            runs.append(exact.optimizer.solve(ends, begin=begin))
+        found = min([*runs, carried], key=lambda one: not one.start.converged)
+        choices = exact.choices(box[: len(exact.sizes.names)])
+        found = replace(found, within=ends, start=replace(found.start, choices=choices, relaxed=False))
+        return exact, found
 
     def closest(self, mixed: Relaxation, box: Box) -> tuple[Relaxation, Run]:
         """Where the solver ends with one combination, whether there is a design or not."""
@@ -72,6 +77,16 @@ def _inputs(mixed: Optimizer, exact: Optimizer, run: Run) -> Array:
     return inputs
 
 
+def _carried(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Run:
+    """A mixed problem's end as a run of the exact one, which has no share: neither mixes records any more."""
+    trace = _trace(mixed, exact, run, begin)
+    start = replace(run.start, begin=exact.vector.free_values(begin), end=exact.vector.free_values(begin))
+    return replace(
+        run, start=start, inputs=begin, unknowns=trace.unknowns, multipliers=trace.multipliers,
+        bound_multipliers=trace.bound_multipliers, parameter_multipliers=np.zeros(len(exact.model.start)),
+    )  # fmt: skip
+
+
 def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
     """A mixed problem's end as the exact one's: no shares, none of their equations, the limits that are left."""
     kept = np.r_[0 : len(exact.free), len(mixed.free) : mixed.problem.unknown_count]
@@ -83,11 +98,3 @@ def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
     rest = range(first + len(mixed.problem.limits), len(run.multipliers))
     rows = [*range(first - len(mixed.mixtures)), *limits, *rest]
     return Trace(unknowns, run.multipliers[rows], run.bound_multipliers[kept])
-
-
-def _at(exact: Relaxation, ends: Mapping[str, tuple[float, float]]) -> Array:
-    """The study's own start with the sizes of a combination."""
-    point = exact.optimizer.model.start.copy()
-    for name, (size, _) in ends.items():
-        point[exact.optimizer.model.index[name]] = size
-    return point

@@ -1,4 +1,4 @@
-"""The records a study lists, as families that share one problem: within one they differ in numbers, not in structure."""
+"""The records a study lists, as families that share one problem: in one they differ in numbers, not in structure."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from tvimdesign.device import Output, Table
+from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.table.quantity import FirstOscillation, Supplied
 from tvimdesign.solve.nlp.mixture import Mixture
-from tvimdesign.solve.optimizer.record_choices import listed_records, with_records
+from tvimdesign.solve.optimizer.record_choices import discrete_records, listed_records, with_records
 from tvimdesign.study import Study, given
 
 Records = dict[str, str]
@@ -31,8 +31,14 @@ class Family:
 
 
 def families_of(study: Study) -> list[Family]:
-    """Every combination of the records a study lists, once, in families. Raises InputError as `given` does."""
+    """Every combination of the records a study lists, once, in families. Raises InputError as `given` does.
+
+    Nothing is mixed where modules spread, as margins are those of a record's own numbers, or where a current follows a
+    profile, which is held against constant currents with the same records.
+    """
     listed = listed_records(study, study.table)
+    if study.robust or study.profile.pieces():
+        return [Family(records, ()) for records in discrete_records(study, study.table)]
     first = {name: values[0] for name, values in listed.items()}
     classes = [_classes(study, first, names, listed) for names in _groups(study, first, listed)]
     families = []
@@ -71,7 +77,7 @@ def _classes(
     structure = [name for name in read if not _blends(study.table, name)]
     found: dict[tuple[Any, ...], list[int]] = {}
     for place, one in enumerate(facts):
-        endless = tuple(name for name in mixed if not math.isfinite(one[name]))
+        endless = tuple(name for name in mixed if not math.isfinite(float(one[name])))
         found.setdefault((*(one[name] for name in structure), endless), []).append(place)
     return [_mixture(study, [combinations[i] for i in one], [facts[i] for i in one], first) for one in found.values()]
 
@@ -109,10 +115,11 @@ def _readers(table: Table, names: Iterable[str]) -> list[Output]:
 
 def _blends(table: Table, word: str) -> bool:
     """Whether all that is read of a word comes to numbers, so that shares can be taken of them."""
-    decides = {feature.choice for row in (*table.outputs, *table.inputs, *table.choices) for feature in row.requires}
+    rows: list[Output | Input | Choice] = [*table.outputs, *table.inputs, *table.choices]
+    decides = {feature.choice for row in rows for feature in row.requires}
     decides |= {row.parts_differ_with.choice for row in table.outputs if row.parts_differ_with}
-    rows = _readers(table, [word])
     plain = not any(
-        row.hidden or row.instant or row.per_point or isinstance(row, (*Supplied, FirstOscillation)) for row in rows
+        row.hidden or row.instant or row.per_point or isinstance(row, (*Supplied, FirstOscillation))
+        for row in _readers(table, [word])
     )
     return word not in decides and plain

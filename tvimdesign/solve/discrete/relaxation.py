@@ -21,7 +21,6 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 
-
 _CLOSE = 0.1
 """Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
 whether the limits can be kept there at all."""
@@ -94,7 +93,7 @@ class Relaxation:
         if not self.sizes.mixtures:
             return self.optimizer.solve(begin=begin)
         index = self.optimizer.model.index
-        point, ends = begin.copy(), {}
+        point, ends = begin.copy(), dict[str, Ends]()
         for mixture in self.sizes.mixtures:
             most = max(mixture.shares, key=lambda name: begin[index[name]])
             ends |= {name: (float(name == most),) * 2 for name in mixture.shares}
@@ -182,8 +181,6 @@ class Relaxation:
         """
         ends = self.sizes.ends(box)
         begins = self._begins(ends, None)
-        if self._screened(ends, begins):
-            return None
         runs = [self._solved(ends, warm=near)] if near else []
         runs += [self._solved(ends, begin=begin) for begin in begins]
         best = min(runs, key=order)

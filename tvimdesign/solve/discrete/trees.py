@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from tvimdesign.base.errors import InfeasibleError, InputError, SimulationError
 from tvimdesign.solve.discrete.discrete_choices import Sizes
 from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
+from tvimdesign.solve.discrete.possible_records import possible
 from tvimdesign.solve.discrete.record_families import Family
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.deadline import Deadline
@@ -43,10 +44,11 @@ class Trees:
         """
         trees: list[Relaxation] = []
         refused: list[InfeasibleError] = []
-        for family in families:
+        for whole in families:
             if trees and self.deadline.passed:
                 break
             try:
+                family = possible(self.study, whole)
                 optimizer = self._built(family, trees)
             except InfeasibleError as error:  # a limit that nothing free can mend, with these records
                 refused.append(error)
@@ -60,7 +62,7 @@ class Trees:
 
     def exact(self) -> ExactCombinations:
         """The problems of single combinations of records, over the reference of the families."""
-        return ExactCombinations(lambda records: self._optimizer(records), self.sizes)
+        return ExactCombinations(self._optimizer, self.sizes)
 
     def _built(self, family: Family, trees: Sequence[Relaxation]) -> Optimizer:
         if not family.mixtures:

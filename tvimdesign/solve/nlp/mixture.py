@@ -83,8 +83,8 @@ class MixedDevice(DeviceFunctions):
             for name, values in mixture.numbers.items():
                 known[name] = _sum(mixture, known, values)
         for reader, mixture in sorted(self._readers(), key=lambda one: len(self.table.ancestors(one[0]))):
-            values = [self.table.resolve({**known, **words}, [reader])[reader] for words in mixture.words]
-            known[reader] = _sum(mixture, known, values)
+            read = [self.table.resolve({**known, **words}, [reader])[reader] for words in mixture.words]
+            known[reader] = _sum(mixture, known, read)
         return inputs, cycle, known
 
     def _readers(self) -> list[tuple[str, Mixture]]:
@@ -98,5 +98,5 @@ def shared(shares: Array) -> Array:
 
 
 def _sum(mixture: Mixture, known: Mapping[str, Any], values: Sequence[Any]) -> Any:
-    """Values weighted by the records' shares; the first as it is where all are alike."""
+    """Values weighted by the records' shares."""
     return sum(known[share] * value for share, value in zip(mixture.shares, values, strict=True))

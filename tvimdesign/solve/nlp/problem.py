@@ -86,8 +86,8 @@ class Problem:
     x: the free numbers; for each block its states, column by column, and its log time; the free currents at their
     nodes; the balances' states and currents; the peaks.
     p: every input of the device, then the weights of what is minimised, then the factors of the sums, column by column.
-    g: equations, zero, the sums of a mixture's shares last; the limits' residuals, in their order, kept where <= 0; sums of what is traded, below what the
-    caller says; the currents' slopes; samples less peaks, all <= 0.
+    g: equations, zero, the sums of mixtures' shares last; the limits' residuals, in their order, kept where <= 0; sums
+    of what is traded, below what the caller says; the currents' slopes; samples less peaks, all <= 0.
     """
 
     def __init__(
