@@ -75,6 +75,7 @@ def _as_enumerated(study: Study, solution: Solution) -> None:
     assert choosing.bound is not None
     alone = sorted(with_each_record(study, solution.reference, study.solver.starts).items(), key=lambda one: one[1])
     assert solution.status == "optimal"
+    assert len(solution.free_starts) >= study.solver.starts
     assert [one.objective for one in choosing.best] == pytest.approx([value for _, value in alone[:3]], rel=1e-6)
     known = dict(alone)
     for one in choosing.best:

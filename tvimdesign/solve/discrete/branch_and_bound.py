@@ -22,7 +22,7 @@ from tvimdesign.solve.nlp.solver_run import Run
 GAP = 1e-6
 """Share by which a box must promise better than what is known to be looked into."""
 _NEXT_RECORDS = 3
-"""Records of each mixture that are tried beside the first combination."""
+"""Records of each mixture, by cost, that are tried beside a tree's first combination."""
 _DATA = 20
 """Boxes between two words of progress."""
 
@@ -52,6 +52,7 @@ class BranchAndBound:
     _open: list[Node] = field(default_factory=list)
     _made: int = 0
     _told: int = 0
+    _tried_others: set[int] = field(default_factory=set)
     _bounded: list[NDArray[np.bool_]] = field(default_factory=list)
 
     def run(self) -> None:
@@ -61,9 +62,7 @@ class BranchAndBound:
             whole = relaxation.sizes.whole
             for optimum in relaxation.optima:
                 self._add(relaxation, whole, optimum.start.objective, optimum, 0)
-                first = relaxation.sizes.nearest(relaxation.values(optimum), whole)
-                self._try(relaxation, first, optimum)
-                self._try_other_records(relaxation, first)
+                self._try(relaxation, relaxation.sizes.nearest(relaxation.values(optimum), whole), optimum)
             if not relaxation.optima:
                 self._add(relaxation, whole, -math.inf, None, 0)
         while self._open and not self.stopped:
@@ -152,12 +151,14 @@ class BranchAndBound:
         run, _ = relaxation.exactly(box, near)
         if run is not None and (key not in self.found or order(run) < order(self.found[key])):
             self.found[key] = run
+            self._try_other_records(relaxation, box, run)
 
-    def _try_other_records(self, relaxation: Relaxation, box: Box) -> None:
-        """Solve what differs from a combination in one record, one of the next by cost: good ones rule out much."""
-        run = self.found.get((relaxation.place, box))
-        numbers = len(box) - len(relaxation.sizes.mixtures)
-        for axis in range(numbers, len(box) if run else 0):
+    def _try_other_records(self, relaxation: Relaxation, box: Box, run: Run) -> None:
+        """Solve what differs from a tree's first combination in one record: good ones rule out much from then on."""
+        if relaxation.place in self._tried_others:
+            return
+        self._tried_others.add(relaxation.place)
+        for axis in range(len(box) - len(relaxation.sizes.mixtures), len(box)):
             for place in range(min(_NEXT_RECORDS, len(relaxation.sizes.sizes[axis]))):
                 if place != box[axis][0] and not self.stopped:
                     self._try(relaxation, (*box[:axis], (place, place), *box[axis + 1 :]), run)

@@ -28,7 +28,7 @@ class ExactCombinations:
         """The problem of the records of one combination; the tree's own where it mixes none."""
         if not mixed.sizes.mixtures:
             return mixed
-        records = {**mixed.records, **mixed.sizes.records(box)}
+        records = {name: word for name, word in mixed.choices(box).items() if isinstance(word, str)}
         key = tuple(records.values())
         if key not in self._built:
             self._built[key] = Relaxation(len(self._built), self.build(records), records, self.sizes, SolverEffort())

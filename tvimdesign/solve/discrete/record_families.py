@@ -19,10 +19,16 @@ Records = dict[str, str]
 
 @dataclass(frozen=True)
 class Family:
-    """Combinations of records: those every member has, and the mixtures of which each has one."""
+    """Combinations of records: one of them, and the mixtures of which each has one record."""
 
     records: Records
     mixtures: tuple[Mixture, ...]
+
+    @property
+    def fixed(self) -> Records:
+        """The records that every combination has."""
+        mixed = {name for mixture in self.mixtures for name in mixture.records[0]}
+        return {name: record for name, record in self.records.items() if name not in mixed}
 
     @property
     def count(self) -> int:

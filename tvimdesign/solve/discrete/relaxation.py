@@ -123,8 +123,9 @@ class Relaxation:
 
     def choices(self, box: Box) -> dict[str, str | float]:
         """Records and sizes of a box of one."""
-        sizes = {name: low for name, (low, _) in self.sizes.numbers(box).items()}
-        return {**self.records, **self.sizes.records(box), **sizes}
+        chosen = {**self.records, **self.sizes.records(box)}
+        records = {name: chosen[name] for name in self.optimizer.study.module if name in chosen}
+        return {**records, **{name: low for name, (low, _) in self.sizes.numbers(box).items()}}
 
     def values(self, run: Run) -> dict[str, float]:
         """The listed numbers where a run ended, and where it lies among the records."""

@@ -55,7 +55,7 @@ class Trees:
                 continue
             self.reference = optimizer.reference
             sizes = self.sizes.mixed(family.mixtures)
-            trees.append(Relaxation(len(trees), optimizer, dict(family.records), sizes, SolverEffort()))
+            trees.append(Relaxation(len(trees), optimizer, family.fixed, sizes, SolverEffort()))
         if not trees:
             raise refused[0]
         return trees
