@@ -23,9 +23,9 @@ SHEAR = """
 mode: shear
 vary:
   peltier_module: {choose: [flexible_1600, silicone_9ar_08_24v, polyimide_foil_24v]}
-  process: {choose: [print_pei_1010, print_pc, machine_6061]}
+  process: {choose: [print_pei_1010, print_pc]}
   spring_material: {choose: [music_wire, stainless_302]}
-  wire_diameter: {catalog: metric, from: 2.1 mm, to: 2.6 mm}
+  wire_diameter: {catalog: metric, from: 2.4 mm, to: 2.6 mm}
   arc_count: {choose: [3, 4]}
   coil_count: [3, 5]
   coil_diameter: [12 mm, 30 mm]
@@ -64,7 +64,7 @@ require:
   peak_voltage: "<= 24 V"
 accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin, current_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 2, cells: 6, elements: 2, alternatives: 3}
+solver: {starts: 2, cells: 6, elements: 2, max_iterations: 100, alternatives: 3}
 """
 
 
@@ -118,15 +118,14 @@ def test_so_they_are_on_random_shelves(tmp_path: Path, seed: int) -> None:
     draw = np.random.default_rng(seed)
     folder = tmp_path / "records" / "peltiers"
     folder.mkdir(parents=True)
-    for place in range(5):
+    for place in range(3):
         text = HEATER.format(
             base="silicone_9ar_08_24v", resistance=draw.uniform(8.0, 60.0), thickness=draw.uniform(0.5, 2.5),
             hottest=draw.uniform(110.0, 200.0), most=draw.uniform(0.4, 2.0),
         )  # fmt: skip
         (folder / f"shelf_{place}.yaml").write_text(text, encoding="utf-8")
-    names = ", ".join(f"shelf_{place}" for place in range(5))
+    names = ", ".join(f"shelf_{place}" for place in range(3))
     text = SHEAR.replace("flexible_1600, silicone_9ar_08_24v, polyimide_foil_24v", names)
-    text = text.replace("[print_pei_1010, print_pc, machine_6061]", "[print_pei_1010, print_pc]")
     path = tmp_path / "study.yaml"
     path.write_text(text.replace("mode: shear", "mode: shear\ncatalog: records"), encoding="utf-8")
     study = read_study(path)
@@ -141,7 +140,7 @@ def study() -> Study:
 def test_records_of_one_structure_are_one_family(study: Study) -> None:
     (family,) = families_of(study)
     assert [mixture.name for mixture in family.mixtures] == ["peltier_module", "process", "spring_material"]
-    assert family.count == len(discrete_records(study, study.table)) == 18
+    assert family.count == len(discrete_records(study, study.table)) == 12
     # What is read of a steel beside its numbers is a table of strengths, which come to a number.
     assert set(family.mixtures[2].read_by) == {"spring_tensile_strength", "wire_range_margin"}
 
@@ -153,7 +152,7 @@ def test_records_of_another_structure_are_another_family() -> None:
     sheets, rigid = families_of(listed(text))
     assert [one["peltier_module"] for one in sheets.mixtures[0].records] == ["flexible_1600", "silicone_9ar_08_24v"]
     assert [one["peltier_module"] for one in rigid.mixtures[0].records] == ["cp30138", "tm_31_14_85"]
-    assert sheets.count == rigid.count == 12
+    assert sheets.count == rigid.count == 8
 
 
 def test_at_a_corner_a_mixture_is_the_device_of_its_records(study: Study) -> None:

@@ -18,6 +18,9 @@ SAME_SIZE = 1e-6
 """Share of a size within which a number has it."""
 _ONE_RECORD = 1e-4
 """Share of other records up to which a design is that of one: IPOPT leaves as much of what it does not want."""
+_RECORDS_LAST = 0.1
+"""Distance [shares of a size] at which half of another record lies, twice: records that are as good as one another stay
+mixed while sizes are divided, for their boxes would all be divided alike."""
 _BESIDE = 0.45
 """A mixed design is nearer to the record it has most of than to the next."""
 
@@ -86,9 +89,12 @@ class Sizes:
         return found | {one.name: _among([inputs[name] for name in one.shares]) for one in self.mixtures}
 
     def apart(self, place: int, value: float, size: float) -> float:
-        """How far a value is from a size, in shares of it; of the largest size where one of them is nothing."""
+        """How far a value is from a size, in shares of it; of the largest size where one of them is nothing.
+
+        Records are nearer to one another, so that sizes are divided first.
+        """
         if place >= len(self.names) - len(self.mixtures):
-            return abs(value - size)
+            return _RECORDS_LAST * abs(value - size)
         if value > 0.0 and size > 0.0:
             return abs(math.log(value / size))
         return abs(value - size) / (abs(self.sizes[place][-1]) or 1.0)
