@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs fuzz kills random-studies check-cad docs pictures lint format types contracts schema units cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies check-cad docs pictures lint format types contracts schema units cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -59,6 +59,9 @@ bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hy
 
 bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
 	$(BENCH) benchmarks/random_designs.py
+
+bench-random-choices: $(STAMP)  ## 200 random choices of heater, process, spring and fixtures: refused by name, or sound parts
+	$(BENCH) benchmarks/random_choices.py --inspect
 
 fuzz: $(STAMP)  ## mutated studies, settings, records and designs: each is read or refused in words (minutes)
 	$(BIN)/python campaigns/fuzz.py

@@ -14,7 +14,7 @@ import os
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -80,6 +80,14 @@ class Draws:
             for index in kept[: count - found]:
                 yield self._design({name: float(values[index]) for name, values in drawn.items()}, int(index))
             found += len(kept)
+
+    def first(self, tally: Tally) -> Design | None:
+        """The first design of one chunk that keeps every rule; None where none does."""
+        drawn = self._draw(_CHUNK)
+        kept = self._keeping(drawn, tally)
+        if not kept.size:
+            return None
+        return self._design({name: float(values[kept[0]]) for name, values in drawn.items()}, int(kept[0]))
 
     def _draw(self, count: int) -> dict[str, NDArray[np.float64]]:
         drawn = {}
@@ -170,11 +178,17 @@ def _child(design: Design, inspect: bool, mouth: Connection) -> None:
 def run(study: Study, count: int, seed: int, inspect: bool = False, hands: int = 1) -> Tally:
     """Draw, refuse, build and check, `hands` designs at once."""
     tally = Tally()
+    build(Draws(study, seed).keeping_rules(count, tally), tally, inspect, hands)
+    return tally
+
+
+def build(designs: Iterable[Design], tally: Tally, inspect: bool, hands: int) -> None:
+    """Build and check designs, each in a process of its own, `hands` at once."""
     # Not a plain fork: where this process has used the CAD kernel, its threads are missing in the child, which hangs.
     context: Any = mp.get_context("forkserver")
     context.set_forkserver_preload(["tvimdesign.cad.inspection.inspect", "tvimdesign.cad.inspection.size_checks"])
     at_work: list[tuple[Design, Any, Connection, float]] = []
-    for design in Draws(study, seed).keeping_rules(count, tally):
+    for design in designs:
         if len(at_work) == hands:
             _settle(*at_work.pop(0), tally)
         ear, mouth = context.Pipe(duplex=False)
@@ -184,7 +198,6 @@ def run(study: Study, count: int, seed: int, inspect: bool = False, hands: int =
         at_work.append((design, child, ear, time.monotonic()))
     for one in at_work:
         _settle(*one, tally)
-    return tally
 
 
 def _settle(design: Design, child: Any, ear: Connection, started: float, tally: Tally) -> None:

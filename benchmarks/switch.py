@@ -22,7 +22,8 @@ from quick import Quick
 from scipy.integrate import solve_ivp
 
 from tvimdesign.device import table_for
-from tvimdesign.device.core import thermal_stack, warm_structure
+from tvimdesign.device.core.heat import thermal_stack
+from tvimdesign.device.core.impedance import warm_structure
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import polymer

@@ -8,7 +8,7 @@ import pytest
 
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.catalog import Catalog, check_records
-from tvimdesign.device.core.joint_impedance import melt_modes
+from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 
 GOOD = """
 title: A module I measured

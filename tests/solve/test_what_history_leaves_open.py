@@ -5,7 +5,7 @@ import pytest
 from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.device.core.joint_impedance import melt_modes
+from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 

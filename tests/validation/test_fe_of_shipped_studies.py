@@ -15,11 +15,8 @@ from tvimdesign.study import read_study
 
 FOLDER = ROOT / "validation/fe_structure"
 WITHIN = 0.10
-WIDER = {"edge_traction": 0.14}
+WIDER = {"edge_traction": 0.11}
 """Further from FE: what a warning tells, no requirement of a study."""
-KNOWN = {("machined_compression", "housing_vanes_and_floor"): 0.24, ("compare_compression", "core_stress"): 0.13,
-         ("front_shear", "edge_traction"): 0.15}  # fmt: skip
-"""Further off than that: where the closed forms are known to miss today's optima; theory/holding.md tells them."""
 MOVED = 0.10
 """How far spring rate and stiffness of today's optimum may be from those of the design that FE looked at."""
 
@@ -60,7 +57,7 @@ def test_a_study_s_spring_joint_and_parts_are_within_a_tenth_of_fe(study: str) -
     found = looked_at(study)
     assert {"spring_rate", "hub", "core", "core_stress"} <= set(found)
     for name, row in found.items():
-        rel = KNOWN.get((study, name), WIDER.get(name, WITHIN))
+        rel = WIDER.get(name, WITHIN)
         assert today[name] == pytest.approx(float(row["fe"]), rel=rel), name
         # The table tells what the model said; it is made anew where that is no longer so.
         assert today[name] == pytest.approx(float(row["model"]), rel=0.02), name

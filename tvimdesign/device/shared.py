@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-from tvimdesign.device.core import (
-    clearances,
+from tvimdesign.device.core import clearances, layout, mass_properties, materials, molten, motor_choice, shrinkage
+from tvimdesign.device.core.heat import softening, stiffening, thermal_stack, viscous_heating
+from tvimdesign.device.core.impedance import (
     creep_under_hold,
     joint_impedance,
     large_motion,
-    layout,
     lost_motion,
-    mass_properties,
-    materials,
-    molten,
-    motor_choice,
+    structure_stiffness,
+    warm_structure,
+)
+from tvimdesign.device.core.springs import (
     preload_creep,
-    shrinkage,
-    softening,
     spring_as_drawn,
     spring_holds,
     spring_safety,
-    stiffening,
     stock_spring,
-    structure_stiffness,
-    thermal_stack,
     torsion_springs,
-    viscous_heating,
-    warm_structure,
 )
 from tvimdesign.device.fixtures import (
     axial_preload,

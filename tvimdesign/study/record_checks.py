@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
-from tvimdesign.device.core.peltier_ratings import contradiction
+from tvimdesign.device.core.heat.peltier_ratings import contradiction
 from tvimdesign.study.resolve import given
 from tvimdesign.study.study import Study
 

@@ -23,7 +23,7 @@ import numpy as np
 import shear
 from plane import Array, Plane, passed
 
-from tvimdesign.device.core.warm_structure import WAY_OUT, PartTemperatures, in_series
+from tvimdesign.device.core.impedance.warm_structure import WAY_OUT, PartTemperatures, in_series
 from tvimdesign.physics.layers import film
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.cycle import Simulator

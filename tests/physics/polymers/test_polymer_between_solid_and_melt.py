@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
-from tvimdesign.device.core.joint_impedance import melt_modes
+from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 from tvimdesign.physics.polymers import polymer
 
 CELSIUS = 273.15

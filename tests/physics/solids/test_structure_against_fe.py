@@ -13,19 +13,15 @@ from tvimdesign.physics.solids import structure, vane
 FOLDER = ROOT / "validation"
 JOINTS = yaml.safe_load((FOLDER / "fe_structure/results.yaml").read_text())
 LINKS = yaml.safe_load((FOLDER / "fe_link/results.yaml").read_text())
-SHIPPED = yaml.safe_load((FOLDER / "fe_structure/shipped.yaml").read_text())
-KNOWN = {("floor", "driven_joint"): 0.10, ("pads", "front_shear"): 0.36, ("edge", "front_shear"): 0.15,
-         ("rotor", "compare_compression"): 0.08, ("vanes", "machined_compression"): 0.24}  # fmt: skip
-"""Where the closed forms, fitted to earlier designs of the studies, miss today's by more than elsewhere."""
+SHIPPED = {
+    f"{name}, {which}": case
+    for which in ("shipped", "earlier")
+    for name, case in yaml.safe_load((FOLDER / f"fe_structure/{which}.yaml").read_text()).items()
+}
 FLANGED = yaml.safe_load((FOLDER / "fe_structure/flanged.yaml").read_text())
 SHEAR = [name for name, case in SHIPPED.items() if case["mode"] == "shear"]
 BLOCKS = [name for name, case in SHIPPED.items() if case["mode"] == "compression"]
 SCREWS = 4
-
-
-def within(what: str, name: str, usual: float) -> float:
-    """How far a closed form may be from FE."""
-    return KNOWN.get((what, name), usual)
 
 
 def read(case: dict[str, Any]) -> tuple[dict[str, float], float, float]:
@@ -48,6 +44,20 @@ def bores(mm: dict[str, float]) -> tuple[structure.Bores, structure.Bores]:
     return found, structure.Bores(pins, mm["link_dowel_depth"], circle)
 
 
+def foot_rise(mm: dict[str, float]) -> float:
+    if "vane_count" not in mm:
+        return structure.FOOT_ON_PLATE
+    return float(structure.foot_rise_among_vanes(mm["core_radius"], mm["rotor_thickness"]))
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
+    # A mean over the first millimetre above the sharp corner, per newton metre.
+    mm, _, _ = read(SHIPPED[name])
+    mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], foot_rise(mm))
+    assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=0.08)
+
+
 @pytest.mark.parametrize("name", JOINTS)
 def test_the_core_with_its_empty_holes_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(JOINTS[name])
@@ -67,7 +77,7 @@ def test_the_core_yields_where_fe_has_its_highest_stress(name: str) -> None:
     plain = 1e-6 / structure.shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"])
     holes = max(max(1.0, 2.0 * one.circle_radius / mm["core_radius"]) / (1.0 - one.weakening) for one in bores(mm))
     assert plain * holes == pytest.approx(beside, rel=0.11)
-    mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], *bores(mm))
+    mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], foot_rise(mm), *bores(mm))
     assert mises > 0.95 * beside
     if foot:
         assert mises == pytest.approx(max(foot, beside), rel=0.10)
@@ -99,7 +109,7 @@ def test_the_plate_is_as_stiff_as_in_fe(name: str) -> None:
 def test_the_floor_on_its_feet_is_as_stiff_as_in_fe(name: str) -> None:
     mm, youngs, shear = read(SHIPPED[name])
     found = footed_floor(mm, youngs, shear, SHIPPED[name]["feet"])
-    assert found == pytest.approx(SHIPPED[name]["found"]["housing"], rel=within("floor", name, 0.09))
+    assert found == pytest.approx(SHIPPED[name]["found"]["housing"], rel=0.09)
 
 
 @pytest.mark.parametrize(("name", "rel"), [("printed_shear", 0.16), ("milled_shear", 0.25)])
@@ -127,12 +137,14 @@ def held_share(case: dict[str, Any], mm: dict[str, float]) -> float:
 
 
 @pytest.mark.parametrize("name", SHEAR)
-def test_pads_over_windows_are_about_as_stiff_as_in_fe(name: str) -> None:
+def test_pads_over_windows_add_the_compliance_they_do_in_fe(name: str) -> None:
+    # By themselves they are up to a third too stiff, where ribs between long arcs let the inner ledges follow.
     case = SHIPPED[name]
     mm, _, _ = read(case)
     polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (mm["pcl_outer_radius"] ** 4 - mm["pcl_inner_radius"] ** 4)
     even = case["pad_shear_modulus"] * 1e9 * polar / mm["peltier_thickness"]
-    assert even * held_share(case, mm) == pytest.approx(case["found"]["pad"], rel=within("pads", name, 0.20))
+    fe, hub = case["found"]["pad"], case["found"]["hub"]
+    assert hub / (even * held_share(case, mm)) == pytest.approx(hub / fe, abs=0.02)
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -142,11 +154,11 @@ def test_the_layer_s_edge_bears_what_it_does_in_fe(name: str) -> None:
     mm, _, shear = read(case)
     inner, outer, held = mm["pcl_inner_radius"], mm["pcl_outer_radius"], held_share(case, mm)
     pad, pcl = case["pad_shear_modulus"] * 1e9, case["frozen_shear_modulus"] * 1e9
-    layer = held / (mm["pcl_thickness"] / pcl + mm["peltier_thickness"] / pad)
+    layer = 1.0 / (mm["pcl_thickness"] / pcl + mm["peltier_thickness"] / pad)
     sheets = [np.sqrt(coverage(mm)) / (shear * mm[name]) for name in ("rotor_thickness", "floor_web")]
-    rise = shear_lag.edge_rise(layer, *sheets, outer - inner) + 1.0 / held - 1.0
+    rise = shear_lag.arc_edge_rise(layer, *sheets, outer - inner, held)
     polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
-    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=within("edge", name, 0.14))
+    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.12)
 
 
 @pytest.mark.parametrize("name", BLOCKS)
@@ -161,11 +173,9 @@ def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     stands = arm * vane.stiffness(youngs, shear, *standing, block, vane.on_floor(mm["floor_thickness"]))
     rotor = structure.series(fe["plate"], fe["rotor_vanes"])
     housing = structure.series(fe["housing"], fe["housing_vanes"])
-    assert structure.series(structure.plate_stiffness(shear, *size), hangs) == pytest.approx(
-        rotor, rel=within("rotor", name, 0.05)
-    )
+    assert structure.series(structure.plate_stiffness(shear, *size), hangs) == pytest.approx(rotor, rel=0.055)
     floor = footed_floor(mm, youngs, shear, SHIPPED[name]["feet"])
-    assert structure.series(floor, stands) == pytest.approx(housing, rel=within("vanes", name, 0.09))
+    assert structure.series(floor, stands) == pytest.approx(housing, rel=0.095)
 
 
 @pytest.mark.parametrize("name", LINKS)
@@ -174,7 +184,7 @@ def test_the_link_bends_as_in_fe(name: str) -> None:
     found = structure.lever_stiffness(
         youngs, shear, 2.0 * mm["link_half_width"], mm["link_thickness"], mm["link_length"], mm["core_radius"]
     )
-    assert found == pytest.approx(LINKS[name]["link"], rel=0.05)
+    assert found == pytest.approx(LINKS[name]["link"], rel=0.03)
 
 
 def test_a_hole_in_even_shear_costs_twice_its_own_share() -> None:

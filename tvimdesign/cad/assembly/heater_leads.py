@@ -7,7 +7,7 @@ import math
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import ZERO_CELSIUS
-from tvimdesign.device.core.heater_fuse import heater_fuse
+from tvimdesign.device.core.heat.heater_fuse import heater_fuse
 from tvimdesign.study.design import Design
 
 _HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")

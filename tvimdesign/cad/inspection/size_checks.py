@@ -19,7 +19,7 @@ from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, TURNING, kind_of
 from tvimdesign.cad.geometry.spring_solids import installed_coil
-from tvimdesign.device.core.leg_on_pin import pin_distance
+from tvimdesign.device.core.springs.leg_on_pin import pin_distance
 from tvimdesign.study.design import Design
 
 MODEL_TOLERANCE = 1e-5

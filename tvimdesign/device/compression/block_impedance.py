@@ -1,7 +1,8 @@
 """The PCL blocks of the compression module and what they press on: stiffness, damping, strain, torque they hold.
 
 Of the 2 N blocks only the N that are pressed count. Small motions about rest keep every block touching, so no contact
-is lost here; how a gap opens in large ones is a matter of time and history (`device/core/creep_under_hold.py`).
+is lost here; how a gap opens in large ones is a matter of time and history
+(`device/core/impedance/creep_under_hold.py`).
 """
 
 from __future__ import annotations
@@ -9,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.base.record import Record
-from tvimdesign.device.core.joint_impedance import quantities as shared
-from tvimdesign.device.core.warm_structure import Compliances
+from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.fixtures.dowels import LINK_PARTS
 from tvimdesign.device.table.quantity import Rule, Scalar
@@ -139,6 +140,12 @@ def housing_vane_stiffness(
         running_clearance, frozen_block_stiffness, vane.on_floor(floor_thickness),
     )  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
+
+
+@quantities.helper()
+def core_foot_rise(core_radius: Scalar, rotor_thickness: Scalar) -> Scalar:
+    """Rise of the core's stress at its foot [1]: among the vanes that hang from its plate."""
+    return structure.foot_rise_among_vanes(core_radius, rotor_thickness)
 
 
 @quantities.helper()

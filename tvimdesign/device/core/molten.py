@@ -5,7 +5,7 @@ The ends of an arc and the sides of a block are free; what stands between two fa
 
 from __future__ import annotations
 
-from tvimdesign.device.core.joint_impedance import quantities as impedance
+from tvimdesign.device.core.impedance.joint_impedance import quantities as impedance
 from tvimdesign.device.core.shrinkage import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.clearances import quantities as gaps
-from tvimdesign.device.core.creep_under_hold import quantities as hold
+from tvimdesign.device.core.impedance.creep_under_hold import quantities as hold
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
 from tvimdesign.device.fixtures.bearing import BEARINGS, bearing_load_per_torque
 from tvimdesign.device.fixtures.sensor_flange import Pattern

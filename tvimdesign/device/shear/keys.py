@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.clearances import quantities as gaps
-from tvimdesign.device.core.joint_impedance import quantities as impedance
+from tvimdesign.device.core.impedance.joint_impedance import quantities as impedance
+from tvimdesign.device.core.impedance.lost_motion import quantities as lost_motion
 from tvimdesign.device.core.layout import quantities as layout
-from tvimdesign.device.core.lost_motion import quantities as lost_motion
 from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.thermal_stack import quantities as shared
+from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.tiles import CUT
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -64,6 +64,12 @@ def to_edge(pcl_area: Scalar, edge_length: Scalar) -> Scalar:
 def beside_area(rotor_radius: Scalar, pcl_area: Scalar) -> Scalar:
     """Area of the rotor plate beside the arcs [m^2]; the floor below it is taken to be as large."""
     return np.pi * rotor_radius**2 - pcl_area
+
+
+@quantities.helper()
+def core_share() -> Scalar:
+    """What of the conductance to the core begins at the last body of the plate: all of it."""
+    return 1.0
 
 
 @quantities.helper()

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.base.record import Record
-from tvimdesign.device.core.joint_impedance import quantities as shared
-from tvimdesign.device.core.warm_structure import Compliances
+from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.fixtures.dowels import LINK_PARTS
 from tvimdesign.device.shear.tiles import CUT
@@ -67,6 +67,12 @@ def held_polar_moment(
     sheet = 1.0 / (peltier_shear_modulus * peltier_thickness)
     borne = shear_lag.borne_over_window(per_area, sheet, 0.5 * window_depth)
     return layer_polar_moment - (1.0 - borne) * window_section.polar
+
+
+@quantities.helper()
+def core_foot_rise() -> Scalar:
+    """Rise of the core's stress at its foot [1]: on a plate that the arcs drive."""
+    return structure.FOOT_ON_PLATE
 
 
 @quantities.helper()
@@ -190,10 +196,10 @@ def layer_edge_rise(
     Plate and floor stretch, so that the torque leaves at the rim; and what is above the windows bears little.
     """
     held = held_polar_moment / layer_polar_moment
-    per_area = held / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
+    per_area = 1.0 / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
     sheet = np.sqrt(driven_share) / structure_shear_modulus  # of the circle the arcs take up a share: as in the plate
     plate, floor = sheet / rotor_thickness, sheet / floor_web
-    return shear_lag.edge_rise(per_area, plate, floor, arc_width) + 1.0 / held - 1.0
+    return shear_lag.arc_edge_rise(per_area, plate, floor, arc_width, held)
 
 
 @quantities.output("MPa")

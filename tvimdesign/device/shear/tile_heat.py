@@ -6,7 +6,7 @@ heat to the rest, at a resistance in series with the layer's own contact.
 
 from __future__ import annotations
 
-from tvimdesign.device.core.thermal_stack import quantities as shared
+from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.tiles import CUT, WITH_TILES
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

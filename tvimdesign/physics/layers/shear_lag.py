@@ -23,6 +23,19 @@ def edge_rise(layer: Any, first: Any, second: Any, width: Any) -> Any:
     return reach * ((1.0 - share) / np.tanh(reach) + share / np.sinh(reach))
 
 
+WINDOWED = 1.19
+"""Rise of a floor's compliance as a sheet as windows cut it; calibrated to validation/fe_structure."""
+
+
+def arc_edge_rise(layer: Any, plate: Any, floor: Any, width: Any, held: Any) -> Any:
+    """Traction along the outer edge of an arc over its mean [1]: `edge_rise` over 1.19 `floor`, and 1/held - 1.
+
+    `held` is the share [1] of the layer that what lies below it holds: the rest is above windows and bears little.
+    `plate` and `floor` are sheets as of `edge_rise`.
+    """
+    return edge_rise(held * layer, plate, WINDOWED * floor, width) + 1.0 / held - 1.0
+
+
 def borne_over_window(layer: Any, sheet: Any, half_width: Any) -> Any:
     """Share [1] of its load that a layer still bears above a window under its sheet, tanh(x)/x, x^2 = k a b^2.
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.torsion_springs import quantities as shared
+from tvimdesign.device.core.springs.torsion_springs import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import creep

@@ -34,10 +34,12 @@ quantities.option(
 )
 _AS_DRAWN = Feature("transmission", "unity")
 _OVER_STROKE = (
-    "spring_stiffness", "spring_stiffness_quarter_stroke", "spring_stiffness_half_stroke",
-    "spring_stiffness_three_quarter_stroke", "spring_stiffness_full_stroke",
+    "spring_stiffness", "spring_stiffness_half_stroke", "spring_stiffness_seven_tenths_stroke",
+    "spring_stiffness_six_sevenths_stroke", "spring_stiffness_full_stroke",
 )  # fmt: skip
-"""Between two of these it goes beyond both by less than a thousandth of itself (a test holds that)."""
+"""Between two of these it goes beyond both by less than 0.05 % of itself (a test holds that)."""
+STROKE_SHARES = (0.5, 0.7, 6.0 / 7.0, 1.0)
+"""Angles over the stroke, nearly even in their squares: in those the stiffness is nearly linear."""
 
 
 @quantities.output("N*m/rad", headline=True)
@@ -103,8 +105,8 @@ def over_stroke(
     leg_offset: Scalar,
     transmission: str,
 ) -> list[Wound]:
-    """A pair of springs at a quarter, half, three quarters of the stroke and all of it."""
-    angles = [share * stroke for share in (0.25, 0.5, 0.75, 1.0)]
+    """A pair of springs at `STROKE_SHARES`."""
+    angles = [share * stroke for share in STROKE_SHARES]
     if transmission == "unity":
         return [(2.0 * angle, 2.0) for angle in angles]
     return [pair_turned(angle, preload_angle, pin_radius, placement_radius, leg_offset) for angle in angles]
@@ -117,22 +119,24 @@ def spring_torque_full_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, ov
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_quarter_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
-    """Stiffness of all springs about the axis at a quarter of the stroke, the slope of torque over angle."""
+def spring_stiffness_half_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+    """Stiffness of all springs about the axis at half the stroke, the slope of torque over angle."""
     return spring_pairs * held_spring_rate * over_stroke[0][1]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_half_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
-    """Stiffness of all springs about the axis at half the stroke, the slope of torque over angle."""
+def spring_stiffness_seven_tenths_stroke(
+    spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]
+) -> Scalar:
+    """Stiffness of all springs about the axis at seven tenths of the stroke, the slope of torque over angle."""
     return spring_pairs * held_spring_rate * over_stroke[1][1]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_three_quarter_stroke(
+def spring_stiffness_six_sevenths_stroke(
     spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]
 ) -> Scalar:
-    """Stiffness of all springs about the axis at three quarters of the stroke, the slope of torque over angle."""
+    """Stiffness of all springs about the axis at six sevenths of the stroke, the slope of torque over angle."""
     return spring_pairs * held_spring_rate * over_stroke[2][1]
 
 
@@ -145,14 +149,14 @@ def spring_stiffness_full_stroke(spring_pairs: Scalar, held_spring_rate: Scalar,
 @quantities.output("N*m/rad", headline=True, least_of=_OVER_STROKE, parts_differ_with=_AS_DRAWN)
 def least_spring_stiffness(
     spring_stiffness: Scalar,
-    spring_stiffness_quarter_stroke: Scalar,
     spring_stiffness_half_stroke: Scalar,
-    spring_stiffness_three_quarter_stroke: Scalar,
+    spring_stiffness_seven_tenths_stroke: Scalar,
+    spring_stiffness_six_sevenths_stroke: Scalar,
     spring_stiffness_full_stroke: Scalar,
 ) -> Scalar:
     """Least stiffness of all springs about the axis over the stroke."""
-    inside = np.fmin(spring_stiffness_quarter_stroke, spring_stiffness_half_stroke)
-    inside = np.fmin(inside, spring_stiffness_three_quarter_stroke)
+    inside = np.fmin(spring_stiffness_half_stroke, spring_stiffness_seven_tenths_stroke)
+    inside = np.fmin(inside, spring_stiffness_six_sevenths_stroke)
     return np.fmin(np.fmin(spring_stiffness, inside), spring_stiffness_full_stroke)
 
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer

@@ -5,8 +5,8 @@ What gives at once is in `held_spring_rate`. The pin is as warm as the plate bes
 
 from __future__ import annotations
 
-from tvimdesign.device.core.torsion_springs import quantities as shared
-from tvimdesign.device.core.warm_structure import PartTemperatures
+from tvimdesign.device.core.impedance.warm_structure import PartTemperatures
+from tvimdesign.device.core.springs.torsion_springs import quantities as shared
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import creep

@@ -5,7 +5,7 @@ import pytest
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.catalog import Catalog
-from tvimdesign.device.core.heater_fuse import heater_fuse
+from tvimdesign.device.core.heat.heater_fuse import heater_fuse
 
 RECORD = Catalog().record("thermal_fuses", "ultimheat_5ma3")
 

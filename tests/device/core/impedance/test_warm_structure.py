@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tvimdesign.device import table_for
-from tvimdesign.device.core.warm_structure import parts_now
+from tvimdesign.device.core.impedance.warm_structure import parts_now
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study_text

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.joint_impedance import quantities as shared
+from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -150,8 +150,10 @@ def core_holding_torque(
     core_radius: Scalar,
     core_screw_bores: structure.Bores,
     core_dowel_bores: structure.Bores,
+    core_foot_rise: Scalar,
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque the core bears at its foot and beside its holes, by `holding_safety` below yield."""
     shear = structure.shear_yield(cold_layer_strength)
-    return structure.bored_shaft_torque(shear, core_radius, core_screw_bores, core_dowel_bores) / holding_safety
+    holes = core_screw_bores, core_dowel_bores
+    return structure.bored_shaft_torque(shear, core_radius, core_foot_rise, *holes) / holding_safety

@@ -1,0 +1,1 @@
+"""The thermal stack, and the two phases of a switch."""

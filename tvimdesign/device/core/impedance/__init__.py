@@ -1,0 +1,1 @@
+"""Stiffness, damping and strength of the joint: PCL, structure and springs together."""
