@@ -93,7 +93,7 @@ def test_the_best_of_mixed_records_is_kept_and_told_as_one_of_them(monkeypatch: 
     solution = answered.solution
     assert solution is not None
     assert solution.choosing is not None
-    assert (answered.design.status, answered.feasible) == (OPTIMAL, True)
+    assert (solution.status, answered.feasible) == (OPTIMAL, True)
     assert solution.choosing.not_searched > 0
     best = solution.choosing.best[0].choices
     assert answered.design.choices["process"] == best["process"]
