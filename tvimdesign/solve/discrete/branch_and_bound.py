@@ -150,7 +150,10 @@ class BranchAndBound:
                 return
         run, _ = relaxation.exactly(box, near)
         if run is not None and (key not in self.found or order(run) < order(self.found[key])):
+            best = min((one.start.objective for one in self.found.values()), default=math.inf)
             self.found[key] = run
+            if run.start.objective < best:
+                self._say(relaxation)
             self._try_other_records(relaxation, box, run)
 
     def _try_other_records(self, relaxation: Relaxation, box: Box, run: Run) -> None:
@@ -186,10 +189,14 @@ class BranchAndBound:
     def _tell(self, relaxation: Relaxation) -> None:
         self._told += 1
         if self._told % _DATA == 1:
-            left, best = len(self._open), min((run.start.objective for run in self.found.values()), default=None)
-            so_far = "" if best is None else f", objective {best:.5g} so far"
-            said = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
-            relaxation.optimizer.progress(said)
+            self._say(relaxation)
+
+    def _say(self, relaxation: Relaxation) -> None:
+        """How far the search is, and the best objective so far."""
+        left, best = len(self._open), min((run.start.objective for run in self.found.values()), default=None)
+        so_far = "" if best is None else f", objective {best:.5g} so far"
+        said = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
+        relaxation.optimizer.progress(said)
 
 
 def _slices(box: Box) -> tuple[slice, ...]:
