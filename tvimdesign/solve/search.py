@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes
+from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
 from tvimdesign.solve.discrete.enumeration import enumerate_all
+from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
+from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
+from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
 from tvimdesign.solve.nlp.deadline import Deadline
@@ -18,7 +20,6 @@ from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, Solve
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
@@ -26,9 +27,6 @@ from tvimdesign.study import SolverOptions, Study
 Keep = Callable[[Optimizer, list[Run]], None]
 Search = Callable[[Study, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]
 """What finds the best design of a study, as `optimize` does."""
-MAX_COMBINATIONS = 20_000
-MAX_RECORDS = 60
-"""Combinations of records: each is searched on its own, from every start."""
 _Found = dict[tuple[int, Box], Run]
 """Designs of single combinations: the place of their tree, their sizes, the run that found them."""
 
@@ -48,22 +46,25 @@ def optimize(
     """
     deadline = Deadline(study.solver.time_limit)
     refuse_unreachable(study)
-    sizes, records = discrete_sizes(study, study.table), discrete_records(study, study.table)
-    _refuse_too_many(sizes, len(records))
-    trees = _trees(study, sizes, records, reference, progress, objectives, deadline)
+    sizes, families = discrete_sizes(study, study.table), families_of(study)
+    refuse_too_many(families, sizes)
+    combinations = sizes.count * sum(family.count for family in families)
+    building = Trees(study, reference, progress, objectives, deadline, sizes)
+    trees = building.of(families)
+    listed = any(relaxation.sizes.names for relaxation in trees)
     hopeless = all(relaxation.hopeless() for relaxation in trees)
     free: list[tuple[Relaxation, Run]] = []
     for relaxation in trees:
         if not (free and deadline.passed):
             free += [(relaxation, run) for run in relaxation.starts(1 if hopeless else None)]
     choosing: Choosing | None = None
-    if sizes.names:
-        choosing, found = _choose(trees, len(records), study.solver)
+    if listed:
+        choosing, found = _choose(trees, building.exact(), combinations, study.solver)
     else:
         found = free
-        choosing = _chosen(free, len(records), study.solver) if len(records) > 1 else None
+        choosing = _chosen(free, combinations, study.solver) if combinations > 1 else None
     relaxation, run = min(found, key=lambda one: order(one[1]))
-    recorded = [*free, *(found if sizes.names else [])]
+    recorded = [*free, *(found if listed else [])]
     nominal = run
     if study.robust and not deadline.passed:
         relaxation, nominal, run = _robust(found)
@@ -140,47 +141,8 @@ def _reconciled(
     return conflict_search.run, conflict_search.conflict_set
 
 
-def _refuse_too_many(sizes: Sizes, records: int) -> None:
-    if sizes.count * records > MAX_COMBINATIONS:
-        raise InputError(
-            f"vary: {sizes.count * records} combinations of listed choices; the limit is {MAX_COMBINATIONS}; "
-            "narrow a list with from and to, take a longer step, or give a range in place of a list"
-        )
-    if records > MAX_RECORDS:
-        raise InputError(
-            f"vary: {records} combinations of records; the limit is {MAX_RECORDS}, as each is searched on its own; "
-            "choose among fewer records"
-        )
-
-
-def _trees(
-    study: Study, sizes: Sizes, records: Sequence[Mapping[str, str]],
-    reference: dict[str, float] | None, progress: Progress, objectives: Sequence[str], deadline: Deadline,
-) -> list[Relaxation]:  # fmt: skip
-    """The problem of each combination of records, built once for all whose numbers alone differ."""
-    trees: list[Relaxation] = []
-    refused: list[InfeasibleError] = []
-    for choice in records:
-        if trees and deadline.passed:
-            break
-        asked = with_records(study, choice)
-        try:
-            optimizer = next(filter(None, (relaxation.optimizer.with_records(asked) for relaxation in trees)), None)
-            optimizer = optimizer or Optimizer(
-                asked, reference, progress, objectives=objectives, deadline=deadline
-            )  # fmt: skip
-        except InfeasibleError as error:  # a limit that nothing free can mend, with these records
-            refused.append(error)
-            continue
-        reference = optimizer.reference
-        trees.append(Relaxation(len(trees), optimizer, dict(choice), sizes, SolverEffort()))
-    if not trees:
-        raise refused[0]
-    return trees
-
-
 def _choose(
-    trees: Sequence[Relaxation], records: int, asked: SolverOptions
+    trees: Sequence[Relaxation], exact: ExactCombinations, combinations: int, asked: SolverOptions
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
     """The best combinations by branch and bound, and where that is asked for by solving all."""
     search = BranchAndBound(trees, asked.alternatives)
@@ -192,25 +154,43 @@ def _choose(
         found, pruned = _each(trees, search.found, proof), 0
         improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
-    shown = ranked[: asked.alternatives]
-    combinations = trees[0].sizes.count * records
-    optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
-    between = min(optima, key=lambda one: order(one[1]), default=None)
+    told = [(trees[place], found[place, box]) for place, box in ranked]
+    best = exact.solved(trees[ranked[0][0]], ranked[0][1], found[ranked[0]]) if ranked else None
+    shown = [*([best] if best else []), *told[1 : asked.alternatives]]
     choosing = Choosing(
         combinations=combinations, solved=len(found), pruned=pruned,
         without_design=0 if stopped else combinations - len(found) - pruned,
         not_searched=combinations - len(found) - pruned if stopped else 0,
-        best=tuple(_standard(trees[key[0]], found[key]) for key in shown),
-        between=_standard(*between) if between else None,
+        best=tuple(_standard(*one) for one in shown), between=_between(trees, exact, shown), bound=_least(trees),
         proven=asked.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
         work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
-    reported = [(trees[key[0]], found[key]) for key in ranked if key in search.found or key in shown]
-    return choosing, reported or [_closest(trees[0])]
+    others = [one for key, one in zip(ranked, told, strict=True) if key in search.found or one in shown]
+    plain = [one for one in others[1:] if not one[0].sizes.mixtures]
+    return choosing, [best, *plain] if best else [_closest(trees[0], exact)]
+
+
+def _between(
+    trees: Sequence[Relaxation], exact: ExactCombinations, best: Sequence[tuple[Relaxation, Run]]
+) -> Standard | None:
+    """The best design with every size free; with the best records, where these are mixed."""
+    if any(relaxation.sizes.mixtures for relaxation in trees):
+        run = exact.between(*best[0]) if best else None
+        return _standard(best[0][0], run) if run else None
+    optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
+    between = min(optima, key=lambda one: order(one[1]), default=None)
+    return _standard(*between) if between else None
+
+
+def _least(trees: Sequence[Relaxation]) -> float | None:
+    """Objective below which no combination comes; None where no records are mixed."""
+    if not any(relaxation.sizes.mixtures for relaxation in trees):
+        return None
+    return min((relaxation.optima[0].start.objective for relaxation in trees if relaxation.optima), default=None)
 
 
 def _chosen(runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverOptions) -> Choosing:
-    """The account where records alone are listed: each has been searched from every start."""
+    """The account where only records of different structure are listed: each has been searched from every start."""
     best: dict[int, tuple[Relaxation, Run]] = {}
     stopped = any(relaxation.optimizer.deadline.met for relaxation, _ in runs)
     searched = len({relaxation.place for relaxation, _ in runs}) if stopped else records
@@ -246,12 +226,12 @@ def _improvement(found: _Found, every: _Found) -> float:
     return max(best - least, 0.0) / abs(best)
 
 
-def _closest(relaxation: Relaxation) -> tuple[Relaxation, Run]:
+def _closest(relaxation: Relaxation, exact: ExactCombinations) -> tuple[Relaxation, Run]:
     """Where the solver ended at the sizes nearest to the best design between them, as no combination has a design."""
     whole = relaxation.sizes.whole
     optimum = relaxation.optima[0] if relaxation.optima else None
     values = relaxation.values(optimum) if optimum else relaxation.start_values
-    return relaxation, relaxation.closest(relaxation.sizes.nearest(values, whole))
+    return exact.closest(relaxation, relaxation.sizes.nearest(values, whole))
 
 
 def _standard(relaxation: Relaxation, run: Run) -> Standard:
@@ -259,6 +239,7 @@ def _standard(relaxation: Relaxation, run: Run) -> Standard:
     optimizer = relaxation.optimizer
     cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
     values = optimizer.model.values(run.inputs, cycle.values)
-    numbers: dict[str, str | float] = dict(relaxation.values(run))
-    reported = {name: values[name] for name in optimizer.study.minimize}
-    return Standard({**relaxation.records, **numbers}, run.start.objective, reported)
+    choices: dict[str, str | float] = {**relaxation.records, **relaxation.values(run)}
+    if relaxation.sizes.mixtures:
+        choices = run.start.choices
+    return Standard(choices, run.start.objective, {name: values[name] for name in optimizer.study.minimize})

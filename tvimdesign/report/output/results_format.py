@@ -126,6 +126,7 @@ class ChoosingEntry(TypedDict):
     proven: bool
     better_by_proof: float
     better_than_bound: float
+    objective_of_mixture: float | None
     ruled_out_by_arithmetic: int
     runs: int
     iterations: int

@@ -123,7 +123,11 @@ class Choosing:
     best: tuple[Standard, ...]
     """The best combinations, the first of them the answer."""
     between: Standard | None
-    """The best design with every listed number free between its smallest and its largest size; None where none is."""
+    """The best design with every listed number free between its smallest and its largest size, with the best records
+    where these are listed; None where none is."""
+    bound: float | None = field(default=None, kw_only=True)
+    """Objective of the best mixture of records with sizes in between, below which no combination comes as far as the
+    starts go; None where no records are mixed."""
     proven: bool
     """Whether every combination was solved, and not only those that branch and bound leaves."""
     improved: float
@@ -244,7 +248,10 @@ class Solution:
         best = min((s for s in self.starts if not s.relaxed), key=lambda s: (not s.converged, s.objective))
         records = {name: value for name, value in best.choices.items() if isinstance(value, str)}
         return tuple(
-            start for start in self.starts if start.relaxed == sizes_listed and records.items() <= start.choices.items()
+            start
+            for start in self.starts
+            if start.relaxed == sizes_listed
+            and all(start.choices.get(name, value) == value for name, value in records.items())
         )
 
     def reached(self, optimum: Start) -> int:

@@ -161,15 +161,18 @@ def trade_lines(front: Any, table: Table, width: int) -> list[str]:
 
 
 def chosen_lines(answer: StudyResult, table: Table, width: int) -> list[str]:
-    """What was chosen of what is listed, and by how much the next best is worse."""
+    """What was chosen of what is listed, and by how much the next two are worse, with what they have instead."""
     choosing = answer.solution.choosing if answer.solution else None
     if choosing is None or not choosing.best:
         return []
     best = choosing.best[0]
     words = [f"{name} {_choice(name, word, table)}" for name, word in best.choices.items()]
     others = [f"best of {choosing.combinations} combinations"]
-    if len(choosing.best) > 1:
-        others.append(f"the next is {100.0 * (choosing.best[1].objective / best.objective - 1.0):.2g} % worse")
+    for place, one in zip(("next", "third"), choosing.best[1:], strict=False):
+        worse = 100.0 * (one.objective / best.objective - 1.0)
+        instead = [f"{name} {_choice(name, word, table)}" for name, word in one.choices.items()
+                   if _choice(name, word, table) != _choice(name, best.choices[name], table)]  # fmt: skip
+        others.append(f"the {place} is {worse:.2g} % worse: {', '.join(instead)}")
     return joined("Chosen", [*words, *others], width)
 
 
