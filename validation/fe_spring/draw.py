@@ -1,7 +1,7 @@
-"""Draw springs for solve.py without a module around them: python draw.py RATIO OUT [NAME ...].
+"""Draw springs for FE without a module around them: python draw.py RATIO OUT [NAME ...].
 
 The springs of results.yaml (all, or those named) with a bend of that inside radius over the wire's diameter, each in a
-folder of OUT. Run it where CadQuery is installed; solve.py runs elsewhere.
+folder of OUT. Run it where CadQuery is installed; tvimdesign/cad/fe/solvers/spring.py runs elsewhere.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ PIN, OVERHANG, TANG = 4.0, 4.0, 4.0  # mm, as the inputs' defaults
 
 
 def draw(case: dict[str, float], ratio: float, folder: Path) -> None:
-    """Write one spring as STEP in its own frame, with the numbers that solve.py needs."""
+    """Write one spring as STEP in its own frame, with the numbers that the solver needs."""
     wire, arm = case["wire_diameter"], case["arm"]
     coil = Coil(
         wire_diameter=wire, diameter=case["coil_diameter"], turns=case["turns"], pitch=case["pitch"],
