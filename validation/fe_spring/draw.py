@@ -1,7 +1,7 @@
-"""Draw springs for FE without a module around them: python draw.py RATIO OUT [NAME ...].
+"""Draw springs for the solver without a module around them: python draw.py RATIO OUT [NAME ...].
 
 The springs of results.yaml (all, or those named) with a bend of that inside radius over the wire's diameter, each in a
-folder of OUT. Run it where CadQuery is installed; tvimdesign/cad/fe/solvers/spring.py runs elsewhere.
+folder of OUT. Run it where CadQuery is installed; `tvimdesign/cad/fe/solvers/spring.py` runs where NGSolve is.
 """
 
 from __future__ import annotations
