@@ -42,7 +42,7 @@ def slab_in_a_stream(inputs: Told) -> Told:
 
 
 def half_space_under_flux(inputs: Told) -> Told:
-    """Rise of the surface [K], 2 q sqrt(a t/pi)/k (Carslaw and Jaeger, section 2.9), of 2000 W/m^2."""
+    """Rise of a half-space's surface [K] under 2000 W/m^2, 2 q sqrt(a t/pi)/k (Carslaw and Jaeger)."""
     diffusivity = 0.2 / (1145.0 * 1900.0)
     return {"surface": [2.0 * 2000.0 / 0.2 * np.sqrt(diffusivity * time / np.pi) for time in inputs["time"]]}
 

@@ -24,7 +24,7 @@ def springs(_: Told) -> Told:
 def links(_: Told) -> Told:
     """Stiffness of links as drawn."""
     told = yaml.safe_load((VALIDATION / "fe_link/results.yaml").read_text(encoding="utf-8"))
-    return {"stiffness": [case["link"] for case in told.values()]}
+    return {"stiffness": [case["link"] for case in told.values()], "labels": {"stiffness": list(told)}}
 
 
 def joints(inputs: Told) -> Told:
