@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies check-cad docs pictures lint format types contracts schema units cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -71,6 +71,9 @@ kills: $(STAMP)  ## end runs, fronts and the making of parts at random moments, 
 
 random-studies: $(STAMP)  ## whole searches of random studies, each answer attacked by random search and evolution (minutes)
 	$(BIN)/python campaigns/random_studies.py
+
+validation: $(STAMP)  ## compare with handbooks, closed solutions, FE and published data, and write docs/validation.md (minutes)
+	$(BENCH) validation/run.py
 
 lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
 	$(BIN)/ruff check .
