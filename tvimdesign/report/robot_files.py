@@ -16,7 +16,7 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, number
 from tvimdesign.report.run.parts_of_design import refuse_failed
 from tvimdesign.robot import state_tables
-from tvimdesign.robot.joint_model import JointModel, joint_model
+from tvimdesign.robot.joint_model import JointModel, joint_model, refuse_step
 from tvimdesign.robot.mjcf import mjcf
 from tvimdesign.robot.rigid_bodies import make_bodies
 from tvimdesign.robot.urdf import urdf
@@ -39,7 +39,8 @@ def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, a
 
 
 def write_models(design: Design, folder: ResultsFolder, step: float | None, progress: Progress) -> JointModel:
-    """Write bodies, models and tables into a folder. Raises GeometryError where the solids are not the design's."""
+    """Write bodies, models and tables into a folder. Raises InputError, GeometryError."""
+    refuse_step(step)
     resolved = resolve_design(design)
     kept = write_design(design, folder.path / "design.json")
     base, moving, report = make_bodies(kept, folder.path, lambda text: progress(f"bodies: {text}"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from math import sqrt
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
@@ -53,19 +54,14 @@ class JointModel:
     @property
     def quickest(self) -> float:
         """Largest speed of a release from the end of the stroke [rad/s]: w phi at the stiffest state."""
-        return self.stroke * max((state.stiffest / state.inertia) ** 0.5 for state in self.states)
+        return self.stroke * max(sqrt(state.stiffest / state.inertia) for state in self.states)
 
 
 def joint_model(
     resolved: ResolvedModule, base: RigidBody, moving: RigidBody, step: float | None = None
 ) -> JointModel:  # fmt: skip
-    """Put the model of a module together; a time step [s] that suits the bench's load unless given.
-
-    Raises InputError for a step that is none.
-    """
+    """Put the model of a module together; a time step [s] that suits the bench's load unless given."""
     states = tuple(joint_states(resolved))
-    if step is not None and not 0.0 < step <= 0.1:
-        raise InputError(f"--timestep {step:g} s: must be above 0 and at most 0.1 s")
     return JointModel(
         name=resolved.study.name,
         base=base,
@@ -78,12 +74,19 @@ def joint_model(
     )
 
 
+def refuse_step(step: float | None) -> None:
+    """Raise InputError for a time step [s] that is none."""
+    if step is not None and not 0.0 < step <= 0.1:
+        raise InputError(f"--timestep {step:g} s: must be above 0 and at most 0.1 s")
+
+
 def _left_out(resolved: ResolvedModule) -> tuple[str, ...]:
     """What the models leave out, and how much that is."""
     middle, end = (float(resolved.quantity(name)) for name in ("spring_stiffness", "spring_stiffness_full_stroke"))
     holds = float(resolved.quantity("holding_torque"))
     return (
-        f"The springs are linear: at the end of the stroke they are {100.0 * (end / middle - 1.0):+.2g} % stiffer.",
+        "The springs are linear; drawn, their stiffness changes by "
+        f"{100.0 * (end / middle - 1.0):+.1f} % to the end of the stroke.",
         f"The PCL neither yields nor slips: the joint bears {holds:.3g} N·m frozen, and the model bears any torque.",
         "Temperatures do not change in a model: each state is one temperature, reached on heating. Going from one to "
         "another takes the time that results.csv has as softening_time and stiffening_time.",

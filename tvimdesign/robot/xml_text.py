@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 from xml.etree import ElementTree as Xml
 
 
@@ -11,7 +12,7 @@ def numbers(*values: float) -> str:
     return " ".join(f"{value:.10g}" for value in values)
 
 
-def comment(lines: Sequence[str]) -> Xml.Element:
+def comment(lines: Sequence[str]) -> Xml.Element[Any]:
     """Lines as a comment; two hyphens, which XML does not allow in one, become one."""
     text = "\n".join(lines)
     while "--" in text:
