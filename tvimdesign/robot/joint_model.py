@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.device.core.motor_choice import WITHOUT
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.robot.joint_state import JointState, joint_states, usual_step
 from tvimdesign.robot.rigid_bodies import RigidBody
@@ -91,6 +92,7 @@ def _left_out(resolved: ResolvedModule) -> tuple[str, ...]:
         "Temperatures do not change in a model: each state is one temperature, reached on heating. Going from one to "
         "another takes the time that results.csv has as softening_time and stiffening_time.",
         "The housing is rigid; what it gives is in the elements of the joint.",
+        *(("The motor stands still: it is part of the base.",) if resolved.values["motor"] != WITHOUT else ()),
     )
 
 
