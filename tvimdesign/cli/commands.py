@@ -206,6 +206,32 @@ def tolerate(
 
 
 @app.command()
+def verify(
+    design: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RESULT", help="Folder or design.json of a run.", autocompletion=completions.designs_and_studies
+        ),
+    ],
+    fe_python: Annotated[
+        str,
+        typer.Option(
+            "--fe-python", metavar="PATH", help="A Python that has netgen and ngsolve; this one unless given."
+        ),
+    ] = "",
+    pictures: Annotated[bool, typer.Option("--pictures/--no-pictures", help="Draw the stress on the parts.")] = True,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
+    """Hold a design's model against finite elements on its exported parts, into results/<name>-verified."""
+    from tvimdesign.report.verify.verify_design import verify_design
+
+    folder = out or Path("results") / f"{name_of(design)}-verified"
+    verify_design(design, folder, fe_python, overwrite=overwrite, pictures=pictures, as_json=json)
+
+
+@app.command()
 def fit(
     files: Annotated[
         list[Path] | None, typer.Argument(metavar="FILE...", help="Measured data: text, CSV, Excel, TRIOS, RepTate.")

@@ -6,13 +6,14 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tvimdesign.device import table_for
-from tvimdesign.physics.solids import structure
+from tvimdesign.report.verify import comparison
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study import given, read_study
 
 ROOT = Path(__file__).resolve().parents[2]
-DRAWN = {"leg_model": "bending", "transmission": "geometry"}
-"""Idealisations that the drawn parts do not have."""
-
+STRESSES = ("core_stress", "edge_traction")
+NOT_KEPT = ("coil_stress", "tang_stress", "link", "natural_frequency")
+"""Rows that other folders of validation hold against FE."""
 
 LENGTHS = (
     "core_radius", "link_bottom_level", "rotor_top_level", "rotor_thickness", "pcl_inner_radius",
@@ -74,38 +75,14 @@ def case_of(study: str, inputs: dict[str, Any], found: dict[str, float]) -> dict
     return case
 
 
-def fe_values(found: dict[str, float]) -> dict[str, float]:
-    """What FE finds, by the names of the model: vanes with what they stand on, the core where its stress is highest."""
-    values = {name: found[name] for name in ("hub", "core", "plate", "housing", "spring_rate") if name in found}
-    if "rotor_vanes" in found:
-        values["rotor_vanes_and_plate"] = structure.series(found["rotor_vanes"], values.pop("plate"))
-        values["housing_vanes_and_floor"] = structure.series(found["housing_vanes"], values.pop("housing"))
-    values["core_stress"] = max(found["core_mises"], found["foot_highest"])
-    if "edge_highest" in found:
-        values["edge_traction"] = found["edge_highest"]
-    return values
+def fe_values(joint: dict[str, float], spring: dict[str, float]) -> dict[str, float]:
+    """What FE finds, by the names of the model."""
+    return {**comparison.joint_rows(joint), "spring_rate": spring["rate"]}
 
 
 def model_values(study: str, varied: dict[str, float]) -> dict[str, tuple[str, float]]:
     """Unit and value by the model, of a study with the values (SI) of what it varies."""
     read = read_study(ROOT / f"studies/{study}.yaml")
-    inputs: dict[str, Any] = {**given(read), **DRAWN, **varied}
-    blocks = read.mode == "compression"
-    names = ["spring_rate", "structure_stiffness", "pcl_stiffness@cold", "core_holding_torque", "cold_layer_strength",
-             "core_stiffness", "plate_stiffness", "floor_stiffness"]  # fmt: skip
-    names += ["rotor_vane_stiffness", "housing_vane_stiffness"] if blocks else ["layer_edge_traction", "holding_torque"]
-    found = {name: float(value) for name, value in table_for(read.mode).evaluate(inputs, names).items()}
-    hub = structure.series(found["pcl_stiffness@cold"], found["structure_stiffness"])
-    stiffness = {"hub": hub, "core": found["core_stiffness"], "spring_rate": found["spring_rate"]}
-    plate, floor = found["plate_stiffness"], found["floor_stiffness"]
-    if blocks:
-        stiffness["rotor_vanes_and_plate"] = structure.series(found["rotor_vane_stiffness"], plate)
-        stiffness["housing_vanes_and_floor"] = structure.series(found["housing_vane_stiffness"], floor)
-    else:
-        stiffness |= {"plate": plate, "housing": floor}
-    yields = found["core_holding_torque"] * float(inputs["holding_safety"])
-    stress = {"core_stress": found["cold_layer_strength"] / yields * 1e-6}
-    if not blocks:
-        stress["edge_traction"] = found["layer_edge_traction"] / found["holding_torque"] * 1e-6
-    per_torque = {name: ("MPa/(N*m)", float(value)) for name, value in stress.items()}
-    return {name: ("N*m/rad", float(value)) for name, value in stiffness.items()} | per_torque
+    rows = comparison.model_values(ResolvedModule(read, {**given(read), **varied}))
+    kept = {name: value for name, value in rows.items() if name not in NOT_KEPT}
+    return {name: ("MPa/(N*m)" if name in STRESSES else "N*m/rad", float(value)) for name, value in kept.items()}

@@ -23,6 +23,10 @@ from typing import Any
 import yaml
 from models import Row, case_of, design_rows, fe_values, model_values
 
+from tvimdesign.cad.fe.exported_parts import export_parts
+from tvimdesign.cad.fe.run_solvers import SOLVERS
+from tvimdesign.study.design import read_design
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RESULTS, CASES = HERE / "results.csv", HERE / "shipped.yaml"
@@ -61,21 +65,21 @@ def solved(study: str, work: Path, fe_python: Path) -> tuple[dict[str, float], d
         folder,
     ]
     done(run, work / study / "run.txt")  # it ends with 1 where nothing meets the study: then there is no design
-    done([sys.executable, HERE.parent / "export_parts.py", folder / "design.json", parts], work / study / "parts.txt")
-    done([fe_python, HERE / "solve.py", parts], work / study / "structure.yaml")
-    done([fe_python, HERE.parent / "fe_spring/solve.py", parts], work / study / "spring.yaml")
-    (spring,) = found_in(work / study / "spring.yaml")
-    found = found_in(work / study / "structure.yaml")
-    case = case_of(study, json.loads((parts / "inputs.json").read_text()), found)
-    return fe_values({**found, "spring_rate": spring["rate"]}), case
+    if not (parts / "inputs.json").exists():
+        export_parts(read_design(folder / "design.json"), parts)
+    joint, spring = (found_by(name, parts, work / study / f"{name}.json", fe_python) for name in ("joint", "spring"))
+    case = case_of(study, json.loads((parts / "inputs.json").read_text()), joint)
+    return fe_values(joint, spring), case
 
 
-def found_in(printed: Path) -> Any:
-    """What FE found, from what it printed; the mesher prints above it, and a mesh with holes is no mesh."""
-    text = printed.read_text()
-    if "NOT ALL FACES" in text:
+def found_by(solver: str, parts: Path, found: Path, fe_python: Path) -> dict[str, float]:
+    """What a solver finds of some parts; the mesher says on standard output where its mesh has holes."""
+    printed = found.with_suffix(".txt")
+    done([fe_python, SOLVERS / f"{solver}.py", parts, found], printed)
+    if "NOT ALL FACES" in printed.read_text():
         raise ValueError(f"{printed}: faces without a mesh")
-    return yaml.safe_load(text[text.index("parts:") :])["parts"]
+    rows: dict[str, float] = json.loads(found.read_text())
+    return rows
 
 
 def rows_of(study: str, work: Path, fe_python: Path) -> tuple[list[Row], dict[str, Any]]:
@@ -100,7 +104,7 @@ def main() -> None:
     parser.add_argument("--check", action="store_true", help="hold what is found against the table, and write nothing")
     asked = parser.parse_args()
     failed = []
-    # solve.py draws cut pads, and a design's row in the table is a number.
+    # The solver draws cut pads, and a design's row in the table is a number.
     shipped = {path.stem for path in (ROOT / "studies").glob("*.yaml")} - {"rigid_modules", "finger_stock"}
     for study in asked.studies or sorted(shipped):
         try:

@@ -21,6 +21,9 @@ WANTED = ("pcl_area", "block_width", "pcl_mean_radius", "pcl_melting", "cold_are
 
 PAD_CONDUCTIVITY = 6.0
 """Of the pads in their plane [W/m K], the default in shear; the compression module's table does not have it."""
+PAD_FILM = 1.0 / 12.0
+"""Thickness of each side of a pad, over the pad's; assumed. Between them are the legs, which fall evenly in temperature
+and are heated evenly by the current."""
 
 
 def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
@@ -28,16 +31,18 @@ def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
     v = {**values, **table.evaluate(values, WANTED)}
     gap, height, pad = v["running_clearance"], v["block_height"], v["peltier_thickness"]
     vane, block = 0.5 * v["vane_thickness"], 0.5 * v["vane_thickness"] + v["block_depth"]
-    half, end = block + 0.5 * pad, np.pi * v["pcl_mean_radius"] / v["vane_count"]
+    film, end = PAD_FILM * pad, np.pi * v["pcl_mean_radius"] / v["vane_count"]
     low, high, plate = gap, gap + height, 2.0 * gap + height
+    middle = 0.5 * (low + high)
 
     def n(count: int) -> int:
         return max(2, round(fine * count))
 
-    x = lines((0.0, vane, n(6), 0.85), (vane, block, n(24), 1.0), (block, half, n(2), 1.0),
-              (half, block + pad, n(2), 1.0), (block + pad, end, n(5), 1.3))  # fmt: skip
-    y = lines((-v["floor_thickness"], 0.0, n(7), 0.75), (0.0, low, 2, 1.0), (low, 0.5 * (low + high), n(7), 1.3),
-              (0.5 * (low + high), high, n(7), 1.0 / 1.3), (high, plate, 2, 1.0),
+    x = lines((0.0, vane, n(6), 0.85), (vane, block, n(24), 1.0), (block, block + film, n(2), 1.0),
+              (block + film, block + pad - film, n(5), 1.0), (block + pad - film, block + pad, n(2), 1.0),
+              (block + pad, end, n(6), 1.3))  # fmt: skip
+    y = lines((-v["floor_thickness"], 0.0, n(7), 0.75), (0.0, low, n(5), 1.0), (low, middle, n(9), 1.3),
+              (middle, high, n(9), 1.0 / 1.3), (high, plate, n(5), 1.0),
               (plate, plate + v["rotor_thickness"], n(7), 1.3))  # fmt: skip
 
     def what(a: float, b: float) -> str:
@@ -51,12 +56,12 @@ def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
             return "wall" if b < high else "air"
         if b < low or b > high:
             return "air"
-        return "layer" if a < block else "hot" if a < half else "cold"
+        upright = ((block, "layer"), (block + film, "hot"), (block + pad - film, "legs"))
+        return next((name for right, name in upright if a < right), "cold")
 
     return _with_borders(Plane(
         x, y, drawn(x, y, what), _materials(v), _polymer(v), _pump(v), False,
-        {frozenset(("hot", "cold")): v["peltier_conductance"] / v["peltier_area"],
-         frozenset(("hot", "layer")): v["hot_contact"], frozenset(("layer", "vane")): v["rotor_contact"]},
+        {frozenset(("hot", "layer")): v["hot_contact"], frozenset(("layer", "vane")): v["rotor_contact"]},
         v["ambient_temperature"] - 273.15,
     ), v)  # fmt: skip
 
@@ -68,9 +73,12 @@ def _materials(v: Mapping[str, Any]) -> dict[str, Material]:
     wall = Material(whole * solid.along, whole * solid.up, whole * capacity)
     pad_heat = v["peltier_mass"] * v["peltier_specific_heat"] / (v["pcl_area"] * v["peltier_thickness"])
     pad = Material(100.0, PAD_CONDUCTIVITY, pad_heat)
+    through = v["peltier_conductance"] / v["peltier_area"] * (1.0 - 2.0 * PAD_FILM) * v["peltier_thickness"]
+    legs = Material(through, PAD_CONDUCTIVITY, pad_heat)
     shine = v["running_clearance"] * v["surface_emissivity"] / (2.0 - v["surface_emissivity"])
     air = Material(v["air_conductivity"], v["air_conductivity"], 0.0, shine)
-    return {"floor": solid, "plate": solid, "vane": solid, "wall": wall, "hot": pad, "cold": pad, "air": air}
+    return {"floor": solid, "plate": solid, "vane": solid, "wall": wall, "hot": pad, "legs": legs, "cold": pad,
+            "air": air}  # fmt: skip
 
 
 def _polymer(v: Mapping[str, Any]) -> Polymer:
@@ -98,12 +106,12 @@ def _with_borders(found: Plane, v: Mapping[str, Any]) -> Plane:
     if v["sink"] is None:
         found.borders.append(Border(last, shown, v["cold_side_coefficient"], v["surface_emissivity"]))
     else:
-        found.borders.append(Border(last, shown, v["sink_contact"], body=3))
+        found.borders.append(Border(last, shown, v["sink_contact"], body=4))
     found.borders.append(Border(*found.facing("plate", "above"), v["rotor_coefficient"], v["surface_emissivity"]))
     found.borders.append(Border(*found.facing("floor", "below"), v["housing_coefficient"], v["surface_emissivity"]))
     # Inner and outer sides of what stands in the chamber, which give their heat to the housing around it.
     sides = v["housing_coefficient"] + 4.0 * STEFAN_BOLTZMANN * v["surface_emissivity"] * v["ambient_temperature"] ** 3
-    for name in ("layer", "hot", "cold", "vane"):
+    for name in ("layer", "hot", "legs", "cold", "vane"):
         own = found.cells(name)
         found.borders.append(Border(own, 2.0 * found.volume[own] / v["block_width"], sides, body=2))
     return found
@@ -117,10 +125,12 @@ def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> Non
     middle, core, around = np.pi * inner**2, v["core_and_link"], v["around_pads"][-1]
     rim = max(np.pi * rotor**2 - ring - middle, 1e-6)
     found.bodies.extend([
-        Body((core.capacity + middle * height * capacity) / wide),
+        Body(core.capacity / wide),
         Body(rim * height * capacity / wide, rim / wide, v["rotor_coefficient"], v["surface_emissivity"]),
         Body((v["housing_mass"] * v["structure_specific_heat"] - ring * depth * capacity) / wide,
              around.surface.area / wide, v["housing_coefficient"], v["surface_emissivity"]),
+        Body(middle * height * capacity / wide, (middle - np.pi * v["core_radius"] ** 2) / wide,
+             v["rotor_coefficient"], v["surface_emissivity"]),
     ])  # fmt: skip
     if v["sink"] is not None:
         surface = v["sink"].surface
@@ -130,8 +140,10 @@ def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> Non
     found.size = found.count + len(found.bodies)
     # The mean temperature of a fin that heats evenly is a third of its width away.
     outwards = 2.0 * np.pi * k * height / np.log((outer + max(rotor - outer, 1e-4) / 3.0) / outer)
+    inwards = 2.0 * np.pi * k * height / np.log(inner / (inner - (inner - v["core_radius"]) / 3.0))
     floor = 2.0 * np.pi * k * depth / np.log(max(v["housing_inner_radius"], outer + 1e-4) / outer)
-    for name, conductance, body in (("plate", core.conductance, 0), ("plate", outwards, 1), ("floor", floor, 2)):
+    for name, conductance, body in (("plate", core.conductance, 0), ("plate", outwards, 1), ("floor", floor, 2),
+                                    ("plate", inwards, 3)):  # fmt: skip
         own = found.cells(name)
         found.borders.append(Border(own, found.volume[own] / np.sum(found.volume[own]), conductance / wide, body=body))
 

@@ -1,7 +1,8 @@
 """Heat in a plane of rectangles by finite volumes: what the drawings of both modules are heated with.
 
 A drawing says what material is in each rectangle of a grid; neighbours conduct through their halves and through the
-contact between them. The pads' two sides pump heat and leak it; polymer melts between two temperatures with sharp
+contact between them. The pads' two sides pump heat and leak it, through legs that the current heats where the drawing
+has them; polymer melts between two temperatures with sharp
 corners; borders lose heat by convection and radiation or give it to bodies of one temperature. Implicit steps of second
 order (BDF2), Newton's method. Nothing of the product's heat equations is used. Temperatures in degC, for one metre.
 """
@@ -193,12 +194,13 @@ class Plane:
         """Heat that comes into each cell from pads and air [W], and its derivative."""
         heat, slope = np.zeros(self.size), np.zeros(self.size)
         p = self.pump
-        joule = 0.5 * p.current**2 * p.resistance
+        joule = p.current**2 * p.resistance
+        warms = {"legs": joule} if "legs" in self._own else {"hot": 0.5 * joule, "cold": 0.5 * joule}
+        for name, watts in warms.items():
+            heat[self._own[name]] += watts * self._faces(name)
         for name, sign in (("hot", 1.0), ("cold", -1.0)):
-            own = self._own[name]
-            thickness = self._deep(own)
-            share = self.volume[own] / thickness
-            heat[own] += share * (sign * p.seebeck * p.current * (t[own] + KELVIN) + joule)
+            own, share = self._own[name], self._faces(name)
+            heat[own] += share * sign * p.seebeck * p.current * (t[own] + KELVIN)
             slope[own] += share * sign * p.seebeck * p.current
         for border in self.borders:
             if border.body is None:
@@ -208,10 +210,11 @@ class Plane:
             self._lose(heat, slope, t, at, np.array([body.surface]), body.coefficient, body.emissivity)
         return heat, slope
 
-    def _deep(self, own: Whole) -> float:
-        """Thickness of a side of the pads [m], in the direction from one side to the other."""
+    def _faces(self, name: str) -> Array:
+        """What each cell of a part of the pads has of their area [m2]: its volume over the part's thickness."""
+        own = self._own[name]
         lines, at = (self.y, self.j[own]) if self.pump_along else (self.x, self.i[own])
-        return float(np.max(lines[at + 1]) - np.min(lines[at]))
+        return self.volume[own] / float(np.max(lines[at + 1]) - np.min(lines[at]))
 
     def _lose(
         self, heat: Array, slope: Array, t: Array, at: Whole, areas: Array, coefficient: float, emissivity: float

@@ -8,7 +8,7 @@ from stiff_when_warm import STIFF_WHEN_WARM
 from support import ROOT, fine
 
 from tvimdesign.device import table_for
-from tvimdesign.device.compression.ring_heat import RIM
+from tvimdesign.device.compression.ring_heat import ABOVE_WALLS, RIM, WITHIN
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study
@@ -18,8 +18,8 @@ TABLE = table_for("compression")
 ALONE: dict[str, Any] = {
     "structure_specific_heat": 1.0, "structure_conductivity": 1e-3, "rotor_coefficient": 1e-3,
     "surface_emissivity": 0.0, "peltier_specific_heat": 5.0, "hot_contact": 1e6, "rotor_contact": 1e5,
-    "peltier_conductance": 0.0, "peltier_seebeck": 0.0, "cold_side_coefficient": 1e3, "horizon": 1e5,
-    "response_criterion": "far_face", "air_conductivity": 1e-6, "housing_coefficient": 0.1,
+    "peltier_conductance": 1e-4, "peltier_seebeck": 0.0, "cold_side_coefficient": 1e3, "horizon": 1e5,
+    "response_criterion": "far_face", "air_conductivity": 1e-6, "housing_coefficient": 1e-4,
 }  # fmt: skip
 
 
@@ -89,21 +89,22 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
     stack = found["stack"]
     assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
-    # Six roots of 14 by 5 mm, the mean of a vane of 3.9 mm heated all along is a third of its height away; beyond them
-    # is half of the first tenth of the rotor plate.
+    # Six roots of 14 by 5 mm, the mean of a vane of 3.9 mm heated all along is a third of its height away. So is
+    # that of the rotor plate above it, from its lower face.
+    thickness = TABLE.evaluate(squeezed, ["rotor_thickness"])["rotor_thickness"]
     root = 0.24 * 6 * 14e-3 * 5e-3 / (3.9e-3 / 3.0)
-    first = stack.beside[0].capacity / stack.plate_heat_capacity
-    tenth = 0.1 * TABLE.evaluate(squeezed, ["rotor_thickness"])["rotor_thickness"]
-    within = 0.24 * first / tenth / (0.5 * tenth)
-    assert stack.beside[0].conductance == pytest.approx(1.0 / (1.0 / root + 1.0 / within), rel=1e-9)
+    above = 0.24 * 6 * 14e-3 * 5e-3 / (thickness / 3.0)
+    assert stack.beside[0].conductance == pytest.approx(1.0 / (1.0 / root + 1.0 / above), rel=1e-9)
+    volume = 6 * 14e-3 * 5e-3 * thickness
+    assert stack.beside[0].capacity == pytest.approx(stack.plate_heat_capacity * volume, rel=1e-9)
     # Half a vane's two rims of 3.5 mm lose 5 W/m2 K.
     rims = 12 * 2 * 3.5e-3 * 2.5e-3
     assert stack.plate_surface.area * stack.plate_surface.coefficient == pytest.approx(5.0 * rims, rel=1e-9)
     assert stack.plate_surface.area * stack.plate_surface.emissivity == pytest.approx(0.9 * rims, rel=1e-9)
     vanes = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
-    rim = stack.around[RIM].capacity
-    assert vanes + rim + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
+    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, ABOVE_WALLS))
+    assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
 
 
 def test_cold_sides_are_open_where_the_slots_are(squeezed: dict[str, Any]) -> None:

@@ -31,7 +31,7 @@ def rows(name: str = "results") -> list[dict[str, str]]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["paper_shear", "calibrated_shear"])
+@pytest.mark.parametrize("name", ["paper_shear", "calibrated_shear", "calibrated_compression", "wrist_compression"])
 def test_times_of_the_paper_s_sizes_are_those_of_the_plane(name: str) -> None:
     for time, one in compared(model_of(STUDIES / f"{name}.yaml")).items():
         assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time

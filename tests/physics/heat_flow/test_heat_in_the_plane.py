@@ -10,6 +10,7 @@ from support import ROOT
 
 sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
 
+from compare import STUDIES, Judge, model_of, plane_of
 from plane import Border, Material, Plane, Polymer, Pump, drawn, lines
 
 NEVER = 1e6
@@ -71,3 +72,25 @@ def test_a_fin_heated_at_its_root_is_as_warm_as_the_formula_says() -> None:
     m = np.sqrt(coefficient / (0.25 * thickness))
     assert root == pytest.approx(power * thickness / np.sqrt(coefficient * 0.25 * thickness) / np.tanh(m * length),
                                  rel=5e-3)  # fmt: skip
+
+
+def test_half_the_current_s_heat_leaves_legs_at_either_end_and_their_middle_is_warmer_by_an_eighth() -> None:
+    # I^2 R of 800 W/m2 in legs of 1 mm between two sheets kept cold: (I^2 R)/(8 K) above them (Incropera, ch. 3).
+    x = lines((-1e-6, 0.0, 1, 1.0), (0.0, 1e-3, 40, 1.0), (1e-3, 1.001e-3, 1, 1.0))
+    y = np.array([0.0, 1.0])
+    names = drawn(x, y, lambda a, _: "hot" if a < 0.0 else "legs" if a < 1e-3 else "cold")
+    kept = Material(1e4, 1e4, 1e13)
+    parts = {"hot": kept, "legs": Material(0.25, 0.25, 1.0), "cold": kept}
+    found = Plane(x, y, names, parts, pcl(), Pump(0.0, 800.0, 0.0, 1.0), False, {}, 20.0)
+    _, states = found.heat(1.0, 5)
+    legs = states[-1][found.cells("legs")] - 20.0
+    assert np.max(legs) == pytest.approx(800.0 / (8.0 * 0.25 / 1e-3), rel=2e-3)
+    assert np.mean(legs) == pytest.approx(800.0 / (12.0 * 0.25 / 1e-3), rel=2e-3)
+
+
+@pytest.mark.slow
+def test_the_ring_takes_as_long_with_half_as_many_cells_again() -> None:
+    model = model_of(STUDIES / "wrist_compression.yaml")
+    coarse, fine = (Judge(model, plane_of(model, cells)) for cells in (1.0, 1.5))
+    times = [judge.time("softening_time", judge.heated(150.0, 60)) for judge in (coarse, fine)]
+    assert times[0] == pytest.approx(times[1], rel=0.01)

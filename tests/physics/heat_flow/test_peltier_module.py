@@ -131,3 +131,17 @@ def test_the_outer_side_of_an_insulated_foil_is_hotter_by_half_its_way_at_the_wh
     current = np.sqrt(flux * area / 45.0)
     outer = brentq(lambda cold: peltier.cold_side_heat(foil, current, 350.0, cold), 350.0, 900.0)
     assert outer - 350.0 == pytest.approx(0.5 * flux * thickness / conductivity, rel=1e-9)
+
+
+def test_legs_that_the_current_heats_evenly_are_as_warm_as_their_heat_equation_says() -> None:
+    # k A T'' = -I^2 R/L between two ends, solved by finite differences; 2 A through 3 ohm, 0.5 W/K from end to end.
+    hot, cold, count = 390.0, 310.0, 400
+    step = 1.0 / count
+    inside = np.diag(np.full(count - 1, 2.0)) - np.diag(np.ones(count - 2), 1) - np.diag(np.ones(count - 2), -1)
+    heated = np.full(count - 1, 2.0**2 * 3.0 / 0.5 * step**2)
+    heated[0] += hot
+    heated[-1] += cold
+    profile = np.concatenate([[hot], np.linalg.solve(inside, heated), [cold]])
+    mean = step * (np.sum(profile) - 0.5 * (hot + cold))
+    module = peltier.PeltierModule(seebeck=0.05, resistance=3.0, conductance=0.5)
+    assert peltier.legs_temperature(module, 2.0, hot, cold) == pytest.approx(mean, abs=1e-3)

@@ -99,8 +99,28 @@ def faced_area(
 
 
 @quantities.helper()
+def heated_length(faced_area: Scalar, ring_width: Scalar, plate_depth: Scalar) -> Scalar:
+    """Depth of a block and its pad [m], along the ring."""
+    return faced_area / ring_width - plate_depth
+
+
+@quantities.helper()
+def ways_along(heated_length: Scalar, plate_depth: Scalar, wall_depth: Scalar) -> tuple[Scalar, ...]:
+    """Ways along the ring in floor and rotor plate [1/m]: from below or above a block and its pad to a rotor vane and
+    to a housing vane.
+
+    A strip that is heated evenly has its mean temperature a sixth of its length away from either end where both take
+    as much, and a third where one takes all: a quarter. What is heated at its end has it a third of its length away.
+    """
+    return tuple(1.0 / (0.25 * heated_length + end / 3.0) for end in (plate_depth, wall_depth))
+
+
+@quantities.helper()
 def rotor_beside(
-    faced_area: Scalar,
+    ring_width: Scalar,
+    heated_length: Scalar,
+    ways_along: tuple[Scalar, ...],
+    plate_depth: Scalar,
     rotor_thickness: Scalar,
     rotor_vanes: Section,
     vane_height: Scalar,
@@ -110,18 +130,20 @@ def rotor_beside(
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> tuple[lumps.Lump, ...]:
-    """Rotor plate above vanes, blocks and pads, in three bodies from its lower face on, heated by the vanes' roots.
+    """Rotor plate above the vanes, heated by their roots; beside that above blocks and pads, three bodies in depth.
 
-    A fin heated evenly over its faces: its mean temperature is a third of its height away from the root (Incropera,
-    Fundamentals of Heat and Mass Transfer, ch. 3, even generation).
+    A vane is a fin heated evenly over its faces: its mean temperature is a third of its height away from the root
+    (Incropera, Fundamentals of Heat and Mass Transfer, ch. 3, even generation). Above it heat turns to the side.
     """
-    capacity = rotor_thickness * structure_density * structure_specific_heat
-    across = structure_conductivity * faced_area / rotor_thickness
-    first, *others = lumps.strip(faced_area, capacity, across, lumps.NOWHERE)
-    root = 3.0 * structure_conductivity * rotor_vanes.area / vane_height
-    above = lumps.Surface(faced_area, rotor_coefficient, surface_emissivity)
-    others[-1] = others[-1]._replace(surface=above)
-    return (first._replace(conductance=lumps.in_series(root, first.conductance)), *others)
+    k, capacity = structure_conductivity, rotor_thickness * structure_density * structure_specific_heat
+    above_vanes, heated = ring_width * plate_depth, ring_width * heated_length
+    outside = lumps.Surface(1.0, rotor_coefficient, surface_emissivity)
+    root = lumps.in_series(3.0 * k * rotor_vanes.area / vane_height, 3.0 * k * above_vanes / rotor_thickness)
+    vanes = lumps.Lump(root, above_vanes * capacity, outside._replace(area=above_vanes))
+    first, *others = lumps.strip(heated, capacity, k * heated / rotor_thickness, lumps.Surface(1.0, 0.0))
+    along = k * rotor_thickness * ring_width * ways_along[0]
+    others[-1] = others[-1]._replace(surface=outside._replace(area=heated))
+    return (vanes, first._replace(conductance=lumps.STRIP[0] * along), *others)
 
 
 @quantities.helper()

@@ -12,21 +12,18 @@ import numpy as np
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section
 from tvimdesign.physics.heat_flow import lumps
-from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link
+from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link, Place
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
 FLOOR = (0, 1, 2)
 """Places of the floor's bodies below blocks and pads, from its upper face on."""
-WALLS, RIM, BELOW_VANES, HOUSING = 3, 4, 5, 6
-TO_RIM = 0.1
-"""Way from where a block has its mean temperature to its lower and upper side, as a share of half its height.
-
-Calibrated to times of the compression modules in two dimensions (`docs/theory/heat.md`); 0.05 to 0.15 do about as well.
-"""
+WALLS, RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS, HOUSING = 3, 4, 5, 6, 7, 8, 9
+ABOVE_VANES, ABOVE = 0, (1, 2, 3)
+"""Places beside the vanes: the rotor plate above them; above blocks and pads, from its lower face on."""
+LEGS = ("legs", 0)
 
 
 @quantities.helper()
@@ -48,42 +45,64 @@ def ring_width(vane_count: Scalar, block_width: Scalar) -> Scalar:
 def around_pads(
     pcl_area: Scalar,
     cold_area: Scalar,
+    ring_width: Scalar,
+    heated_length: Scalar,
+    plate_depth: Scalar,
+    wall_depth: Scalar,
+    plate_around: tuple[Body, ...],
+    housing_inner_radius: Scalar,
+    floor_thickness: Scalar,
+    structure_heat_capacity: Scalar,
+    floor_in_air: lumps.Surface,
+    housing_rest: Body,
+) -> tuple[Body, ...]:
+    """Floor below blocks and pads, housing vanes, rotor plate without and within the ring, floor below the rotor's and
+    the housing's vanes, rotor plate above the housing's, the rest."""
+    areas = [ring_width * depth for depth in (heated_length, plate_depth, wall_depth)]
+    below = [Body(area * floor_thickness * structure_heat_capacity, floor_in_air._replace(area=area)) for area in areas]
+    floor = [Body(share * below[0].capacity, lumps.NOWHERE) for share in STRIP]
+    floor[-1] = floor[-1]._replace(surface=below[0].surface)
+    walls = Body((pcl_area - cold_area) * wall_depth * structure_heat_capacity, lumps.NOWHERE)
+    rim, within, above_walls = plate_around
+    parts = (*floor, walls, *below[1:])
+    rest = lumps.less(housing_rest, parts, np.pi * housing_inner_radius**2 - sum(areas))
+    return (*floor, walls, rim, within, *below[1:], above_walls, rest)
+
+
+@quantities.helper()
+def plate_around(
+    pcl_area: Scalar,
+    plate_depth: Scalar,
     wall_depth: Scalar,
     ring_width: Scalar,
     faced_area: Scalar,
-    plate_depth: Scalar,
     plate_mass: Scalar,
-    rotor_vanes: Section,
-    vane_height: Scalar,
     rotor_thickness: Scalar,
-    housing_inner_radius: Scalar,
-    housing_outer_radius: Scalar,
-    rim_level: Scalar,
-    foot_height: Scalar,
-    floor_thickness: Scalar,
-    housing_mass: Scalar,
+    rotor_radius: Scalar,
+    core_radius: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
     rotor_coefficient: Scalar,
-    structure_density: Scalar,
-    structure_specific_heat: Scalar,
-    housing_coefficient: Scalar,
     surface_emissivity: Scalar,
+    structure_density: Scalar,
+    structure_heat_capacity: Scalar,
 ) -> tuple[Body, ...]:
-    """Floor below blocks and pads, housing vanes, rotor plate beside the ring, floor below vanes, the rest."""
-    volumetric = structure_density * structure_specific_heat
-    in_air = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
-    heated = faced_area - ring_width * plate_depth
-    unheated = ring_width * (plate_depth + wall_depth)
-    first, second, third = (Body(share * heated * floor_thickness * volumetric, lumps.NOWHERE) for share in STRIP)
-    floor = (first, second, third._replace(surface=in_air._replace(area=heated)))
-    walls = Body((pcl_area - cold_area) * wall_depth * volumetric, lumps.NOWHERE)
-    rim_area = (plate_mass / structure_density - rotor_vanes.area * vane_height) / rotor_thickness - faced_area
-    rim_volume = plate_mass / structure_density - pcl_area * plate_depth - faced_area * rotor_thickness
-    rim = Body(rim_volume * volumetric, lumps.Surface(rim_area, rotor_coefficient, surface_emissivity))
-    below_vanes = Body(unheated * floor_thickness * volumetric, in_air._replace(area=unheated))
-    outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
-    outside = outside + np.pi * housing_inner_radius**2 - heated - unheated
-    rest = housing_mass * structure_specific_heat - sum(body.capacity for body in (*floor, walls, below_vanes))
-    return (*floor, walls, rim, below_vanes, Body(rest, in_air._replace(area=outside)))
+    """Rotor plate without and within the ring, and above the housing's vanes; its upper face is in the air."""
+    in_air = lumps.Surface(1.0, rotor_coefficient, surface_emissivity)
+    above_walls = ring_width * wall_depth
+    within = np.pi * pcl_inner_radius**2 * rotor_thickness
+    rim = plate_mass / structure_density - pcl_area * plate_depth - within
+    rim = rim - (faced_area + above_walls) * rotor_thickness
+    areas = (
+        np.pi * (rotor_radius**2 - pcl_outer_radius**2),
+        np.pi * (pcl_inner_radius**2 - core_radius**2),
+        above_walls,
+    )
+    volumes = (rim, within, above_walls * rotor_thickness)
+    return tuple(
+        Body(volume * structure_heat_capacity, in_air._replace(area=area))
+        for volume, area in zip(volumes, areas, strict=True)
+    )
 
 
 @quantities.helper()
@@ -91,36 +110,34 @@ def floor_links(
     pcl_area: Scalar,
     cold_area: Scalar,
     block_height: Scalar,
-    faced_area: Scalar,
     plate_depth: Scalar,
     wall_depth: Scalar,
+    heated_length: Scalar,
+    ways_along: tuple[Scalar, ...],
     ring_width: Scalar,
     floor_thickness: Scalar,
     pcl_outer_radius: Scalar,
     housing_inner_radius: Scalar,
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
-    """Within the floor, out to the housing's wall, and from the housing's vanes into it.
-
-    Below a block it goes to either side, from middle to middle: to a rotor vane's floor and to a housing vane's.
-    """
-    heated = faced_area - ring_width * plate_depth
-    unheated = ring_width * (plate_depth + wall_depth)
+    """Within the floor, along the ring and out to the housing's wall, and from the housing's vanes into it."""
+    heated = heated_length * ring_width
     found = []
     for i in FLOOR[1:]:
         way = 0.5 * (STRIP[i - 1] + STRIP[i]) * floor_thickness
         found.append(_link(i - 1, i, structure_conductivity * heated / way))
     out = 2.0 * np.pi * structure_conductivity * floor_thickness / np.log(housing_inner_radius / pcl_outer_radius)
-    length = heated / ring_width
-    ways = 0.5 * (length + plate_depth), 0.5 * (length + wall_depth)
-    sideways = structure_conductivity * floor_thickness * ring_width * sum(1.0 / way for way in ways)
+    out = out / (heated_length + plate_depth + wall_depth)
+    to_vanes, to_walls = (structure_conductivity * floor_thickness * ring_width * way for way in ways_along)
     for i in FLOOR:
-        found.append(_link(i, HOUSING, STRIP[i] * out * heated / (heated + unheated)))
-        found.append(_link(i, BELOW_VANES, STRIP[i] * sideways))
-    found.append(_link(BELOW_VANES, HOUSING, out * unheated / (heated + unheated)))
+        found.append(_link(i, HOUSING, STRIP[i] * out * heated_length))
+        found.append(_link(i, BELOW_VANES, STRIP[i] * to_vanes))
+        found.append(_link(i, BELOW_WALLS, STRIP[i] * to_walls))
+    found.append(_link(BELOW_VANES, HOUSING, out * plate_depth))
+    found.append(_link(BELOW_WALLS, HOUSING, out * wall_depth))
     foot = ring_width * wall_depth * (pcl_area - cold_area) / pcl_area
     root = 3.0 * structure_conductivity * foot / (block_height + floor_thickness)
-    return (*found, _link(WALLS, BELOW_VANES, root))
+    return (*found, _link(WALLS, BELOW_WALLS, root))
 
 
 def _link(first: int, second: int, conductance: Scalar) -> Link:
@@ -144,34 +161,42 @@ def stack_links(
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
     pcl_melting: polymer.Melting,
+    plate_links: tuple[Link, ...],
 ) -> tuple[Link, ...]:
     """Through the running clearances below and above blocks, pads and vanes, with what lies on either side of them.
 
     Of what passes a clearance a tenth is radiation, which from blocks and vanes is taken as where the PCL is molten.
+
+    The pads lose heat from their legs, which are as thick as they are, by half from either side at the legs' mean
+    temperature. Where legs fall evenly from T_h to T_c the hot side loses two thirds of what is at T_h and a third of
+    what is at T_c: 1/12 of the difference more. A clearance between a wall of one temperature and one that changes
+    along it conducts along as well, like a strip of a third of its width.
     """
-    floor, vanes, above = ("around", FLOOR[0]), ("around", BELOW_VANES), ("beside", 0)
+    floor, vanes, above = ("around", FLOOR[0]), ("around", BELOW_VANES), ("beside", ABOVE[0])
+    above_walls = ("around", ABOVE_WALLS)
     faces = {floor: 0.5 * STRIP[0] * floor_thickness, vanes: floor_thickness / 3.0,
-             above: 0.5 * STRIP[0] * rotor_thickness}  # fmt: skip
-    half = 0.5 * peltier_thickness
+             above: 0.5 * STRIP[0] * rotor_thickness, above_walls: rotor_thickness / 3.0}  # fmt: skip
+    to_faces = lumps.way_to_faces(2.0 * block_depth / block_height)
     found = []
     for place, depth, faced in (
         (("layer", 0), block_depth, (floor, above)),
-        (("hot", 0), half, (floor, above)),
-        (("cold", 0), half, (floor, above)),
+        (LEGS, peltier_thickness, (floor, above)),
         (("plate", 0), plate_depth, (vanes,)),
-        (("around", WALLS), wall_depth, (above,)),
+        (("around", WALLS), wall_depth, (above_walls,)),
     ):
         area = ring_width * depth
         for face in faced:
             gap = lumps.air_gap(area, running_clearance, air_conductivity, surface_emissivity, place, face)
             walls = structure_conductivity * area / faces[face]
             if place == ("layer", 0):
-                walls = lumps.in_series(walls, pcl_conductivity_melt * area / (TO_RIM * 0.5 * block_height))
+                walls = lumps.in_series(walls, pcl_conductivity_melt * area / (to_faces * 0.5 * block_height))
             through = lumps.behind(gap, walls, ambient_temperature)
             if place[0] in ("layer", "plate"):
                 through = lumps.straightened(through, pcl_melting.end, ambient_temperature)
             found.append(through)
-    return tuple(found)
+    lost = sum(lumps.link_conductance(one, pcl_melting.end, ambient_temperature) for one in found if one.first == LEGS)
+    along = air_conductivity * 2.0 / 3.0 * running_clearance * ring_width / peltier_thickness
+    return (*plate_links, *found, Link(("hot", 0), ("cold", 0), lost / 12.0 + along))
 
 
 @quantities.helper()
@@ -201,28 +226,84 @@ def side_links(
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
     """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes."""
-    housing, half = ("around", HOUSING), 0.5 * peltier_thickness * open_sides
+    housing, pads = ("around", HOUSING), peltier_thickness * open_sides
     into_walls = 3.0 * structure_conductivity * (pcl_area - cold_area) / wall_depth
     return (
         Link(("layer", 0), housing, open_sides * block_depth),
-        Link(("hot", 0), housing, half),
-        Link(("cold", 0), housing, half),
+        Link(LEGS, housing, pads),
+        Link(("hot", 0), ("cold", 0), pads / 12.0),
         Link(("cold", 0), ("around", WALLS), into_walls),
     )
 
 
 @quantities.helper()
+def shares_above(heated_length: Scalar, plate_depth: Scalar, wall_depth: Scalar) -> tuple[tuple[Place, Scalar], ...]:
+    """Bodies of the rotor plate above the ring, and each one's share of it."""
+    ring = heated_length + plate_depth + wall_depth
+    heated = [(("beside", i), share * heated_length / ring) for i, share in zip(ABOVE, STRIP, strict=True)]
+    return (("beside", ABOVE_VANES), plate_depth / ring), *heated, (("around", ABOVE_WALLS), wall_depth / ring)
+
+
+@quantities.helper()
+def plate_links(
+    ring_width: Scalar,
+    ways_along: tuple[Scalar, ...],
+    shares_above: tuple[tuple[Place, Scalar], ...],
+    core_and_link: lumps.Lump,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[Link, ...]:
+    """From the rotor plate above the rotor's vanes to what is beside it, but its lowest tenth, which is next in the
+    chain; and to the core from all but the upper one above blocks and pads, after which the core is next."""
+    to_heated = structure_conductivity * rotor_thickness * ring_width * ways_along[0]
+    vanes, core = ("beside", ABOVE_VANES), ("beside", ABOVE[-1] + 1)
+    along = [Link(vanes, ("beside", i), share * to_heated) for i, share in zip(ABOVE[1:], STRIP[1:], strict=True)]
+    inwards = [Link(place, core, share * core_and_link.conductance)
+               for place, share in shares_above if place != ("beside", ABOVE[-1])]  # fmt: skip
+    return (*along, *inwards)
+
+
+@quantities.helper()
+def core_share(shares_above: tuple[tuple[Place, Scalar], ...]) -> Scalar:
+    """What of the conductance to the core begins at the last body of the rotor plate."""
+    return dict(shares_above)["beside", ABOVE[-1]]
+
+
+@quantities.helper()
 def plate_losses(
     around_pads: tuple[Body, ...],
+    ring_width: Scalar,
+    ways_along: tuple[Scalar, ...],
+    shares_above: tuple[tuple[Place, Scalar], ...],
+    core_radius: Scalar,
+    pcl_inner_radius: Scalar,
     pcl_outer_radius: Scalar,
     rotor_radius: Scalar,
     rotor_thickness: Scalar,
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
 ) -> tuple[lumps.Loss, ...]:
-    """From the rotor plate above the ring to what is beside it, to a third of the way to the rim; and the air there."""
-    third = (rotor_radius - pcl_outer_radius) / 3.0
-    out = 2.0 * np.pi * structure_conductivity * rotor_thickness / np.log((pcl_outer_radius + third) / pcl_outer_radius)
-    rim = around_pads[RIM].surface
-    onward = rim.area * lumps.surface_coefficient(rim, ambient_temperature, ambient_temperature)
-    return (lumps.Loss(Link(("beside", 2), ("around", RIM), out), onward),)
+    """From the rotor plate above blocks and pads to what is above the housing's vanes, and from all of it above the
+    ring to what is without and within; and the air there.
+
+    What ends free has its mean temperature a third of the way to its end.
+    """
+    along = structure_conductivity * rotor_thickness * ring_width * ways_along[1]
+    found = [
+        _onward(Link(("beside", i), ("around", ABOVE_WALLS), share * along), around_pads, ambient_temperature, share)
+        for i, share in zip(ABOVE, STRIP, strict=True)
+    ]
+    around = 2.0 * np.pi * structure_conductivity * rotor_thickness
+    without = around / np.log(1.0 + (rotor_radius - pcl_outer_radius) / (3.0 * pcl_outer_radius))
+    within = -around / np.log(1.0 - (pcl_inner_radius - core_radius) / (3.0 * pcl_inner_radius))
+    for beyond, conductance in ((RIM, without), (WITHIN, within)):
+        for place, share in shares_above:
+            link = Link(place, ("around", beyond), share * conductance)
+            found.append(_onward(link, around_pads, ambient_temperature, share))
+    return tuple(found)
+
+
+def _onward(link: Link, bodies: tuple[Body, ...], ambient: Scalar, share: Scalar = 1.0) -> lumps.Loss:
+    """A link to a body that loses a share of its heat to the air behind it."""
+    surface = bodies[link.second[1]].surface
+    return lumps.Loss(link, share * surface.area * lumps.surface_coefficient(surface, ambient, ambient))

@@ -42,29 +42,21 @@ def around_pads(
     floor_web: Scalar,
     housing_outer_radius: Scalar,
     rotor_radius: Scalar,
-    rim_level: Scalar,
-    foot_height: Scalar,
-    floor_thickness: Scalar,
-    housing_mass: Scalar,
-    structure_density: Scalar,
-    structure_specific_heat: Scalar,
-    housing_coefficient: Scalar,
-    surface_emissivity: Scalar,
+    structure_heat_capacity: Scalar,
+    floor_in_air: lumps.Surface,
+    housing_rest: Body,
 ) -> tuple[Body, ...]:
     """What the pads are set in: upper and lower strip of the floor, ledges, corner, and the rest of the housing."""
-    volumetric = structure_density * structure_specific_heat
-    open_below = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
+    volumetric = structure_heat_capacity
     areas = [share * beside_area for share in STRIP]
     corner = Body(0.5 * areas[0] * pad_depth * volumetric, lumps.NOWHERE)
     upper = [corner, *(Body(area * pad_depth * volumetric, lumps.NOWHERE) for area in areas[1:])]
     lower = [
-        Body(area * floor_web * volumetric, open_below._replace(area=area)) for area in (*areas, pcl_area - cold_area)
+        Body(area * floor_web * volumetric, floor_in_air._replace(area=area)) for area in (*areas, pcl_area - cold_area)
     ]
     floor = (*upper, *lower, corner)
-    outside = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
-    outside = outside + np.pi * (housing_outer_radius**2 - rotor_radius**2)
-    rest = housing_mass * structure_specific_heat - sum(body.capacity for body in floor)
-    return (*floor, Body(rest, open_below._replace(area=outside)))
+    below = np.pi * (housing_outer_radius**2 - rotor_radius**2)
+    return (*floor, lumps.less(housing_rest, floor, below))
 
 
 @quantities.helper()

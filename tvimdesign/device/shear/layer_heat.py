@@ -67,6 +67,12 @@ def beside_area(rotor_radius: Scalar, pcl_area: Scalar) -> Scalar:
 
 
 @quantities.helper()
+def core_share() -> Scalar:
+    """What of the conductance to the core begins at the last body of the plate: all of it."""
+    return 1.0
+
+
+@quantities.helper()
 def rotor_beside(
     beside_area: Scalar,
     edge_length: Scalar,

@@ -228,7 +228,7 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
     hot_heat = peltier.hot_side_heat(stack.peltier, current, now.hot, now.cold)
     cold_heat = peltier.cold_side_heat(stack.peltier, current, now.hot, now.cold)
     from_cold, sink = _cold_end(now, stack)
-    linked = _linked(now, stack)
+    linked = _linked(now, stack, current)
     sides = np.append(
         (linked["cold"][0] - cold_heat - from_cold) / stack.cold_capacity,
         (linked["hot"][0] + hot_heat - now.through_layer[0]) / stack.hot_capacity,
@@ -265,17 +265,19 @@ def _cold_end(now: Profile, stack: Stack) -> tuple[Any, Any]:
     return flow, rest / stack.sink.capacity
 
 
-def _linked(now: Profile, stack: Stack) -> dict[str, list[Any]]:
+def _linked(now: Profile, stack: Stack, current: Any) -> dict[str, list[Any]]:
     """Heat [W] that links bring to each place of the column and each body; to each cell of layer and plate.
 
     A link of layer or plate takes from each cell in turn as much as that is warmer than the link's other end, and
-    radiates as from their mean temperature.
+    radiates as from their mean temperature. What comes to the pads' legs comes to either side by half.
     """
     divided = {"layer": now.cells, "plate": now.plate}
     places = {
         "cold": [now.cold], "hot": [now.hot], "layer": [np.mean(now.cells)], "plate": [np.mean(now.plate)],
         "beside": now.beside, "around": now.around,
     }  # fmt: skip
+    if any("legs" in (link.first[0], link.second[0]) for link in stack.links):
+        places["legs"] = [peltier.legs_temperature(stack.peltier, current, now.hot, now.cold)]
     found: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in places.items()}
     taking: dict[str, Any] = dict.fromkeys(divided, 0.0)
     for link in stack.links:
@@ -289,6 +291,8 @@ def _linked(now: Profile, stack: Stack) -> dict[str, list[Any]]:
                 found[group][i] = found[group][i] + conductance * (other - own)
     for group, cells in divided.items():
         found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
+    for side in ("hot", "cold"):
+        found[side][0] = found[side][0] + 0.5 * found.get("legs", [0.0])[0]
     return found
 
 

@@ -28,6 +28,7 @@ that the loss comes from nearer to the edge. Calibrated, with `CORNER`, to times
 CORNER = 6.0
 """How fine the finest sine of `gap_end` is, over the contact's own thickness; calibrated, 5 to 7 do about as well."""
 EULER = 0.5772156649
+ZETA_3 = 1.2020569032
 
 
 class Surface(NamedTuple):
@@ -51,6 +52,12 @@ class Body(NamedTuple):
     surface: Surface
 
 
+def less(whole: Body, parts: Sequence[Body], more_surface: Any) -> Body:
+    """What is left of a body without parts that are bodies of their own, with a surface [m^2] that it has besides."""
+    surface = whole.surface._replace(area=whole.surface.area + more_surface)
+    return Body(whole.capacity - sum(part.capacity for part in parts), surface)
+
+
 class Lump(NamedTuple):
     """A body at one temperature in a chain."""
 
@@ -62,7 +69,8 @@ class Lump(NamedTuple):
 
 
 Place = tuple[str, int]
-"""Where a link ends: `cold`, `hot`, `layer` or `plate` of the column, or a body `beside` or `around`, and which."""
+"""Where a link ends: `cold`, `hot`, `legs` between them, `layer` or `plate` of the column, or a body `beside` or
+`around`, and which."""
 
 
 class Link(NamedTuple):
@@ -160,6 +168,24 @@ def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple
         lumps.append(Lump(2.0 * across / (before + share), share * area * heat_capacity, own))
         before = share
     return tuple(lumps)
+
+
+def way_to_faces(slenderness: Any) -> Any:
+    """Way from where a bar has its mean temperature to its two faces, as a share of half its height H.
+
+    A bar of the depth D = `slenderness` H that loses heat evenly over both faces, its two ends each of one temperature.
+    By separation of variables (Carslaw and Jaeger, ch. V) the faces are colder than the mean by q H/k times
+
+        sum 2/(n pi)^2 (1 - 2H/(n pi D) tanh(n pi D/(2H))),
+
+    a third where the bar is long. From the fourth term on the hyperbolic tangent is one.
+    """
+    found = 2.0 / np.pi**2 * (np.pi**2 / 6.0 - sum(n**-2.0 for n in (1, 2, 3)))
+    found = found - 4.0 / (np.pi**3 * slenderness) * (ZETA_3 - sum(n**-3.0 for n in (1, 2, 3)))
+    for n in (1, 2, 3):
+        half = 0.5 * n * np.pi * slenderness
+        found = found + 2.0 / (n * np.pi) ** 2 * (1.0 - np.tanh(half) / half)
+    return found
 
 
 def in_series(*conductances: Any) -> Any:

@@ -45,6 +45,15 @@ def cold_side_heat(module: PeltierModule, current: Any, hot: Any, cold: Any) -> 
     return module.seebeck * current * cold - joule - module.conductance * (hot - cold)
 
 
+def legs_temperature(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
+    """Mean temperature of the legs between the sides, (T_h + T_c)/2 + I^2 R/(12 K) [K].
+
+    The current heats them evenly: between their ends they have a parabola above the straight line, two thirds as high
+    in the mean as in the middle, where it is I^2 R/(8 K).
+    """
+    return 0.5 * (hot + cold) + current**2 * module.resistance / (12.0 * module.conductance)
+
+
 def voltage(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
     """Terminal voltage, V = S (T_h - T_c) + I R [V]."""
     return module.seebeck * (hot - cold) + current * module.resistance

@@ -1,7 +1,7 @@
 """The thermal stack of the module, and what it is like at each instant of a phase.
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
-`plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`), and the pads' open
+`plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`, `core_share`), the pads' open
 `cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
 `stack_links`, `side_links`), and by which of these the plate loses heat in the end (`plate_losses`); what of the
 layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer
@@ -77,6 +77,33 @@ def core_and_link(
 
 
 @quantities.helper()
+def structure_heat_capacity(structure_density: Scalar, structure_specific_heat: Scalar) -> Scalar:
+    """Heat capacity of the printed or milled parts per volume [J/m^3 K]."""
+    return structure_density * structure_specific_heat
+
+
+@quantities.helper()
+def floor_in_air(housing_coefficient: Scalar, surface_emissivity: Scalar) -> lumps.Surface:
+    """What a square metre of the floor's lower face gives to the air."""
+    return lumps.Surface(1.0, housing_coefficient, surface_emissivity)
+
+
+@quantities.helper()
+def housing_rest(
+    housing_outer_radius: Scalar,
+    rim_level: Scalar,
+    foot_height: Scalar,
+    floor_thickness: Scalar,
+    housing_mass: Scalar,
+    structure_specific_heat: Scalar,
+    floor_in_air: lumps.Surface,
+) -> lumps.Body:
+    """The whole housing's heat capacity, and its wall and feet in the air; a mode takes the floor's bodies from it."""
+    side = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
+    return lumps.Body(housing_mass * structure_specific_heat, floor_in_air._replace(area=side))
+
+
+@quantities.helper()
 def sink(
     cold_side: str,
     sink_contact: Scalar,
@@ -131,6 +158,7 @@ def stack(
     rotor_beside: tuple[lumps.Lump, ...],
     uneven_sideways: Scalar | None,
     core_and_link: lumps.Lump,
+    core_share: Scalar,
     sink: lumps.Lump | None,
     around_pads: tuple[lumps.Body, ...],
     heat_links: tuple[lumps.Link, ...],
@@ -157,7 +185,7 @@ def stack(
         plate_surface=plate_outside,
         ambient=ambient_temperature,
         plate_cells=int(rotor_cells),
-        beside=(*rotor_beside, core_and_link),
+        beside=(*rotor_beside, core_and_link._replace(conductance=core_share * core_and_link.conductance)),
         uneven_conductance=uneven_sideways,
         sink=sink,
         around=around_pads,

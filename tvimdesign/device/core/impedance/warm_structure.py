@@ -110,7 +110,9 @@ def behind_pcl(
     faces = lumps.Surface(4.0 * link_length * link_half_width, rotor_coefficient, surface_emissivity)
     cooled = list(rotor_beside)
     for loss in plate_losses:
-        _, above = loss.link.first
+        group, above = loss.link.first
+        if group != "beside":
+            continue
         cooled[above] = lumps.cooled_through(loss, cooled[above], ambient_temperature)
     return BehindPolymer(pcl_area, plate_depth, structure_conductivity, plate_outside, ambient_temperature,
                          (*cooled, core_and_link._replace(surface=faces)), uneven_sideways)  # fmt: skip

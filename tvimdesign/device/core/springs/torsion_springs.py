@@ -39,7 +39,7 @@ _OVER_STROKE = (
 )  # fmt: skip
 """Between two of these it goes beyond both by less than 0.05 % of itself (a test holds that)."""
 STROKE_SHARES = (0.5, 0.7, 6.0 / 7.0, 1.0)
-"""Angles over the stroke, nearly even in their squares: the stiffness is even in the angle, so nearly linear in those."""
+"""Angles over the stroke, nearly even in their squares: in those the stiffness is nearly linear."""
 
 
 @quantities.output("N*m/rad", headline=True)

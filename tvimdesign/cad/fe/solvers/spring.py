@@ -1,34 +1,27 @@
 """FE of one torsion spring as drawn: tang clamped in the floor, force of the rotor's pin on the leg.
 
-python solve.py PARTS [...]: each a folder written by export_parts.py. Prints rate and peak stress as YAML.
+Finds its rate [N*m/rad] and stresses [MPa] at one newton metre.
 """
 
-from __future__ import annotations
-
 import json
-import sys
 from math import cos, hypot, pi, sin, sqrt
 from pathlib import Path
+from typing import Any
 
+import elastic
 import numpy as np
-import yaml
 from netgen.occ import OCCGeometry
 from ngsolve import (
     CF,
     TET,
     VOL,
     BilinearForm,
-    Grad,
     GridFunction,
-    Id,
     InnerProduct,
     Integrate,
     IntegrationRule,
     LinearForm,
-    Mesh,
-    Sym,
     TaskManager,
-    Trace,
     VectorH1,
     dx,
     exp,
@@ -38,59 +31,63 @@ from ngsolve import (
 )  # fmt: skip
 
 POISSON = 0.3
-ORDERS = (2,)  # 3 on the same mesh moves rates by 0.2 %, stresses by 2 %
+ORDER = 2  # 3 on the same mesh moves rates by 0.2 %, stresses by 2 %
+SIZE = 0.9
+"""Elements, in wire diameters."""
 
 
-def solve(folder: Path, size: float, order: int) -> dict[str, float]:
-    """Rate [N*m/rad] and stresses at one newton metre [MPa]; element size in wire diameters."""
+def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
+    """Rate [N*m/rad] and stresses at one newton metre [MPa]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, coil = inputs["mm"], inputs["coil"]
-    modulus = inputs["values"]["spring_youngs_modulus"] * 1e-6  # N/mm^2
+    shear = inputs["values"]["spring_youngs_modulus"] * 1e-6 / (2 * (1 + POISSON))  # N/mm^2
+    lame = elastic.lame_of(shear, POISSON)
     wire, radius = mm["wire_diameter"], 0.5 * coil["diameter"]
     shape = OCCGeometry(str(folder / "spring.step")).shape
     for face in shape.faces:
         face.name = "held" if face.center.z < -1e-3 else "free"
-    mesh = Mesh(OCCGeometry(shape).GenerateMesh(maxh=size * wire)).Curve(order)
+    mesh = elastic.meshed(OCCGeometry(shape), ORDER, maxh=SIZE * coarser * wire)
     offset = 0.5 * (coil["diameter"] + wire + mm["pin_diameter"])
     arm = sqrt((mm["placement_radius"] - mm["pin_radius"]) ** 2 - offset**2)
-    azimuth = coil["leg_azimuth"]
-    out = CF((sin(azimuth), -cos(azimuth), 0))
-    start = (sin(azimuth) * radius, -cos(azimuth) * radius)
-    way = (x - start[0]) * cos(azimuth) + (y - start[1]) * sin(azimuth)
-    rise = mm["coil_pitch"] / (pi * coil["diameter"])
-    level = coil["end_level"] + rise * arm
-    near = exp(-(((way - arm) / (0.7 * wire)) ** 2)) * exp(-(((z - level) / wire) ** 4))
-    beside = (x - start[0]) * sin(azimuth) - (y - start[1]) * cos(azimuth)
-    near *= exp(-((beside / wire) ** 4))
-    near /= Integrate(near, mesh, order=8)
-    space = VectorH1(mesh, order=order, dirichlet="held")
+    near, out = _push(mesh, inputs, arm)
+    space = VectorH1(mesh, order=ORDER, dirichlet="held")
     u, v = space.TnT()
-    lame, shear = modulus * POISSON / ((1 + POISSON) * (1 - 2 * POISSON)), modulus / (2 * (1 + POISSON))
-
-    def stress(strain):
-        return 2 * shear * strain + lame * Trace(strain) * Id(3)
-
     with TaskManager():
-        form = BilinearForm(InnerProduct(stress(Sym(Grad(u))), Sym(Grad(v))) * dx, symmetric=True)
+        worked = InnerProduct(elastic.stress(elastic.strain_of(u), shear, lame), elastic.strain_of(v))
+        form = BilinearForm(worked * dx, symmetric=True)
         load = LinearForm(near * InnerProduct(out, v) * dx(bonus_intorder=6)).Assemble()
         form.Assemble()
         found = GridFunction(space)
         found.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
         moved = InnerProduct(load.vec, found.vec)
-    rate = arm**2 / moved * 1e-3
-    tensor = stress(Sym(Grad(found)))
-    samples = _fibre(mesh, tensor, inputs, radius, wire, arm)
-    return {"elements": mesh.ne, "unknowns": space.ndof, "rate": rate, "arm_mm": arm, **samples}
+    tensor = elastic.stress(elastic.strain_of(found), shear, lame)
+    if field:
+        elastic.write_field(field, mesh, elastic.mises(tensor) * 1e3 / arm, found)
+    samples = _stresses(mesh, tensor, inputs, radius, arm)
+    return {"elements": mesh.ne, "unknowns": space.ndof, "rate": arm**2 / moved * 1e-3, "arm_mm": arm, **samples}
 
 
-def _fibre(mesh, tensor, inputs, radius, wire, arm) -> dict[str, float]:
+def _push(mesh: Any, inputs: dict[str, Any], arm: float) -> tuple[Any, Any]:
+    """A force of one newton on the leg where the pin meets it: its density and its direction."""
+    mm, coil = inputs["mm"], inputs["coil"]
+    wire, azimuth, radius = mm["wire_diameter"], coil["leg_azimuth"], 0.5 * coil["diameter"]
+    out = CF((sin(azimuth), -cos(azimuth), 0))
+    start = (sin(azimuth) * radius, -cos(azimuth) * radius)
+    way = (x - start[0]) * cos(azimuth) + (y - start[1]) * sin(azimuth)
+    level = coil["end_level"] + mm["coil_pitch"] / (pi * coil["diameter"]) * arm
+    near = exp(-(((way - arm) / (0.7 * wire)) ** 2)) * exp(-(((z - level) / wire) ** 4))
+    beside = (x - start[0]) * sin(azimuth) - (y - start[1]) * cos(azimuth)
+    near *= exp(-((beside / wire) ** 4))
+    return near / Integrate(near, mesh, order=8), out
+
+
+def _stresses(mesh: Any, tensor: Any, inputs: dict[str, Any], radius: float, arm: float) -> elastic.Found:
     """Largest fibre and von Mises stress [MPa per N*m] at the coil's inner fibre, and the fibre's mean over the coil.
 
     Largest of smooth curves through 400 samples: single elements scatter by some per cent.
     """
-    coil, pitch = inputs["coil"], inputs["mm"]["coil_pitch"]
-    deviator = tensor - Trace(tensor) / 3 * Id(3)
-    mises = (1.5 * InnerProduct(deviator, deviator)) ** 0.5
+    coil, pitch, wire = inputs["coil"], inputs["mm"]["coil_pitch"], inputs["mm"]["wire_diameter"]
+    mises = elastic.mises(tensor)
     end = coil["leg_azimuth"] - 0.5 * pi
     fibre, von = [], []
     backs = np.linspace(0.15 * pi, 2 * pi * coil["turns"] - 0.25 * pi, 400)
@@ -116,25 +113,16 @@ def _fibre(mesh, tensor, inputs, radius, wire, arm) -> dict[str, float]:
             "mises_max": smooth(von), "fibre_mean": float(np.mean(fibre)) * scale}  # fmt: skip
 
 
-def _waves(angles):
+def _waves(angles: Any) -> tuple[Any, ...]:
     return np.ones_like(angles), np.sin(angles), np.cos(angles), np.sin(2 * angles), np.cos(2 * angles)
 
 
-def _peak(mesh, field, bottom: float, top: float) -> float:
+def _peak(mesh: Any, field: Any, bottom: float, top: float) -> float:
     """Largest value [MPa] of a field between two levels, at the points of integration."""
-    rule = IntegrationRule(TET, 3)
-    points = mesh.MapToAllElements(rule, VOL)
+    points = mesh.MapToAllElements(IntegrationRule(TET, 3), VOL)
     levels = np.asarray(z(points)).ravel()
     return float(np.asarray(field(points)).ravel()[(levels > bottom) & (levels < top)].max())
 
 
-def main(folders: list[str]) -> None:
-    """Solve each on two meshes and print what was found."""
-    for name in folders:
-        runs = [solve(Path(name), 0.9, order) for order in ORDERS]
-        rows = [{k: float(f"{v:.5g}") for k, v in run.items()} for run in runs]
-        print(yaml.safe_dump({Path(name).name: rows}), flush=True)
-
-
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    elastic.main(solve, __doc__)

@@ -1,12 +1,8 @@
-"""Write the parts of a design as STEP, in place, with the dimensions FE needs: python export_parts.py DESIGN OUT.
-
-Run it where CadQuery is installed; the FE scripts run elsewhere, since both kernels cannot share a process.
-"""
+"""The parts of a design as FE takes them: STEP files where they stand, one spring in its own frame, and numbers."""
 
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
 import cadquery as cq
@@ -17,9 +13,8 @@ from tvimdesign.cad.geometry.spring_solids import installed_coil, spring_solid
 from tvimdesign.study.design import Design
 
 
-def main(source: str, out: str) -> None:
-    """Write housing, rotor, link, all pads and PCL where they stand, one spring in its own frame, and inputs.json."""
-    design, folder = Design.model_validate_json(Path(source).read_text()), Path(out)
+def export_parts(design: Design, folder: Path) -> None:
+    """Write housing, rotor, link, all pads and PCL, one spring, and `inputs.json`: sizes in mm, values in SI."""
     folder.mkdir(parents=True, exist_ok=True)
     dims, module = dimensions(design), MODULES[design.mode]
     drawn = {kind: draw(dims) for kind, draw in module.made.items()}
@@ -33,7 +28,3 @@ def main(source: str, out: str) -> None:
                "coil": {"turns": coil.turns, "diameter": coil.diameter, "leg_azimuth": coil.leg_azimuth,
                         "end_level": coil.end_level, "start_level": coil.start_level}}  # fmt: skip
     (folder / "inputs.json").write_text(json.dumps(numbers, indent=1))
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

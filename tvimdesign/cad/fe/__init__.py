@@ -1,0 +1,1 @@
+"""Finite elements on the exported parts of a design: an outside judge of what the model says of them."""

@@ -1,0 +1,83 @@
+"""Runs the solvers beside this process, each in one of its own, two at once, and gives back what they found."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from tvimdesign.base.errors import InputError, SimulationError
+
+SOLVERS = Path(__file__).with_name("solvers")
+COARSER = 1.6
+"""How much larger the elements of the second mesh are, by which the first is judged."""
+LONGEST = 1800.0
+"""Time [s] after which a solver is given up: ten times what the slowest takes."""
+AT_ONCE = 2
+
+
+@dataclass(frozen=True)
+class Solved:
+    """What a solver found of some parts."""
+
+    found: dict[str, float]
+    """By the names its file says; stiffness in N*m/rad, stress in MPa at one newton metre."""
+    coarse: dict[str, float]
+    """The same on the coarser mesh."""
+    field: Path
+    """Surface and its stress: `points`, `triangles`, `values`, `ways`."""
+
+
+def hold_ready(python: str) -> None:
+    """Raise InputError where an interpreter has no netgen and ngsolve, with what to do."""
+    try:
+        command = [python, "-c", "import netgen.occ, ngsolve"]
+        tried = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    except OSError as error:
+        raise InputError(f"--fe-python {python}: {error.strerror}; name a Python that has ngsolve") from error
+    if tried.returncode:
+        raise InputError(
+            f"verify: {python} cannot import netgen and ngsolve; pip install 'tvimdesign[fe]', or name a Python that "
+            "has them: --fe-python PATH"
+        )
+
+
+def run_solvers(
+    names: Sequence[str], parts: Path, work: Path, python: str, say: Callable[[str], None]
+) -> dict[str, Solved]:
+    """Solve the parts of a folder on two meshes by each solver; files go into `work`. Raises SimulationError."""
+
+    def run(name: str, coarser: float) -> dict[str, float]:
+        mesh = "fine" if coarser == 1.0 else "coarse"
+        to = work / f"{name}_{mesh}.json"
+        command = [python, SOLVERS / f"{name}.py", parts, to, "--coarser", f"{coarser}"]
+        command += ["--field", work / f"{name}.npz"] if coarser == 1.0 else []
+        say(f"solving the {name} on a {mesh} mesh")
+        _run([str(word) for word in command], f"{name}, {mesh} mesh")
+        found: dict[str, float] = json.loads(to.read_text(encoding="utf-8"))
+        return found
+
+    # The longest first: the two of a pair then end at about the same time.
+    with ThreadPoolExecutor(AT_ONCE) as hands:
+        asked = {(name, coarser): hands.submit(run, name, coarser) for coarser in (1.0, COARSER) for name in names}
+        try:
+            found = {key: future.result() for key, future in asked.items()}
+        except BaseException:
+            hands.shutdown(wait=False, cancel_futures=True)
+            raise
+    return {name: Solved(found[name, 1.0], found[name, COARSER], work / f"{name}.npz") for name in names}
+
+
+def _run(command: list[str], about: str) -> None:
+    alone = {**os.environ, "OMP_NUM_THREADS": "1", "NGS_NUM_THREADS": "1"}
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, env=alone, check=False)
+    except subprocess.TimeoutExpired as error:
+        raise SimulationError(f"verify: {about}: no answer in {LONGEST:g} s") from error
+    if done.returncode or "NOT ALL FACES" in done.stdout:
+        last = (done.stderr.strip() or done.stdout.strip() or "it said nothing").splitlines()[-1]
+        raise SimulationError(f"verify: {about}: {last}")

@@ -1,0 +1,84 @@
+"""What the solvers share: stress, what is read off a field, the arguments, and the files they write."""
+
+import argparse
+import contextlib
+import json
+import resource
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from netgen.libngpy._meshing import NgException
+from ngsolve import BND, H1, GridFunction, Id, InnerProduct, Mesh, Sym, Trace, sqrt
+
+Found = dict[str, float]
+
+
+def stress(strain: Any, shear: Any, lame: Any) -> Any:
+    """Stress of an isotropic body by its shear modulus and Lame's first constant [N/mm^2]."""
+    return 2 * shear * strain + lame * Trace(strain) * Id(3)
+
+
+def mises(tensor: Any) -> Any:
+    """Von Mises stress."""
+    deviator = tensor - Trace(tensor) / 3 * Id(3)
+    return sqrt(1.5 * InnerProduct(deviator, deviator))
+
+
+def lame_of(shear: Any, poisson: Any) -> Any:
+    """Lame's first constant by shear modulus and Poisson's ratio."""
+    return 2 * shear * poisson / (1 - 2 * poisson)
+
+
+def strain_of(moved: Any) -> Any:
+    """Small strain of a displacement."""
+    from ngsolve import Grad
+
+    return Sym(Grad(moved))
+
+
+def sampled(mesh: Any, field: Any, *places: Any) -> Any:
+    """Field at places [mm]; nan where the mesh's curved elements leave one out."""
+    found = np.full(places[0].shape, np.nan)
+    for index in np.ndindex(found.shape):
+        with contextlib.suppress(NgException):
+            found[index] = field(mesh(*(float(axis[index]) for axis in places)))
+    return found
+
+
+def write_field(path: Path, mesh: Any, field: Any, moved: Any) -> None:
+    """Surface triangles of a mesh with a field on their corners, and how far each corner moves [mm]."""
+    smooth = GridFunction(H1(mesh, order=1))
+    smooth.Set(field)
+    values = np.array(smooth.vec.FV().NumPy()[: mesh.nv])
+    points = np.array([vertex.point for vertex in mesh.vertices])
+    triangles = np.array([[corner.nr for corner in element.vertices] for element in mesh.Elements(BND)])
+    ways = np.zeros_like(points)
+    for axis in range(3):
+        smooth.Set(moved[axis])
+        ways[:, axis] = smooth.vec.FV().NumPy()[: mesh.nv]
+    np.savez_compressed(path, points=points, triangles=triangles, values=values, ways=ways)
+
+
+def meshed(geometry: Any, order: int, **sizes: float) -> Any:
+    """Curved mesh of a geometry."""
+    return Mesh(geometry.GenerateMesh(**sizes)).Curve(order)
+
+
+def main(solve: Callable[..., Found], about: str | None) -> None:
+    """Solve the parts of a folder and write what was found as JSON; four figures are more than meshes bear."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("parts", type=Path)
+    parser.add_argument("found", type=Path)
+    parser.add_argument("--coarser", type=float, default=1.0, help="all elements larger by this")
+    parser.add_argument("--field", type=Path, help="file for the stress on the surface")
+    asked = parser.parse_args()
+    began = time.monotonic()
+    found = solve(asked.parts, coarser=asked.coarser, field=asked.field)
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6 if sys.platform == "linux" else 0.0  # GB
+    told = {name: float(f"{value:.4g}") for name, value in found.items()}
+    told |= {"seconds": round(time.monotonic() - began, 1), "gigabytes": round(memory, 2)}
+    asked.found.write_text(json.dumps(told, indent=1) + "\n")

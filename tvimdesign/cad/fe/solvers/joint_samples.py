@@ -1,0 +1,73 @@
+"""Stresses read off the solved joint: at the core's foot, along the arcs' edges, and the largest in layer and core."""
+
+from typing import Any
+
+import elastic
+import numpy as np
+from elastic import Found
+from ngsolve import TET, VOL, IntegrationRule, sqrt, z
+
+
+def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+    """Core's von Mises stress [MPa] at one newton metre beside its foot, a mean over the first millimetre above it."""
+    angles, levels = np.meshgrid(np.linspace(0, 2 * np.pi, 73)[:-1], (np.arange(10) + 0.5) / 10)
+    radius = mm["core_radius"] * 0.998
+    places = radius * np.cos(angles), radius * np.sin(angles), mm["rotor_top_level"] + levels
+    along = elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque
+    mean = np.nanmean(along, axis=0)
+    return {"foot_highest": np.nanmax(mean), "foot_mean": np.nanmean(mean),
+            "foot_lower_half": np.nanmax(np.nanmean(along[:5], axis=0))}  # fmt: skip
+
+
+def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+    """Layer's shear [MPa] at one newton metre, means over one thickness in from the arcs' edges.
+
+    Of the whole inner and outer edges and ends, and the highest of all stretches of two millimetres along them.
+    """
+    inner, outer, span, thick = (
+        mm[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span", "pcl_thickness")
+    )
+    deep = (np.arange(3) + 0.5) / 3 * thick
+    level = (np.arange(3) + 0.5) / 3 * thick
+    found: Found = {}
+    highest = 0.0
+    sliding = sqrt(tensor[0, 2] ** 2 + tensor[1, 2] ** 2)
+    for name in ("inner", "outer", "end"):
+        length = (outer - inner) if name == "end" else span * (inner if name == "inner" else outer)
+        count = max(int(length / 0.5), 4)
+        share = (np.arange(count) + 0.5) / count
+        means = []
+        for arc in range(round(mm["arc_count"])):
+            for sense in (-1, 1) if name == "end" else (1,):
+                way, inward, up = np.meshgrid(share, deep, level, indexing="ij")
+                if name == "end":
+                    radius = inner + (outer - inner) * way
+                    turn = sense * (0.5 * span - inward / radius)
+                else:
+                    radius = inner + inward if name == "inner" else outer - inward
+                    turn = span * (way - 0.5)
+                turn = turn + 2 * np.pi * arc / round(mm["arc_count"]) + np.pi / mm["spring_count"]
+                values = elastic.sampled(mesh, sliding, radius * np.cos(turn), radius * np.sin(turn), up)
+                means.append(np.nanmean(values, axis=(1, 2)) * 1e3 / torque)
+        stretch = max(round(2.0 * count / length), 1)
+        running = [np.convolve(one, np.ones(stretch) / stretch, "valid").max() for one in means]
+        found[f"edge_{name}"] = float(np.nanmean(means))
+        highest = max(highest, *running)
+    return found | {"edge_highest": highest}
+
+
+def in_bodies(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+    """Layer's shear and core's von Mises stress [MPa] at one newton metre."""
+    points = mesh.MapToAllElements(IntegrationRule(TET, 2), VOL)
+    material = np.array([e.mat for e in mesh.Elements(VOL)])
+    each = len(points) // len(material)
+    names = np.repeat(material, each)
+    mises = np.asarray(elastic.mises(tensor)(points)).ravel() * 1e3 / torque
+    sliding = np.asarray(sqrt(tensor[0, 2] ** 2 + tensor[1, 2] ** 2)(points)).ravel() * 1e3 / torque
+    level = np.asarray(z(points)).ravel()
+    layer = sliding[names == "pcl"]
+    shaft = (names == "rotor") & (level > mm["rotor_top_level"] + 1.0) & (level < mm["link_bottom_level"] - 1.0)
+    plain = shaft & (level < mm["link_bottom_level"] - mm["link_screw_depth"] - 1.0)
+    return {"layer_peak": layer.max(), "layer_99": np.quantile(layer, 0.99), "layer_mean": layer.mean(),
+            "core_mises": mises[shaft].max(), "core_mises_below_holes": mises[plain].max() if plain.any() else 0.0,
+            "core_mises_99": np.quantile(mises[shaft], 0.99)}  # fmt: skip

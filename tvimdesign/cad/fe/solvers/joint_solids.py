@@ -1,0 +1,126 @@
+"""The solids of the frozen joint that carry its torque, cut out of the exported parts, with named faces.
+
+What carries no torque (journal, hub above the floor, pins, posts) is cut away: it would touch its neighbour.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from netgen.occ import Cylinder, Dir, HalfSpace, OCCGeometry, Pnt, Vec
+
+FOOT, EDGE = 0.5, 2.0
+"""Elements at the core's foot and along the arcs' edges [mm]."""
+SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
+PAD_GAP = 0.2
+"""How far the walls of a pad's pocket stand off it [mm]; they are not bonded to it."""
+
+
+def tube(inner: float, outer: float, bottom: float, top: float) -> Any:
+    """Ring about the axis [mm]."""
+    whole = Cylinder(Pnt(0, 0, bottom), Dir(0, 0, 1), r=outer, h=top - bottom)
+    return whole - Cylinder(Pnt(0, 0, bottom - 1), Dir(0, 0, 1), r=inner, h=top - bottom + 2) if inner else whole
+
+
+def sectors(mm: dict[str, float], bottom: float, top: float, wider: float = 0.0, ledge: float = 0.0) -> list[Any]:
+    """One sector with sharp corners for each arc of PCL, wider on each side, or narrower by a ledge [mm]."""
+    inner, outer = mm["pcl_inner_radius"] - wider + ledge, mm["pcl_outer_radius"] + wider - ledge
+    half, found = 0.5 * mm["arc_span"] - ledge / mm["pcl_inner_radius"], []
+    for arc in range(round(mm["arc_count"])):
+        middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
+        shape = tube(inner, outer, bottom, top)
+        for sense in (-1, 1):
+            side = middle + sense * half
+            out = Vec(-sense * np.sin(side), sense * np.cos(side), 0)
+            shape *= HalfSpace(Pnt(wider * out.x, wider * out.y, 0), out)
+        found.append(shape)
+    return found
+
+
+def parts(folder: Path, mm: dict[str, float], coarser: float) -> list[Any]:
+    """Solids that carry the torque, named, with the size of their elements."""
+
+    def read(name: str) -> Any:
+        return OCCGeometry(str(folder / f"{name}.step")).shape
+
+    far = 500.0
+    bottom, top = mm["rotor_bottom_level"], mm["rotor_top_level"]
+    blocks = mm.get("vane_count", 0.0) > 0.0
+    journal = mm["pcl_inner_radius"] - 0.3 if blocks else far
+    rotor = read("rotor") - tube(0, journal, -far, bottom) - tube(mm["pin_radius"] - mm["pin_diameter"], far, top, far)
+    housing = _ring_housing(read("housing"), mm) if blocks else _arc_housing(read("housing"), mm)
+    found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
+    for path in sorted(folder.glob("*.step")):
+        number = int(path.stem.split("_")[-1]) if path.stem[-1].isdigit() else 0
+        for kind, label, parity in (("pcl", "pcl", 1), ("peltier_pad", "pad", 0)):
+            if path.stem.startswith(kind) and (not blocks or number % 2 == parity):  # blocks of one sense are pressed
+                found.append((read(path.stem), label, SIZES["layer"]))
+    if not blocks:
+        found = [part for part in found if part[1] != "pad"]
+        found += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["peltier_thickness"], 0.0)]
+    for shape, label, size in found:
+        for solid in shape.solids:
+            solid.name, solid.maxh = label, size * coarser
+    return [shape for shape, _, _ in found]
+
+
+def _ring_housing(whole: Any, mm: dict[str, float]) -> Any:
+    """Housing of the compression module without its hub above the floor and its wall."""
+    far, inside = 500.0, 0.5 * (mm["hub_radius"] + mm["pcl_inner_radius"])
+    return whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+
+
+def _arc_housing(whole: Any, mm: dict[str, float]) -> Any:
+    """Housing of the shear module with a plain wall, and pockets and windows of sharp corners.
+
+    Where a radius leaves a tenth of a millimetre straight no mesh is found.
+    """
+    far = 500.0
+    wall = tube(mm["housing_inner_radius"], mm["housing_outer_radius"], 0.0, mm["rim_level"])
+    housing = (whole - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
+    pads, floor = -mm["peltier_thickness"], -mm["floor_thickness"]
+    for filling in sectors(mm, pads - 0.2, 0.0, wider=PAD_GAP):  # else the rounded pockets' edges stay in its face
+        housing += filling
+    for hole in (*sectors(mm, pads, 1.0, wider=PAD_GAP), *sectors(mm, floor - 1.0, pads, ledge=mm["window_ledge"])):
+        housing -= hole
+    return housing
+
+
+def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:
+    """Make elements small where stress is looked at: the core's foot, and the edges of the arcs."""
+    top, low, high = mm["rotor_top_level"], -0.01, mm.get("pcl_thickness", -1.0) + 0.01
+    for edge in whole.edges:
+        box = edge.bounding_box
+        flat = box[1].z - box[0].z < 1e-4
+        wide = max(box[1].x - box[0].x, box[1].y - box[0].y)
+        centre = edge.center
+        if flat and abs(box[0].z - top) < 1e-3 and wide < 2.02 * mm["core_radius"]:
+            if np.hypot(centre.x, centre.y) < mm["core_radius"] + 0.01 and wide > 0.5 * mm["core_radius"]:
+                edge.maxh = FOOT * coarser
+        elif flat and low < box[0].z < high and np.hypot(centre.x, centre.y) > mm["core_radius"] + 0.5:
+            edge.maxh = EDGE * coarser
+
+
+def name_faces(whole: Any, mm: dict[str, float]) -> None:
+    """Name what stands on the ground, and the core's top, which turns; raises ValueError where there is no such."""
+    ground, top = -mm["floor_thickness"] - mm["foot_height"], mm["link_bottom_level"]
+    for face in whole.faces:
+        centre, low, high = face.center, face.bounding_box[0].z, face.bounding_box[1].z
+        flat, wide = high - low < 1e-4, face.bounding_box[1].x - face.bounding_box[0].x
+        beside = abs((centre.x**2 + centre.y**2) ** 0.5 - mm["placement_radius"]) < 0.2
+        if flat and abs(low - top) < 1e-3:
+            face.name = "turned"
+        elif flat and abs(low - ground) < 1e-3 and _stands(beside, wide, mm):
+            face.name = "fixed"
+        else:
+            face.name = "free"
+    named = {face.name for face in whole.faces}
+    if not named >= {"turned", "fixed"}:
+        raise ValueError(f"of the faces that turn and that stand on the ground only {named - {'free'}} were found")
+
+
+def _stands(beside: bool, wide: float, mm: dict[str, float]) -> bool:
+    """Whether a face at the ground is what holds the housing: a torque sensor's flange, or else a foot; no skirt."""
+    if mm["flange_outer_radius"]:
+        return not beside and wide < 2 * mm["flange_outer_radius"] + 0.1
+    return beside and wide < 3 * mm["mount_boss_radius"]

@@ -1,0 +1,141 @@
+"""What the model says of a design beside what FE finds of its parts, a row each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from tvimdesign.cad.fe.run_solvers import Solved
+from tvimdesign.physics.solids import structure
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+DRAWN = {"leg_model": "bending", "transmission": "geometry"}
+"""Idealizations that the drawn parts do not have."""
+SOLVERS = ("joint", "spring", "link")
+
+
+@dataclass(frozen=True)
+class Compared:
+    """One quantity by the model and by FE."""
+
+    name: str
+    unit: str
+    meaning: str
+    model: float
+    fe: float
+    coarse: float
+    """By FE on the coarser mesh."""
+
+    @property
+    def ratio(self) -> float:
+        """Model over FE."""
+        return self.model / self.fe
+
+    @property
+    def mesh_change(self) -> float:
+        """Share by which the finer mesh differs from the coarser."""
+        return self.fe / self.coarse - 1.0
+
+
+def compared(module: ResolvedModule, solved: Mapping[str, Solved]) -> list[Compared]:
+    """All rows, the largest difference first."""
+    model = at_loads(module, model_values(module))
+    fine = at_loads(module, fe_values(module, {name: one.found for name, one in solved.items()}))
+    coarse = at_loads(module, fe_values(module, {name: one.coarse for name, one in solved.items()}))
+    rows = [Compared(name, *WORDS[name], model[name], fine[name], coarse[name]) for name in fine]
+    return sorted(rows, key=lambda row: -abs(math.log(row.ratio)))
+
+
+def at_loads(module: ResolvedModule, rows: Mapping[str, float]) -> dict[str, float]:
+    """Rows with stresses at full winding of the springs and at the torque the joint holds, not at one newton metre."""
+    names = ("held_spring_rate", "spring_winding", "holding_torque")
+    rate, winding, held = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
+    torques = {"coil_stress": rate * winding, "tang_stress": rate * winding, "core_stress": held, "edge_traction": held}
+    return {name: value * torques.get(name, 1.0) for name, value in rows.items()}
+
+
+def _drawn(module: ResolvedModule) -> dict[str, Any]:
+    return {**module.values, **DRAWN}
+
+
+WORDS = {
+    "spring_rate": ("N*m/rad", "one spring, its tang clamped, from the pin's force on its leg"),
+    "coil_stress": ("MPa", "at the coil's inner fibre at full winding"),
+    "tang_stress": ("MPa", "von Mises in the bend of the tang at full winding"),
+    "hub": ("N*m/rad", "frozen joint without its springs, from the core's top to the feet"),
+    "natural_frequency": ("Hz", "frozen joint with its load, free; by Rayleigh's quotient of the static shape"),
+    "link": ("N*m/rad", "link from the core to its tool hole"),
+    "core": ("N*m/rad", "core of the rotor"),
+    "plate": ("N*m/rad", "rotor plate"),
+    "floor": ("N*m/rad", "floor on its feet"),
+    "rotor_vanes_and_plate": ("N*m/rad", "vanes of the rotor with the plate they hang from"),
+    "housing_vanes_and_floor": ("N*m/rad", "vanes of the housing with the floor on its feet"),
+    "core_stress": ("MPa", "von Mises in the core at the holding torque, a mean over a millimetre above its foot"),
+    "edge_traction": ("MPa", "shear along the arcs' edges at the holding torque, a mean over one thickness"),
+}
+"""Unit and meaning of each row."""
+
+
+def model_values(module: ResolvedModule) -> dict[str, float]:
+    """What the model says, by row; stiffness in N*m/rad, stress in MPa at one newton metre, frequency in Hz."""
+    shear = module.study.mode == "shear"
+    names = [
+        "spring_rate", "held_spring_rate", "coil_stress_per_angle", "tang_stress_per_angle", "structure_stiffness",
+        "pcl_stiffness@cold", "core_stiffness", "plate_stiffness", "floor_stiffness", "link_stiffness",
+        "core_holding_torque", "cold_layer_strength", "holding_torque", "spring_stiffness",
+        *(("layer_edge_traction",) if shear else ("rotor_vane_stiffness", "housing_vane_stiffness")),
+    ]  # fmt: skip
+    inputs = _drawn(module)
+    found = {name: float(value) for name, value in module.table.evaluate(inputs, names).items()}
+    hub = structure.series(found["pcl_stiffness@cold"], found["structure_stiffness"])
+    yields = found["core_holding_torque"] * float(inputs["holding_safety"])
+    rows = {
+        "spring_rate": found["spring_rate"],
+        "coil_stress": found["coil_stress_per_angle"] / found["held_spring_rate"] * 1e-6,
+        "tang_stress": found["tang_stress_per_angle"] / found["held_spring_rate"] * 1e-6,
+        "hub": hub, "core": found["core_stiffness"], "link": found["link_stiffness"],
+        "natural_frequency": _frequency(found["spring_stiffness"] + hub, float(inputs["moving_inertia"])),
+        "core_stress": found["cold_layer_strength"] / yields * 1e-6,
+    }  # fmt: skip
+    plate, floor = found["plate_stiffness"], found["floor_stiffness"]
+    if shear:
+        traction = found["layer_edge_traction"] / found["holding_torque"] * 1e-6
+        return {**rows, "plate": plate, "floor": floor, "edge_traction": traction}
+    return {**rows, **_vanes(found["rotor_vane_stiffness"], plate, found["housing_vane_stiffness"], floor)}
+
+
+def fe_values(module: ResolvedModule, found: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
+    """What FE finds, by the same rows."""
+    model = module.table.evaluate(_drawn(module), ("spring_stiffness", "rotor_inertia"))
+    joint = found["joint"]
+    turning = float(module.values["moving_inertia"]) - float(model["rotor_inertia"]) + joint["swung"] * 1e-6
+    frequency = _frequency(float(model["spring_stiffness"]) + joint["hub"], turning)
+    return {**joint_rows(joint), **spring_rows(found["spring"]), "natural_frequency": frequency,
+            "link": found["link"]["link"]}  # fmt: skip
+
+
+def spring_rows(spring: Mapping[str, float]) -> dict[str, float]:
+    """Rows of what FE finds of a spring."""
+    return {"spring_rate": spring["rate"], "coil_stress": spring["fibre_max"], "tang_stress": spring["bend_mises"]}
+
+
+def joint_rows(joint: Mapping[str, float]) -> dict[str, float]:
+    """Rows of what FE finds of the frozen joint: vanes with what they stand on, the core where it is stressed most."""
+    rows = {"hub": joint["hub"], "core": joint["core"], "core_stress": max(joint["core_mises"], joint["foot_highest"])}
+    plate, floor = joint["plate"], joint["housing"]
+    if "rotor_vanes" in joint:
+        return {**rows, **_vanes(joint["rotor_vanes"], plate, joint["housing_vanes"], floor)}
+    return {**rows, "plate": plate, "floor": floor, "edge_traction": joint["edge_highest"]}
+
+
+def _vanes(rotor: float, plate: float, housing: float, floor: float) -> dict[str, float]:
+    return {
+        "rotor_vanes_and_plate": structure.series(rotor, plate),
+        "housing_vanes_and_floor": structure.series(housing, floor),
+    }
+
+
+def _frequency(stiffness: float, inertia: float) -> float:
+    return math.sqrt(stiffness / inertia) / (2.0 * math.pi)
