@@ -27,7 +27,21 @@ def _loaded(model: JointModel, point: str) -> mujoco.MjModel:
     return mujoco.MjModel.from_xml_string(re.sub(r"<(mesh|geom) [^>]*>", "", mjcf(model, state)))
 
 
-@pytest.mark.parametrize(("point", "step", "seconds"), [("cold", None, 0.04), ("hot", None, 0.04), ("hot", 1e-4, 2.0)])
+SHARE = 0.01
+"""Of the angle it is released from, which MuJoCo may be off."""
+
+
+@pytest.mark.parametrize(
+    ("mode", "point", "step", "seconds"),
+    [
+        ("shear", "cold", None, 0.04),
+        ("shear", "hot", None, 0.04),
+        ("shear", "hot", 1e-4, 2.0),
+        ("compression", "hot", 1e-4, 2.0),
+        pytest.param("compression", "cold", None, 0.04, marks=pytest.mark.slow),
+        pytest.param("compression", "hot", None, 0.04, marks=pytest.mark.slow),
+    ],
+)
 def test_the_link_let_go_moves_as_in_the_virtual_test(
     mode: str, point: str, step: float | None, seconds: float
 ) -> None:
@@ -43,7 +57,7 @@ def test_the_link_let_go_moves_as_in_the_virtual_test(
     times, expected = sheet.column("time").values, sheet.column("angle").values
     seen = times < seconds
     found = np.interp(times[seen], model.step * np.arange(len(angles)), angles)
-    assert np.max(np.abs(found - expected[seen])) < 0.01 * expected[0]
+    assert np.max(np.abs(found - expected[seen])) < SHARE * expected[0]
 
 
 def test_what_moves_has_the_inertia_of_the_bench(mode: str) -> None:
