@@ -139,7 +139,7 @@ class Optimizer:
         values = self.model.some_values([limit.output for limit in constant], self.model.start, without_switch)
         broken = [one for one in constant if not one.residual(values[one.output]) <= ALGEBRAIC_TOLERANCE]
         if broken:
-            told = [unchangeable(limit, self.table, values[limit.output]) for limit in broken]
+            told = [unchangeable(limit, self.table, values[limit.output], self.study) for limit in broken]
             raise InfeasibleError("\n  ".join(told))
         return [limit for limit in limits if limit not in constant]
 
