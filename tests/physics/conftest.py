@@ -1,69 +1,27 @@
 """Stacks cut down to problems that have textbook solutions, and their integration in time by scipy."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable
 
-import numpy as np
 import pytest
+from comparisons.bare_stack import History
+from comparisons.bare_stack import bare_stack as make_bare_stack
+from comparisons.bare_stack import integrate as integrate_stack
 from hypothesis import settings
-from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
-from tvimdesign.physics.heat_flow import heat, lumps, peltier
-from tvimdesign.physics.polymers import polymer
+from tvimdesign.physics.heat_flow import heat
 
 # A slow machine is no mistake in the equations.
 settings.register_profile("no deadline", deadline=None)
 settings.load_profile("no deadline")
 
-Array = NDArray[np.float64]
-NO_MELTING = polymer.Melting(1900.0, 1900.0, 1.0, 5000.0, 5001.0, 1e-3)
-COLD = 295.15
-
-
-@dataclass(frozen=True)
-class History:
-    """A stack over time."""
-
-    stack: heat.Stack
-    times: Array
-    states: Array
-    """One column a time."""
-
-    def profiles(self) -> list[heat.Profile]:
-        return [heat.profile(column, self.stack) for column in self.states.T]
-
 
 @pytest.fixture(scope="session")
 def bare_stack() -> Callable[..., heat.Stack]:
-    """A layer of 1 mm on 1000 mm^2 that neither melts nor loses heat nor is heated, with what is said otherwise."""
-
-    def make(**changes: Any) -> heat.Stack:
-        stack = heat.Stack(
-            area=1e-3, thickness=1e-3, density=1145.0, conductivity_solid=0.2, conductivity_melt=0.2,
-            melting=NO_MELTING, peltier=peltier.PeltierModule(0.0, 1.0, 0.0), cold_capacity=1e9, hot_capacity=1e-7,
-            cold_surface=lumps.NOWHERE, hot_contact=1e12, plate_contact=1e-12, plate_thickness=1e-3,
-            plate_conductivity=0.2, plate_heat_capacity=1e6, plate_surface=lumps.Surface(1e-3, 1e-12), ambient=COLD,
-            plate_cells=1,
-        )  # fmt: skip
-        return stack._replace(**changes)
-
-    return make
+    """A layer that neither melts nor loses heat nor is heated, with what is said otherwise (validation/comparisons)."""
+    return make_bare_stack
 
 
 @pytest.fixture(scope="session")
 def integrate() -> Callable[..., History]:
-    """Integrate a stack to each of the given times from a state; neighbours alone couple, so the Jacobian is banded."""
-
-    def run(
-        stack: heat.Stack, begin: Array, times: Sequence[float], tolerance: float = 1e-9, current: float = 0.0
-    ) -> History:
-        found = solve_ivp(
-            lambda _, y: heat.rates(y, stack, current), (0.0, times[-1]), begin, method="LSODA", t_eval=times,
-            lband=1, uband=1, rtol=tolerance, atol=tolerance * 1e-3,
-        )  # fmt: skip
-        assert found.success
-        return History(stack, np.asarray(times), found.y)
-
-    return run
+    """Integrate a stack to each of the given times from a state."""
+    return integrate_stack

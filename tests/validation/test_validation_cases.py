@@ -1,0 +1,134 @@
+"""The cases of validation/cases: read, judged, told; some of them compared here, all of them in the slow test."""
+
+from __future__ import annotations
+
+import ast
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+import run
+from judging.case import CASES, CaseError, read_case, read_cases
+from judging.figures import figure
+from judging.outcome import INSIDE, KNOWN, OUTSIDE, outcome
+from judging.page import page
+from support import ROOT
+
+from tvimdesign.physics.springs import spring
+
+QUICK = ("spring_shigley_10_8", "heater_pc_heat", "freezing_avrami", "layer_in_series", "part_fits_iso_286")
+PAGE = ROOT / "docs/validation.md"
+ALL = read_cases()
+
+
+def copied(name: str, folder: Path, *changes: tuple[str, str]) -> Path:
+    """A case in a folder of its own, with texts changed that it has."""
+    shutil.copytree(CASES / name, folder / name)
+    path = folder / name / "case.yaml"
+    text = path.read_text()
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text)
+    return path
+
+
+def test_sixty_cases_are_compared_and_open_ones_say_what_is_missing() -> None:
+    assert sum(not case.open for case in ALL) >= 60
+    assert all(case.source and case.title for case in ALL)
+    assert all("issing" in case.open or "nothing is left" in case.open for case in ALL if case.open)
+
+
+def test_the_page_has_every_case_its_verdict_and_its_figure() -> None:
+    text = PAGE.read_text()
+    for case in ALL:
+        assert f"{{#{case.name}}}" in text, case.name
+        assert (ROOT / f"docs/pictures/validation/{case.name}.svg").exists() is not bool(case.open)
+    assert "| OUTSIDE |" not in text
+    verdicts = re.findall(r"\| ([a-z ]+) \|$", text.partition("\n## ")[0], re.MULTILINE)
+    # The worst first: what is known to differ, then what is inside, then what is open.
+    order = [verdict for verdict in verdicts if verdict != "verdict"]
+    assert order == sorted(order, key=[KNOWN, INSIDE, "open"].index)
+    assert len(order) == len(ALL)
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_a_case_is_inside_its_band(name: str) -> None:
+    found = outcome(read_case(CASES / name / "case.yaml"))
+    assert found.verdict == INSIDE
+    assert b"<svg" in figure(found)
+    assert found.case.source in page([found])
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("spring_shigley_10_8", "value: 1.1146", "value: 1.1176"),
+        ("heater_pc_heat", "values: [85.1,", "values: [75.1,"),
+        ("part_fits_iso_286", "values: [10, 15,", "values: [10, 16,"),
+    ],
+)
+def test_a_wrong_number_fails_the_run(
+    name: str, old: str, new: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copied(name, tmp_path)
+    assert run.main(["--folder", str(tmp_path), name]) == 0
+    shutil.rmtree(tmp_path / name)
+    copied(name, tmp_path, (old, new))
+    assert run.main(["--folder", str(tmp_path), name]) == 1
+    assert f"{OUTSIDE:<17}{name}" in capsys.readouterr().out
+
+
+def test_a_product_that_is_off_fails_the_run(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    copied("spring_rate_smi_example", tmp_path)
+    right = spring.rate
+    monkeypatch.setattr(spring, "rate", lambda *size: 1.002 * right(*size))
+    assert run.main(["--folder", str(tmp_path), "spring_rate_smi_example"]) == 1
+
+
+def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path) -> None:
+    name = "heater_electracool_heat"
+    assert outcome(read_case(copied(name, tmp_path / "as it is"))).verdict == KNOWN
+    gone = copied(name, tmp_path / "gone", ("value: 32", "value: 37.3"))
+    grown = copied(name, tmp_path / "grown", ("value: 32", "value: 22"))
+    assert outcome(read_case(gone)).verdict == outcome(read_case(grown)).verdict == OUTSIDE
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("kind: heater", "kind: cooler", "'cooler' is none of"),
+        ("    relative: 0.1\n", "", "a band is needed"),
+        ("    value: 32\n", "", "give value, values or low and high"),
+        ("    value: 32\n", "    value: .nan\n", "not a finite number"),
+        ("    known_within: 0.25\n", "", "needs `known`, its reason"),
+        ("source:", "sauce:", "sauce: unknown"),
+        ("compare: peltier_modules:largest_heat\n", "", "`open` says what is missing"),
+    ],
+)
+def test_a_case_that_lacks_something_is_refused_by_name(old: str, new: str, said: str, tmp_path: Path) -> None:
+    path = copied("heater_electracool_heat", tmp_path, (old, new))
+    with pytest.raises(CaseError, match=re.escape(said)) as refused:
+        read_case(path)
+    assert str(path) in str(refused.value)
+
+
+def test_references_do_not_import_the_product() -> None:
+    for path in (ROOT / "validation/references").glob("*.py"):
+        nodes = list(ast.walk(ast.parse(path.read_text())))
+        names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+        names |= {node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)}
+        assert not [name for name in names if name.split(".")[0] in ("tvimdesign", "comparisons")], path.name
+
+
+@pytest.mark.slow
+def test_every_case_is_inside_its_band_or_a_known_difference(tmp_path: Path) -> None:
+    assert run.main(["--docs", str(tmp_path)]) == 0
+    made, kept = ((folder / "validation.md").read_text() for folder in (tmp_path, ROOT / "docs"))
+    assert sections(made) == sections(kept)
+
+
+def sections(text: str) -> list[str]:
+    """Headings and sources of a page: all but its numbers, which round otherwise on another machine."""
+    return [line for line in text.splitlines() if line.startswith(("#", "Source:", "**", "Compared by"))]

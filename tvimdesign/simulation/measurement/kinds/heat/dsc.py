@@ -1,0 +1,164 @@
+"""Calorimetry of a polymer: heat, melting window and freezing kinetics from runs cooled, held and heated.
+
+Freezing is Nakamura's integral of Hoffman and Lauritzen's rate (physics/polymers/crystallization.py) along each run's
+own temperatures; what is given off is (h_m - h_s) dX/dt beside the heat of the specific heats and a straight baseline.
+Melting is the equilibrium curve over its window, straight as the product has it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.simulation.measurement.fitting.fit import fitted
+from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
+from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run, runs_of
+from tvimdesign.simulation.measurement.kinds.heat.freezing_start import freezing_start
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings
+from tvimdesign.simulation.measurement.reading.data_file import Block
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+
+_TYPICAL_HEAT = 70e3  # J/kg
+_RECORD = ("latent_heat", "melting_start", "melting_end", "crystallization_half_time", "nucleation_constant",
+           "avrami_exponent")  # fmt: skip
+_SMOOTHING = 500.0  # J/kg, of `Melting`; the equations used here do not depend on it
+
+
+def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
+    """Fit runs of calorimetry, all together. Raises InputError for what lacks."""
+    runs, upwards = runs_of(blocks, settings)
+    freezing, melting = [run for run in runs if run.way != "heated"], [run for run in runs if run.way == "heated"]
+    parameters = [Parameter("latent_heat", "kJ/kg", "Heat of melting, of the whole sample's mass", _TYPICAL_HEAT)]
+    if melting:
+        parameters += _window_start(melting)
+    if freezing:
+        half_time, constant = freezing_start(freezing, settings)
+        parameters += [
+            Parameter("crystallization_half_time", "s", "Half-time of freezing at the reference", half_time),
+            Parameter("nucleation_constant", "K^2", "K_g of Hoffman and Lauritzen", constant),
+        ]
+        if "avrami_exponent" not in settings:
+            parameters.append(Parameter("avrami_exponent", "1", "n of Avrami's law", 3.0))
+    channels = []
+    for i, run in enumerate(runs):
+        size = float(np.ptp(run.heat)) or 1.0
+        parameters += [
+            Parameter(f"base_{i}", "W/kg", "Baseline of a run", float(run.heat[-1]), positive=False, scale=size,
+                      nuisance=True),
+            Parameter(f"slope_{i}", "W/kg", "Its rise over the run", 0.0, positive=False, scale=size, nuisance=True),
+        ]  # fmt: skip
+        predicted = (melted if run.way == "heated" else frozen)(run, i, settings)
+        channels.append(
+            Channel(f"heat of {run.name}", "W/kg", run.heat, predicted, run.temperature, "temperature", "degC")
+        )
+    end = Derived("melting_end", "degC", "Temperature at which melting ends",
+                  lambda values: values["melting_start"] + values["melting_width"])  # fmt: skip
+    found = fitted(Problem(parameters, channels, [end] if melting else []), profiles=profiles)
+    reported = {one.name: one for one in (*found.parameters, *found.derived)}
+    values = {name: reported[name] for name in _RECORD if name in reported}
+    chosen = {
+        "crystallization_reference": (settings["reference_temperature"], "degC"),
+        **{name: (settings[name], unit) for name, unit in (
+            ("equilibrium_melting_temperature", "degC"), ("glass_transition", "degC"), ("transport_energy", "kJ/mol"),
+        )},
+    }  # fmt: skip
+    return Measurement(found, tuple(_notes(runs, upwards)), values, {}, chosen if freezing else {})
+
+
+def kinetics_of(values: Values, settings: Settings) -> crystallization.Kinetics:
+    """The kinetics with the values that are fitted; the melting time has no part in freezing."""
+    return crystallization.Kinetics(
+        values.get("avrami_exponent", settings.get("avrami_exponent", 3.0)), values["crystallization_half_time"],
+        settings["reference_temperature"], values["nucleation_constant"],
+        settings["equilibrium_melting_temperature"], settings["glass_transition"], settings["transport_energy"], 0.5,
+    )  # fmt: skip
+
+
+def melting_of(values: Values, settings: Settings) -> polymer.Melting:
+    """The melting with the values that are fitted."""
+    return polymer.Melting(
+        settings["specific_heat_solid"], settings["specific_heat_melt"], values["latent_heat"],
+        values.get("melting_start", settings["melting_start"]),
+        values["melting_start"] + values["melting_width"] if "melting_width" in values else settings["melting_end"],
+        _SMOOTHING,
+    )  # fmt: skip
+
+
+def frozen(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
+    """Heat given off [W/kg] by a run that freezes."""
+    steps, temperature = ca.DM(np.diff(run.time)), ca.DM(run.temperature)
+    time = ca.DM((run.time - run.time[0]) / (run.time[-1] - run.time[0]))
+    rate = 0.0 if run.way == "held" else run.rate
+
+    def predicted(values: Values) -> Any:
+        kinetics, melting = kinetics_of(values, settings), melting_of(values, settings)
+        constants = crystallization.rate_constant(temperature, kinetics)
+        psi = ca.vertcat(0.0, ca.cumsum(0.5 * (constants[1:] + constants[:-1]) * steps))
+        fraction, slope = _fraction_and_slope(psi, kinetics)
+        heat = crystallization.enthalpy(temperature, 0.0, melting) - crystallization.enthalpy(temperature, 1.0, melting)
+        capacity = fraction * melting.specific_heat_solid + (1.0 - fraction) * melting.specific_heat_melt
+        base = values[f"base_{which}"] + values[f"slope_{which}"] * time
+        return base - (capacity - melting.specific_heat_solid) * rate + heat * slope * constants
+
+    return predicted
+
+
+def melted(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
+    """Heat given off [W/kg] by a run that melts: negative."""
+    time = ca.DM((run.time - run.time[0]) / (run.time[-1] - run.time[0]))
+
+    def predicted(values: Values) -> Any:
+        melting = melting_of(values, settings)
+        at, ends = ca.SX.sym("T"), ca.SX.sym("ends", 2)
+        window = melting._replace(start=ends[0], end=ends[1])
+        fraction = crystallization.equilibrium_fraction(at, window)
+        both = ca.Function("both", [at, ends], [fraction, ca.gradient(fraction, at)])
+        solid, slope = both.map(len(run.time))(
+            run.temperature[None, :], ca.repmat(ca.vertcat(melting.start, melting.end), 1, len(run.time))
+        )
+        melts = (1.0 - solid.T) * (melting.specific_heat_melt - melting.specific_heat_solid) * run.rate
+        base = values[f"base_{which}"] + values[f"slope_{which}"] * time
+        return base - melts + melting.latent_heat * slope.T * run.rate
+
+    return predicted
+
+
+def _fraction_and_slope(psi: Any, kinetics: crystallization.Kinetics) -> tuple[Any, Any]:
+    """X(psi) and dX/dpsi, the exact derivative of the product's equation."""
+    one, exponent = ca.SX.sym("psi"), ca.SX.sym("n")
+    fraction = crystallization.solid_fraction(one, kinetics._replace(avrami_exponent=exponent))
+    both = ca.Function("both", [one, exponent], [fraction, ca.gradient(fraction, one)])
+    count = psi.shape[0]
+    found, slope = both.map(count)(psi.T, ca.repmat(ca.MX(kinetics.avrami_exponent), 1, count))
+    return found.T, slope.T
+
+
+def _window_start(runs: Sequence[Run]) -> list[Parameter]:
+    """Start and width of the window, from the half-height of the melting peak."""
+    run = max(runs, key=lambda one: float(np.ptp(one.heat)))
+    down = np.interp(run.time, run.time[[0, -1]], run.heat[[0, -1]]) - run.heat
+    inside = run.temperature[down > 0.4 * np.max(down)]
+    width = max(float(inside[-1] - inside[0]), 1.0)
+    return [
+        Parameter("melting_start", "degC", "Temperature at which melting begins", float(inside[0]), positive=False,
+                  scale=width),
+        Parameter("melting_width", "K", "Width of the melting window", width),
+    ]  # fmt: skip
+
+
+def _notes(runs: Sequence[Run], upwards: bool) -> list[str]:
+    ways = ", ".join(
+        f"held at {np.mean(run.temperature) - polymer.ZERO_CELSIUS:.1f} degC"
+        if run.way == "held"
+        else f"{run.way} at {abs(run.rate) * 60.0:.1f} K/min"
+        for run in runs
+    )
+    cooled = {round(abs(run.rate) * 60.0, 1) for run in runs if run.way == "cooled"}
+    held = [run for run in runs if run.way == "held"]
+    notes = [f"Runs: {ways}. Heat that is given off is taken as {'positive' if upwards else 'negative'} in the files."]
+    if len(cooled) + len(held) == 1:
+        notes.append("One rate of cooling hardly tells half-time and nucleation constant apart; measure a second one.")
+    return notes

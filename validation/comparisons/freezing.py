@@ -1,0 +1,96 @@
+"""Freezing and melting of the shipped polymers: half-times, exotherms, and heat to melt."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.integrate import cumulative_trapezoid, solve_ivp
+
+from comparisons.numbers import Array
+from tvimdesign.catalog import Catalog
+from tvimdesign.physics.polymers import crystallization, polymer
+
+Found = Mapping[str, Any]
+CELSIUS = 273.15
+_KINETICS = ("avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
+             "equilibrium_melting_temperature", "glass_transition", "transport_energy")  # fmt: skip
+_MELTING = ("specific_heat_solid", "specific_heat_melt", "latent_heat", "melting_start", "melting_end")
+_LAG = 0.5  # s, of melting behind heating; nothing melts in these cases
+
+
+def _kinetics(inputs: Found, polymer_name: str = "") -> crystallization.Kinetics:
+    """Of a record, with what the case gives instead."""
+    record = Catalog().record("polymers", polymer_name or inputs["polymer"])
+    found = crystallization.Kinetics(*(record.value(name) for name in _KINETICS), _LAG)
+    return found._replace(**inputs.get("instead", {}))
+
+
+def _half_time(celsius: float, kinetics: crystallization.Kinetics) -> float:
+    """Time [s] after which half of a melt is frozen, from its rate integrated in time."""
+    kelvin = CELSIUS + celsius
+    guess = 1.0 / float(crystallization.rate_constant(kelvin, kinetics))
+    times = np.linspace(0.0, 2.0 * guess, 2001)
+    psi = times * float(crystallization.rate_constant(kelvin, kinetics))
+    return float(np.interp(0.5, crystallization.solid_fraction(psi, kinetics), times))
+
+
+def half_times(inputs: Found) -> Found:
+    """Isothermal half-times [s] over the temperature [degC], and over that at the first."""
+    found = [_half_time(celsius, _kinetics(inputs)) for celsius in inputs["celsius"]]
+    return {"half_time": found, "over_the_first": np.array(found) / found[0]}
+
+
+def isothermal_curve(inputs: Found) -> Found:
+    """Solid fraction over the time [s], the product's rate integrated by scipy."""
+    kinetics = _kinetics(inputs)
+    window = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
+    found = solve_ivp(
+        lambda _, psi: crystallization.rate(CELSIUS + inputs["celsius"], psi, kinetics, window),
+        (0.0, inputs["time"][-1]), [0.0], t_eval=inputs["time"], rtol=1e-10, atol=1e-12,
+    )  # fmt: skip
+    return {"fraction": crystallization.solid_fraction(found.y[0], kinetics)}
+
+
+def _cooled(rate: float, kinetics: crystallization.Kinetics) -> tuple[Array, Array]:
+    """Temperature [degC] and solid fraction of a melt cooled from 50 to -10 degC at a rate [K/min]."""
+    celsius = np.linspace(50.0, -10.0, 6001)
+    constants = crystallization.rate_constant(CELSIUS + celsius, kinetics)
+    psi = cumulative_trapezoid(constants, -celsius * 60.0 / rate, initial=0.0)
+    return celsius, crystallization.solid_fraction(psi, kinetics)
+
+
+def cooled_fraction(inputs: Found) -> Found:
+    """Solid fraction over the temperature [degC], cooled at a constant rate; and at the end of all cooling."""
+    celsius, fraction = _cooled(inputs["rate"], _kinetics(inputs))
+    at = inputs.get("celsius", [-10.0])
+    return {"fraction": np.interp(-np.array(at, float), -celsius, fraction), "last": fraction[-1]}
+
+
+def exotherm(inputs: Found) -> Found:
+    """Peak [degC] of the exotherm of each polymer at the case's rate, and its width at half its height [K]."""
+    peaks, widths = [], []
+    for name in inputs["polymers"]:
+        celsius, fraction = _cooled(inputs["rate"], _kinetics(inputs, name))
+        heat = np.gradient(fraction, -celsius)
+        above = celsius[heat >= 0.5 * np.max(heat)]
+        peaks.append(float(celsius[np.argmax(heat)]))
+        widths.append(float(above[0] - above[-1]))
+    return {"peak": peaks, "width": widths}
+
+
+def half_time_of_cooling(inputs: Found) -> Found:
+    """Minutes from an onset to half of it frozen, cooled at a constant rate."""
+    celsius, fraction = _cooled(inputs["rate"], _kinetics(inputs))
+    onset, half = np.interp([inputs["onset"], 0.5], fraction, celsius)
+    return {"minutes": (onset - half) / inputs["rate"]}
+
+
+def heat_to_melt(inputs: Found) -> Found:
+    """Heat [J/kg] that takes a polymer from a temperature to another [degC]."""
+    record = Catalog().record("polymers", inputs["polymer"])
+    melting = polymer.Melting(*(record.value(name) for name in _MELTING), 500.0)
+    start, end = (polymer.enthalpy(CELSIUS + inputs[name], melting) for name in ("from", "to"))
+    back = [polymer.temperature(enthalpy, melting) - CELSIUS for enthalpy in (start, end)]
+    return {"heat": end - start, "temperatures": back}

@@ -1,0 +1,116 @@
+"""The polymer between two faces: sheared layers, squeezed blocks, laps, gaps of melt, shrinkage."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from comparisons.numbers import si
+from tvimdesign.physics.layers import block, hold, layer, shear_lag
+from tvimdesign.physics.motions import motion
+from tvimdesign.physics.polymers import creep, melt_flow, shrinkage
+from tvimdesign.physics.solids import structure
+
+Found = Mapping[str, Any]
+
+
+def sheared_ring(inputs: Found) -> Found:
+    """Stiffness [N*m/rad] of a sheared annular layer, and its torque [N*m] at a traction."""
+    outer, inner, thickness = (si(inputs[name]) for name in ("outer_radius", "inner_radius", "thickness"))
+    polar = 0.5 * np.pi * (outer**4 - inner**4)
+    ((_, stiffness),) = motion.layer_modes([(1.0, si(inputs["shear_modulus"]))], polar, thickness)
+    return {
+        "stiffness": stiffness,
+        "torque": layer.torque_at_traction(si(inputs["traction"]), polar, outer),
+        "strain": layer.shear_strain(outer, inputs["angle"], thickness),
+    }
+
+
+def layers_in_series(inputs: Found) -> Found:
+    """Modulus of slices in series, and stiffness of a lossy layer behind a lossy support."""
+    moduli = np.array(inputs["slices"], float)
+    storage, loss = layer.series_modulus(moduli[:, 0], moduli[:, 1])
+    joint = layer.series_stiffness(*inputs["layer"], *inputs["support"])
+    return {"slices": [storage, loss], "joint": list(joint)}
+
+
+def apparent_moduli(inputs: Found) -> Found:
+    """Compression modulus of bonded blocks over Young's modulus, rows of width, height and depth."""
+    poisson, found = inputs["poissons_ratio"], []
+    shear, bulk = structure.shear_modulus(1.0, poisson), block.bulk_modulus(1.0, poisson)
+    for width, height, depth in inputs["blocks"]:
+        shape = block.shape_factor(width, height, depth)
+        stiff = 3.0 * shear * block.shape_stiffening(shape)
+        found.append(1.0 / (1.0 / stiff + 1.0 / block.volumetric_modulus(bulk, shape)))
+    return {"modulus": found}
+
+
+def rubber_blocks(inputs: Found) -> Found:
+    """Compression modulus [Pa] of blocks of rubber over their shape factor."""
+    youngs, bulk = si(inputs["youngs_modulus"]), si(inputs["bulk_modulus"])
+    return {
+        "modulus": [
+            1.0 / (1.0 / (youngs * block.shape_stiffening(s)) + 1.0 / block.volumetric_modulus(bulk, s))
+            for s in inputs["shape_factor"]
+        ]
+    }
+
+
+def lap_edges(inputs: Found) -> Found:
+    """Traction at the edge of a lap over its mean, and what a layer bears over a window, over the reach."""
+    stiffness, width = inputs["layer"], inputs["width"]
+    first, second = inputs["sheets"]
+    scale = [reach**2 / (stiffness * (first + second) * width**2) for reach in inputs["reach"]]
+    return {
+        "edge": [shear_lag.edge_rise(stiffness * factor, first, second, width) for factor in scale],
+        "window": [
+            shear_lag.borne_over_window(stiffness, reach**2 / (stiffness * width**2), width)
+            for reach in inputs["reach"]
+        ],
+    }
+
+
+def melt_in_gaps(inputs: Found) -> Found:
+    """Mean speed in a gap [m/s], time to squeeze a strip [s], height a wetting liquid rises between plates [m]."""
+    gap, viscosity = si(inputs["gap"]), inputs["viscosity"]
+    length, width, thin, thick = (si(inputs[name]) for name in ("length", "width", "thin", "thick"))
+    held = melt_flow.meniscus_pressure(inputs["surface_tension"], gap)
+    return {
+        "speed": melt_flow.gap_speed(inputs["gradient"], gap, viscosity),
+        "squeeze_time": melt_flow.squeeze_time(inputs["force"], viscosity, length, width, thin, thick),
+        "rise": held / (inputs["liquid_density"] * 9.80665),
+    }
+
+
+def held_link(inputs: Found) -> Found:
+    """Angle [rad] of a link under a lasting torque over time, and the angle at which its polymer is free of stress."""
+    modes = [tuple(map(float, mode)) for mode in inputs["modes"]]
+    found = [
+        hold.held(inputs["torque"], float(time), inputs["springs"], inputs["structure"], modes)
+        for time in inputs["time"]
+    ]
+    return {"angle": [one.angle for one in found], "set_angle": [one.set_angle for one in found]}
+
+
+def plates_on_a_layer(inputs: Found) -> Found:
+    """Traction [Pa] where a layer that shrinks begins, over the span to the hub [m]."""
+    return {
+        "traction": [
+            shrinkage.edge_traction(
+                inputs["shortened"], inputs["foundation"], inputs["rigidity"], inputs["shear"], span
+            )
+            for span in inputs["span"]
+        ]
+    }
+
+
+def gives_of_pegs(inputs: Found) -> Found:
+    """Way per force of pegs [m/N] and turn per moment of holes [rad/(N*m)] in one plastic."""
+    modulus, poisson = inputs["modulus"], inputs["poissons_ratio"]
+    shear = structure.shear_modulus(modulus, poisson)
+    return {
+        "pins": [creep.peg_give(modulus, poisson, pin["diameter"], pin["height"]) for pin in inputs["pins"]],
+        "holes": [creep.twisted_hole_give(shear, hole["diameter"], hole["length"]) for hole in inputs["holes"]],
+    }

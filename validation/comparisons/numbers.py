@@ -1,0 +1,26 @@
+"""Numbers out of a case's inputs: quantities with units, and lists of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.units import read_quantity, to_si
+
+Array = NDArray[np.float64]
+
+
+def si(value: Any) -> float:
+    """A quantity such as "0.072 in" in SI; a bare number is taken as it stands."""
+    if isinstance(value, str):
+        number, unit = read_quantity(value)
+        return to_si(number, unit)
+    return float(value)
+
+
+def array(values: Sequence[Any]) -> Array:
+    """A list of quantities as an array in SI."""
+    return np.array([si(value) for value in values])

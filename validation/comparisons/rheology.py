@@ -1,0 +1,83 @@
+"""Relaxation spectra: fits of others' sweeps, other tests that follow from them, large strains."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from judging.case import CASES
+
+from tvimdesign.physics.motions import laplace
+from tvimdesign.physics.polymers import large_strain, polymer, viscoelasticity
+from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
+
+Found = Mapping[str, Any]
+
+
+@cache
+def _fitted(path: Path, modes: int) -> Measured:
+    """A sweep in its maker's format, read without an option and fitted as the command `fit` does."""
+    return measure_files([path], "frequency_sweep", {"largest_modes": str(modes)})
+
+
+def _spectrum(measured: Measured) -> list[tuple[float, float]]:
+    return [(row[0], row[1]) for row in measured.measurement.record_tables["melt_spectrum"].rows]
+
+
+def viscosities(inputs: Found) -> Found:
+    """Zero-shear viscosity [Pa*s] of fits to the files `first` and `others`; its power of the molar mass."""
+    files = [*inputs["first"], *inputs["others"]]
+    found = [viscoelasticity.zero_shear_viscosity(_spectrum(_fitted(CASES / name, inputs["modes"]))) for name in files]
+    count = len(inputs["first"])
+    power = float(np.polyfit(np.log(inputs["molar_mass"]), np.log(found), 1)[0])
+    return {"first": found[:count], "others": found[count:], "power_of_molar_mass": power}
+
+
+def relaxation_from_a_sweep(inputs: Found) -> Found:
+    """Relaxation modulus [Pa] over time from a spectrum that was fitted to G' and G'' alone."""
+    modes = _spectrum(_fitted(CASES / inputs["file"], inputs["modes"]))
+    return {"modulus": viscoelasticity.relaxation_modulus(np.array(inputs["time"], float), modes)}
+
+
+def relaxation_of_modes(inputs: Found) -> Found:
+    """Relaxation modulus over time of given shares at given times, with what is left for ever."""
+    shares, times = np.array(inputs["shares"], float), np.array(inputs["times"], float)
+    whole = float(inputs["instant_modulus"])
+    modes = [(1e60, whole * (1.0 - np.sum(shares))), *zip(times, whole * shares, strict=True)]
+    return {"modulus": viscoelasticity.relaxation_modulus(np.array(inputs["time"], float), modes)}
+
+
+def tests_of_a_spectrum(inputs: Found) -> Found:
+    """Relaxation, creep and start-up over time, G' and G'' over the angular frequency, of given modes."""
+    modes, time = [tuple(map(float, mode)) for mode in inputs["modes"]], np.array(inputs["time"], float)
+    omega = np.array(inputs.get("frequency", [1.0]), float)
+    storage, loss = polymer.maxwell_moduli(omega, modes)
+    return {
+        "relaxation": viscoelasticity.relaxation_modulus(time, modes),
+        "creep": viscoelasticity.creep_compliance(time, viscoelasticity.retardation(modes)),
+        "start_up": viscoelasticity.start_up_viscosity(time, modes),
+        "storage": storage,
+        "loss": loss,
+    }
+
+
+def large_oscillation(inputs: Found) -> Found:
+    """First-harmonic moduli [Pa] by Wagner's equation over the strain's amplitude."""
+    modes = [tuple(map(float, mode)) for mode in inputs["modes"]]
+    limit, omega = inputs["linear_limit"], inputs["frequency"]
+    moduli = [large_strain.wagner_moduli(strain, omega, modes, limit) for strain in inputs["strain"]]
+    return {"storage": [one[0] for one in moduli], "loss": [one[1] for one in moduli]}
+
+
+def back_from_laplace(inputs: Found) -> Found:
+    """exp(-t), 1 - exp(-t/5) and t back from their transforms, over time."""
+
+    def transforms(rate: Any) -> tuple[Any, ...]:
+        return 1.0 / (rate + 1.0), 1.0 / rate - 1.0 / (rate + 0.2), 1.0 / rate**2
+
+    found = [laplace.inverse(transforms, float(time)) for time in inputs["time"]]
+    names = ("fading", "creeping", "flowing")
+    return {name: [float(one[i]) for one in found] for i, name in enumerate(names)}

@@ -1,0 +1,45 @@
+"""Times of a switch of shipped studies, simulated as the product does, and what the published module does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.report.paper.published_module import published_model, published_values
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.study import given, read_study
+
+Found = Mapping[str, Any]
+STUDIES = Path(__file__).resolve().parents[2] / "studies"
+
+
+@cache
+def _times(study: str) -> Mapping[str, float]:
+    """Values of one working cycle of a study as it starts."""
+    read = read_study(STUDIES / f"{study}.yaml")
+    model = DeviceFunctions(read.table, given(read), tuple(read.operating_points), read.solver.cells)
+    return Simulator(model).run(model.start.copy()).values
+
+
+def starts(inputs: Found) -> Found:
+    """Times [s] of rows of study and time, as the studies start."""
+    return {"time": [_times(study)[time] for study, time in inputs["times"]]}
+
+
+def published_times(inputs: Found) -> Found:
+    """Times [s] of the published module with what the case changes, to the temperature that its paper states."""
+    model = published_model()
+    values = model.start.copy()
+    for name, value in inputs["changes"].items():
+        values[model.index[name]] = value
+    found = Simulator(model).run(values).values
+    return {time: found[time] for time in ("near_face_time", "mean_time", "far_face_time")}
+
+
+def published_sizes(_: Found) -> Found:
+    """Contact area [mm^2] and inertia-free figures of the published module."""
+    values = published_values()
+    return {"area": values["pcl_area"] * 1e6}

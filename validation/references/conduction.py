@@ -1,0 +1,129 @@
+"""Closed solutions of conduction: slabs, fronts, half-spaces; and steady plates by finite volumes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.sparse import coo_matrix
+from scipy.sparse.linalg import spsolve
+from scipy.special import erf, erfc
+
+Told = Mapping[str, Any]
+AMBIENT = 295.15
+
+
+def slab_under_flux(inputs: Told) -> Told:
+    """k theta/(q L) at the heated and the insulated face (Carslaw and Jaeger, 2nd ed., section 3.8 (3))."""
+    n = np.arange(1, 400)
+
+    def rise(fourier: float, depth: float) -> float:
+        terms = (-1.0) ** n / n**2 * np.exp(-((n * np.pi) ** 2) * fourier) * np.cos(n * np.pi * depth)
+        return float(fourier + (3.0 * depth**2 - 1.0) / 6.0 - 2.0 / np.pi**2 * np.sum(terms))
+
+    return {name: [rise(fo, depth) for fo in inputs["fourier"]] for name, depth in (("front", 1.0), ("back", 0.0))}
+
+
+def slab_in_a_stream(inputs: Told) -> Told:
+    """Share of the difference left in a slab behind a film (Incropera, section 5.5): zeta tan zeta = Bi."""
+    biot = inputs["biot"]
+    roots = [
+        brentq(lambda z: z * np.sin(z) - biot * np.cos(z), i * np.pi + 1e-9, i * np.pi + 0.5 * np.pi) for i in range(60)
+    ]
+    zeta = np.array(roots)
+    weights = 4.0 * np.sin(zeta) / (2.0 * zeta + np.sin(2.0 * zeta))
+    decays = [weights * np.exp(-(zeta**2) * fourier) for fourier in inputs["fourier"]]
+    return {
+        "insulated": [float(np.sum(terms)) for terms in decays],
+        "wetted": [float(np.sum(terms * np.cos(zeta))) for terms in decays],
+    }
+
+
+def half_space_under_flux(inputs: Told) -> Told:
+    """Rise of a half-space's surface [K] under 2000 W/m^2, 2 q sqrt(a t/pi)/k (Carslaw and Jaeger)."""
+    diffusivity = 0.2 / (1145.0 * 1900.0)
+    return {"surface": [2.0 * 2000.0 / 0.2 * np.sqrt(diffusivity * time / np.pi) for time in inputs["time"]]}
+
+
+def touching_bodies(inputs: Told) -> Told:
+    """Face of two half-spaces by their effusivities [degC] (Carslaw and Jaeger, section 2.14)."""
+    plate = inputs["plate"]
+    metal = np.sqrt(plate["conductivity"] * plate["density"] * plate["specific_heat"])
+    layer = np.sqrt(inputs["layer_conductivity"] * 1145.0 * 1900.0)
+    return {"face": [(100.0 * metal + 22.0 * layer) / (metal + layer)] * len(inputs["time"])}
+
+
+def wall_in_series(inputs: Told) -> Told:
+    """Drops under 2000 W/m^2 through joints, 1 mm of 0.2 W/m K, three cells of 1 mm of 0.8 W/m K, and a film."""
+    flux, cell = 2000.0, 2000.0 * 1e-3 / 0.8
+    joints = [flux / inputs[name] for name in ("hot_contact", "plate_contact", "film")]
+    return {"drop": [joints[0], flux * 1e-3 / 0.2, joints[1], 0.5 * cell, cell, cell, 0.5 * cell + joints[2]]}
+
+
+def front(inputs: Told) -> Told:
+    """Neumann's root for a melt between a face above and a solid at or below the melting point of 330 K.
+
+    Carslaw and Jaeger, section 11.2 (6); with the solid at its melting point Stefan's one phase. 2000 J/kg K.
+    """
+    latent = float(inputs["latent_heat"].removesuffix(" kJ/kg")) * 1e3
+    roots = []
+    for solid, melt, far, face in inputs["cases"]:
+        ratio, above, below = np.sqrt(melt / solid), 2000.0 * (face - 330.0) / latent, 2000.0 * (330.0 - far) / latent
+
+        def balance(x: float, ratio: float = ratio, above: float = above, below: float = below) -> float:
+            into = above / (np.exp(x**2) * erf(x))
+            away = below / (ratio * np.exp((ratio * x) ** 2) * erfc(ratio * x)) if below else 0.0
+            return float(into - away - x * np.sqrt(np.pi))
+
+        roots.append(brentq(balance, 1e-4, 3.0))
+    return {"front": roots}
+
+
+def plate_in_two_dimensions(inputs: Told, across: int = 20) -> Told:
+    """Mean temperature of a plate's upper face that an even flux of 1 W/m^2 leaves, below its fed lower face [K].
+
+    Half a module and half a gap, finite volumes; no heat passes the ends or the lower face beside the module.
+    """
+    fed, thickness, k = inputs["fed"], inputs["thickness"], inputs["conductivity"]
+    step, found = thickness / across, []
+    for beside in inputs["beside"]:
+        columns, fed_columns = round((fed + beside) / step), round(fed / step)
+        index = np.arange(columns * across).reshape(columns, across)
+        first = np.concatenate([index[:-1].ravel(), index[:, :-1].ravel()])
+        second = np.concatenate([index[1:].ravel(), index[:, 1:].ravel()])
+        diagonal = np.zeros(index.size)
+        np.add.at(diagonal, np.concatenate([first, second]), k)
+        diagonal[index[:fed_columns, 0]] += 2.0 * k
+        flux = np.zeros(index.size)
+        flux[index[:, -1]] = step
+        own = np.arange(index.size)
+        places = (np.concatenate([first, second, own]), np.concatenate([second, first, own]))
+        matrix = coo_matrix((np.concatenate([-k * np.ones(2 * len(first)), diagonal]), places)).tocsr()
+        found.append(float(np.mean(spsolve(matrix, flux)[index[:, -1]]) + 0.5 * step / k))
+    return {"resistance": found}
+
+
+def plate_with_a_body_beside(inputs: Told, cells: int = 4000) -> Told:
+    """Steady plate of many cells that each give heat to one body beside, solved as one system of equations [K]."""
+    area, k, thickness = inputs["area"], inputs["conductivity"], inputs["thickness"]
+    step = thickness / cells
+    between = k * area / step
+    sideways = inputs["sideways"] / cells
+    body = inputs["side_area"] * inputs["side_film"]
+    outer = 1.0 / (0.5 * step / (k * area) + 1.0 / (inputs["film"] * area))
+    size = cells + 1
+    upper, diagonal, right = np.full(cells - 1, -between), np.full(cells, 2.0 * between + sideways), np.zeros(size)
+    diagonal[0] += between
+    diagonal[-1] += outer - between
+    right[0], right[cells - 1] = 2.0 * between * inputs["polymer"], outer * AMBIENT
+    right[-1] = body * AMBIENT
+    own = np.arange(cells)
+    rows = np.concatenate([own, own[:-1], own[1:], own, np.full(cells, cells), [cells]])
+    columns = np.concatenate([own, own[1:], own[:-1], np.full(cells, cells), own, [cells]])
+    values = np.concatenate([diagonal, upper, upper, np.full(2 * cells, -sideways), [cells * sideways + body]])
+    found = spsolve(coo_matrix((values, (rows, columns)), shape=(size, size)).tocsr(), right)
+    middles = (own + 0.5) / cells
+    places = (0.125, 0.375, 0.625, 0.875)
+    return {"plate": [float(np.interp(place, middles, found[:-1])) for place in places], "beside": [found[-1]]}
