@@ -17,8 +17,8 @@ $(STAMP): pyproject.toml constraints.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
 	@touch $@
 
-study: $(STAMP)  ## run studies/paper_shear.yaml and say where the results are
-	$(BIN)/tvimdesign run studies/paper_shear.yaml --overwrite
+study: $(STAMP)  ## run studies/elbow_printed.yaml and say where the results are
+	$(BIN)/tvimdesign run studies/elbow_printed.yaml --overwrite
 
 # Two workers for two processors: a library that starts threads of its own in each would only be in their way.
 PYTEST := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder

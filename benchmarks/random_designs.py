@@ -146,7 +146,7 @@ def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
     from tvimdesign.cad.export.mesh import solid_mesh
     from tvimdesign.cad.export.print_files import closed
     from tvimdesign.cad.geometry.dimensions import dimensions
-    from tvimdesign.cad.geometry.production import PRODUCTION
+    from tvimdesign.cad.geometry.kinds import is_of_structure
     from tvimdesign.cad.inspection.inspect import module_checks, part_checks, solid_check
     from tvimdesign.cad.inspection.size_checks import all_checks
 
@@ -155,7 +155,7 @@ def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
     checks = [*all_checks(design, dims, drawn), *(solid_check(kind, solid) for kind, solid in drawn.items())]
     for kind, solid in drawn.items():
         closed(kind, solid_mesh(solid))
-        if inspect and PRODUCTION[kind].drawn:
+        if inspect and is_of_structure(kind):
             checks += part_checks(design, dims, kind, solid)
     if inspect:
         checks += module_checks(design, dims, drawn)

@@ -212,4 +212,5 @@ def test_the_released_parts_are_of_the_design_the_study_gives(runs: Runs, name: 
     assert released.keys() == now.keys(), "run `make cad`"
     for row, value in now.items():
         # Gaps that bind are zero to the solver's tolerance; a micrometre is nothing on a part.
-        assert released[row] == pytest.approx(value, rel=1e-4, abs=1e-6), f"{row}: run `make cad`"
+        expected = value if isinstance(value, str) else pytest.approx(value, rel=1e-4, abs=1e-6)  # such as "never"
+        assert released[row] == expected, f"{row}: run `make cad`"

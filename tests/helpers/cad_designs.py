@@ -45,6 +45,7 @@ ODD_BLOCKS = WRIST_BLOCKS | {"spring_pairs": 3, "vane_count": 3, "coil_count": 6
 # Bearings on either side of a lip, in a hub that reaches below the floor, and in one that is as high as the blocks; one
 # with posts that turn; both under a cover, one with inserts for its screws.
 BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 * MM, "core_radius": 7.5 * MM,
+            "pcl_outer_radius": 39.2 * MM,
             "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate", "thread_insert": "heat_set",
             "link_screw": "iso_4762_m2", "link_screw_length": 10.0 * MM, "link_bolt_ratio": 0.58,
             "retainer_screw": "iso_7380_m3", "link_dowel": "iso_8734_1_5"}  # fmt: skip

@@ -53,7 +53,7 @@ def winding(module: Numbers, angle: float) -> float:
 _ROOTS, _WEIGHTS = np.polynomial.legendre.leggauss(240)
 NODES, WEIGHTS = 0.5 * (_ROOTS + 1.0), 0.5 * _WEIGHTS
 """Gauss-Legendre on 0 to 1: exact to rounding on any piece of wire, as a coil's moment is a few dozen waves at most."""
-BEND_INDEX, BEND_ACROSS = 2.0, 1.3  # the bend's mean radius is the wire; calibrated, validation/fe_spring
+BEND_ACROSS = 1.1  # calibrated, validation/fe_spring
 DOWN, ACROSS = np.array([0.0, 0.0, -1.0]), np.array([0.0, 1.0, 0.0])
 
 
@@ -68,6 +68,8 @@ class Wire(NamedTuple):
     wound: float
     climb: float
     """Descent of the coil per radian, back from the leg [m]."""
+    bend: float
+    """Radius of the wire's centre in the bend down to the tang [m]."""
     pin: FloatArray
 
     def coil(self, shares: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -77,6 +79,23 @@ class Wire(NamedTuple):
         moments = np.cross(self.pin - np.stack(points, axis=1), ACROSS)
         return moments, np.stack([-np.cos(back), -np.sin(back), 0.0 * back], axis=1)
 
+    def bent(self, shares: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The same at shares of the quarter bend, from the coil's end down."""
+        (last,), (begin,) = self.coil(np.array([1.0]))
+        turn = 0.5 * np.pi * shares[:, None]
+        way = self.bend * (np.sin(turn) * begin + (1.0 - np.cos(turn)) * DOWN)
+        return last - np.cross(way, ACROSS), np.cos(turn) * begin + np.sin(turn) * DOWN
+
+
+def bend_radius(module: Numbers) -> float:
+    """Radius of the wire's centre in the bend down to the tang [m]."""
+    return float((module["tang_bend_ratio"] + 0.5) * module["wire_diameter"])
+
+
+def tang_lever(module: Numbers) -> float:
+    """Distance of the free spring's tang from its axis [m]."""
+    return float(np.hypot(0.5 * module["coil_diameter"], bend_radius(module)))
+
 
 def wire_of(module: Numbers) -> Wire:
     """The wire wound up by its preload, which narrows the coil; the straight leg rises on as the coil does."""
@@ -84,29 +103,23 @@ def wire_of(module: Numbers) -> Wire:
     wound = free + module["preload_angle"]
     radius = 0.5 * module["coil_diameter"] * free / wound
     arm, climb = leg(module, 0.0)[1], module["coil_pitch"] / (2.0 * np.pi)
-    return Wire(radius, wound, climb, np.array([arm, radius, climb * arm / radius]))
+    return Wire(radius, wound, climb, bend_radius(module), np.array([arm, radius, climb * arm / radius]))
 
 
 def wire_length(module: Numbers) -> float:
     """Straight wire [m] that bends as far under the force's moment about the coil: Castigliano, summed up.
 
     At every point the moment is split into torsion and bending. The leg counts as level; the bend is a quarter circle
-    of the wire's diameter from the coil's end down, and what it moves the lever is left out. So is the product of the
-    moments about the axis and along the coil's end where both twist the bend: each bends and twists it for itself.
+    from the coil's end down, level at first.
     """
     wire, poisson = wire_of(module), module["spring_poissons_ratio"]
     arm = wire.pin[0]
     moments, along = wire.coil(NODES)
-    (last,), (begin,) = wire.coil(np.array([1.0]))
-    turn = 0.5 * np.pi * NODES[:, None]
-    bend = np.cos(turn) * begin + np.sin(turn) * DOWN
-    side = np.cross(begin, DOWN)
-    each = [(last @ axis) * axis for axis in (begin, DOWN, side)]
     on_leg = np.stack([0.0 * NODES, 0.0 * NODES, arm * NODES], axis=1)
     work = (
         arm * _work(on_leg, np.array([[1.0, 0.0, 0.0]]), poisson)
         + wire.radius * wire.wound * _work(moments, along, poisson)
-        + 0.5 * np.pi * module["wire_diameter"] * sum(_work(moment[None, :], bend, poisson) for moment in each)
+        + 0.5 * np.pi * wire.bend * _work(*wire.bent(NODES), poisson)
     )
     return float(work / arm**2)
 
@@ -129,10 +142,14 @@ def stress_factors(module: Numbers) -> tuple[float, float]:
     wire = wire_of(module)
     moments, along = wire.coil(np.linspace(0.0, 1.0, 4001))
     highest = np.hypot(moments[:, 2].max(), np.hypot(moments[:, 0], moments[:, 1]).max())
-    in_plane, across, torsion = (moments[-1] @ axis for axis in (np.cross(along[-1], DOWN), DOWN, along[-1]))
-    bent = np.hypot(inner_fibre(BEND_INDEX) * in_plane, BEND_ACROSS * across)
-    twisted = 0.5 * BEND_ACROSS * torsion  # a torque's shear stress is half of what it would be as a bending moment
-    return inner_fibre(index) * highest / wire.pin[0], np.sqrt(bent**2 + 3.0 * twisted**2) / wire.pin[0]
+    sharp, normal = inner_fibre(2.0 * module["tang_bend_ratio"] + 1.0), np.cross(along[-1], DOWN)
+    ends = []
+    for moment, way in zip(*wire.bent(np.array([0.0, 1.0])), strict=True):
+        in_plane, across, torsion = (moment @ axis for axis in (normal, np.cross(normal, way), way))
+        twisted = 0.5 * BEND_ACROSS * torsion  # a torque's shear stress is half of what it would be as bending
+        ends.append(np.sqrt((sharp * in_plane) ** 2 + (BEND_ACROSS * across) ** 2 + 3.0 * twisted**2))
+    worst = np.linalg.norm(ends, 12)
+    return inner_fibre(index) * highest / wire.pin[0], float(worst) / wire.pin[0]
 
 
 def inner_fibre(index: float) -> float:
@@ -162,7 +179,7 @@ def held_rate(module: Numbers) -> float:
     above = max(module["coil_end_level"] + climb * arm - module["rotor_top_level"], 0.5 * module["wire_diameter"])
     beam = above**3 / (3.0 * modulus * np.pi / 4.0 * pin**4) + above / (0.9 * shear * np.pi * pin**2)
     foot = above**2 * 3.0 * (1.0 - poisson**2) / (4.0 * modulus * pin**3)
-    on_tang = (arm + np.hypot(0.5 * module["coil_diameter"], module["wire_diameter"])) / arm
+    on_tang = (arm + tang_lever(module)) / arm
     hole = on_tang**2 / (4.0 * np.pi * shear * (0.5 * module["wire_diameter"]) ** 2 * module["tang_length"])
     return 1.0 / (1.0 / rate(module) + (beam + foot) / arm**2 + hole)
 
@@ -191,7 +208,7 @@ def statics(module: Numbers) -> dict[str, float]:
     Windings are the extremes over the stroke, stresses those at the inner fibre at full winding. `yield_strength`,
     `tensile_strength` [Pa] and `fatigue_ratio` are the wire's.
     """
-    wire, coil, stroke = module["wire_diameter"], module["coil_diameter"], module["stroke"]
+    wire, stroke = module["wire_diameter"], module["stroke"]
     over = np.linspace(-stroke, stroke, 2 * ANGLES - 1)
     wound = module["preload_angle"] + np.array([winding(module, angle) for angle in over])
     stiff = np.array([stiffness(module, angle) for angle in over[ANGLES - 1 :]])
@@ -203,7 +220,7 @@ def statics(module: Numbers) -> dict[str, float]:
     mean, amplitude = 0.5 * (highest + lowest), 0.5 * (highest - lowest)
     # (n a / S_e) + (n m / S_ut)^2 = 1 for the safety n.
     a, b = (mean / strength) ** 2, amplitude / endurance
-    reach = np.hypot(0.5 * coil, wire) + 0.5 * wire
+    reach = tang_lever(module) + 0.5 * wire
     return {
         "spring_rate": rate(module),
         "held_spring_rate": held_rate(module),

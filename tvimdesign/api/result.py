@@ -102,7 +102,9 @@ class Result:
 
     @property
     def status(self) -> str:
-        """`evaluated`, `optimal`, `above_rating` (the optimum, beyond ratings that are not accepted), or why not."""
+        """`evaluated`, `optimal`, `above_rating` (the optimum, beyond ratings that are not accepted), `below_yield` (a
+        design that fewer modules keep than asked), or why not.
+        """
         return self.design.status
 
     @property

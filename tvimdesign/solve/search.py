@@ -20,6 +20,7 @@ from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, Solve
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import BELOW_YIELD, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
 
@@ -64,9 +65,12 @@ def optimize(
         choosing = _chosen(free, combinations, study.solver) if combinations > 1 else None
     relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if listed else [])]
+    nominal = run
     if study.robust and not deadline.passed:
-        run, begun = _robust(relaxation, run), run
-        recorded = [(one[0], run) if one[1] is begun else one for one in recorded]
+        relaxation, nominal, run = _robust(found)
+        if study.robust.share is None:
+            recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
+    margined = study.robust is not None and study.robust.share is not None and run is not nominal
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
     settled = put_at_bounds(relaxation.optimizer, run)
     recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
@@ -75,7 +79,7 @@ def optimize(
     for number, (_, one) in enumerate(recorded):
         one.start = replace(one.start, number=number)
     keep(relaxation.optimizer, [one for other, one in recorded if other is relaxation])
-    starts = tuple(one.start for _, one in recorded)
+    starts = tuple(one.start for _, one in recorded if not (margined and one is run))  # those without margins
     seconds = {
         key: sum(relaxation.optimizer.seconds[key] for relaxation in trees) for key in trees[0].optimizer.seconds
     }
@@ -86,34 +90,39 @@ def optimize(
         choosing=choosing,
         conflict_set=conflict_set,
         passed_over=dict(passed_over),
-        yield_reached=_yield_reached(relaxation.optimizer, run),
+        yield_reached=_yield_reached(relaxation.optimizer, run, nominal),
         out_of_time=deadline.seconds if deadline.met else None,
     )
+    if solution.status == OPTIMAL and solution.yield_reached and not solution.yield_reached.reached:
+        return replace(solution, status=BELOW_YIELD)
     return replace(solution, status="infeasible: this design breaks its limits least") if conflict_set else solution
 
 
-def _robust(relaxation: Relaxation, run: Run) -> Run:
-    """The best run, sought again so that limits on times, too, are kept by modules that spread; told as its start."""
-    from tvimdesign.solve.uncertainty.robust import settle
+def _robust(found: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:
+    """The best of some designs that can be made robust, as it was and as it is then, told as its start."""
+    from tvimdesign.solve.uncertainty.robust import most_robust  # it loads the compiler
 
-    sizes = {
-        name: (float(size), float(size)) for name, size in run.start.choices.items() if name in relaxation.sizes.names
-    }
-    found = settle(relaxation.optimizer, run, sizes)
-    begun = run.start
-    found.start = replace(found.start, choices=begun.choices, begin=begun.begin)
-    return found
+    ranked = sorted(found, key=lambda one: order(one[1]))
+    place, run = most_robust([(relaxation.optimizer, run, _sizes(relaxation, run)) for relaxation, run in ranked])
+    relaxation, begun = ranked[place]
+    run.start = replace(run.start, choices=begun.start.choices, begin=begun.start.begin)
+    return relaxation, begun, run
 
 
-def _yield_reached(optimizer: Optimizer, run: Run) -> YieldReached | None:
+def _sizes(relaxation: Relaxation, run: Run) -> dict[str, tuple[float, float]]:
+    """The listed sizes of a run's combination, each as the ends that keep it."""
+    chosen = run.start.choices
+    return {name: (float(chosen[name]), float(chosen[name])) for name in relaxation.sizes.names if name in chosen}
+
+
+def _yield_reached(optimizer: Optimizer, run: Run, nominal: Run) -> YieldReached | None:
     """What modules drawn at random keep of the best run, where a yield is asked for."""
     robust = optimizer.study.robust
     if robust is None or robust.share is None or not run.start.converged:
         return None
-    from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
+    from tvimdesign.solve.uncertainty.yield_account import account_of_yield  # it loads the compiler
 
-    drawn = yields_of(optimizer).at(run.inputs)
-    return YieldReached(drawn.residuals.shape[1], drawn.shares, drawn.together.share)
+    return account_of_yield(optimizer, run, nominal, robust.share)
 
 
 def _reconciled(

@@ -2,7 +2,7 @@
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.study.reader import read_study, read_study_text, read_tree
-from tvimdesign.study.resolve import brought_along, drawn, given
+from tvimdesign.study.resolve import brought_along, brought_along_by, drawn, given
 from tvimdesign.study.sections.tolerances import standard_tolerances
 from tvimdesign.study.study import (
     Options,
@@ -34,6 +34,7 @@ __all__ = [
     "Vary",
     "WriteOptions",
     "brought_along",
+    "brought_along_by",
     "drawn",
     "given",
     "read_study",

@@ -94,6 +94,16 @@ def brought_along(choices: Mapping[str, str], table: Table) -> set[str]:
     return {row.name for row in rows if row.stock_record and row.stock_record[0] in bought}
 
 
+def brought_along_by(study: Study) -> dict[str, str]:
+    """Inputs that a record bought whole brings along in a study, and the choice of that record."""
+    values = given(study)
+    return {
+        row.name: row.stock_record[0]
+        for row in study.table.inputs
+        if row.stock_record and isinstance(values[row.stock_record[0]], Record)
+    }
+
+
 def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str, Any]) -> float:
     """The study's own value of an input, else its record's, else its default."""
     if own is not None:

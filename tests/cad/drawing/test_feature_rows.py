@@ -103,7 +103,7 @@ def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document:
 def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
     sizes = {f"⌀{figure(2.0 * radius)}", f"R{figure(radius)}"}
     is_sized = any(re.search(rf"{re.escape(size)}(?![\d.])", row.size) for size in sizes)
-    if row.what in ("corners", "pocket", "vane") or from_axis < 1e-6:
+    if row.what in ("corners", "pocket", "vane", "sector") or from_axis < 1e-6:
         return is_sized
     return is_sized and (f"on ⌀{figure(2.0 * from_axis)} " in row.place or row.place.startswith(("x ", "over")))
 
@@ -111,7 +111,7 @@ def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
 def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
     middle, normal = face.Center(), face.normalAt()
     offset = middle.x * normal.x + middle.y * normal.y
-    if row.what in ("pocket", "vane"):
+    if row.what in ("pocket", "vane", "sector"):
         (between,) = re.findall(r"([\d.]+)° between ends", row.size)
         azimuth = degrees(atan2(middle.y, middle.x))
         return any(

@@ -21,7 +21,7 @@ from tvimdesign.study.design import Design
 
 def coil(**changes: float) -> Coil:
     shape = {"wire_diameter": 2.0, "diameter": 20.0, "turns": 3.25, "pitch": 2.1, "leg_length": 20.0,
-             "tang_length": 4.0, "leg_azimuth": 0.4}  # fmt: skip
+             "tang_length": 4.0, "bend_radius": 4.0, "leg_azimuth": 0.4}  # fmt: skip
     return Coil(**(shape | changes))
 
 

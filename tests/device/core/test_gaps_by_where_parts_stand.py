@@ -55,8 +55,8 @@ def of(p: dict[str, Any], *names: str) -> list[float]:
 
 
 def springs(p: dict[str, Any]) -> list[Disc]:
-    # The tang runs on along the tangent for a bend of one wire, and is half a wire thick.
-    reach = abs(complex(0.5 * p["coil_diameter"], p["wire_diameter"])) + 0.5 * p["wire_diameter"]
+    # The tang runs on along the tangent for a bend of two wires about its middle, and is half a wire thick.
+    reach = abs(complex(0.5 * p["coil_diameter"], 2.0 * p["wire_diameter"])) + 0.5 * p["wire_diameter"]
     return around(reach, p["placement_radius"], int(2 * p["spring_pairs"]))
 
 

@@ -187,7 +187,7 @@ def test_spring_has_the_volume_of_its_wire_laid_out_in_space(part: dict[str, Any
     # The leg goes on as the helix ends; at the other end the wire bends from the helix's slope to straight down.
     leg = np.array([[0.0, 0.0, 0.0], [p["leg_length"], 0.0, p["leg_length"] * np.tan(slope)]])
     turn = np.linspace(slope, 0.5 * np.pi, 2001)
-    bend = wire * np.column_stack([np.sin(turn), 0.0 * turn, np.cos(turn)])
+    bend = 2.0 * wire * np.column_stack([np.sin(turn), 0.0 * turn, np.cos(turn)])
     length = sum(float(np.sum(np.linalg.norm(np.diff(line, axis=0), axis=1))) for line in (helix, leg, bend))
     volume = 0.25 * np.pi * wire**2 * (length + p["tang_length"])
     assert p["spring_volume"] == pytest.approx(volume, rel=1e-6)

@@ -25,7 +25,7 @@ SPRINGS = FE["springs"]
 
 def drawn(case: dict[str, float]) -> DrawnSpring:
     wire, coil, pitch, arm = (1e-3 * case[name] for name in ("wire_diameter", "coil_diameter", "pitch", "arm"))
-    return DrawnSpring(wire, coil, 2.0 * np.pi * case["turns"], pitch, arm)
+    return DrawnSpring(wire, coil, 2.0 * np.pi * case["turns"], pitch, arm, (case["bend_ratio"] + 0.5) * wire)
 
 
 @pytest.mark.parametrize("name", SPRINGS)
@@ -48,7 +48,8 @@ def test_the_highest_stress_is_that_of_fe(name: str) -> None:
     assert fibre == pytest.approx(case["fibre"], rel=0.03)
     if "coil" in case:
         assert straight * coil_stress_factor(shape, factor) == pytest.approx(case["coil"], rel=0.05)
-    assert straight * bend_stress_factor(shape) == pytest.approx(case["bend"], rel=0.13)
+    if case["bend_ratio"] >= 1.0:  # the least that the table's input allows; tighter ones are within 22 %
+        assert straight * bend_stress_factor(shape) == pytest.approx(case["bend"], rel=0.09)
 
 
 def along_the_wire(shape: DrawnSpring, poisson: float) -> float:
@@ -60,7 +61,7 @@ def along_the_wire(shape: DrawnSpring, poisson: float) -> float:
     start, toward = coil[-1], coil[-1] - coil[-2]
     toward = np.array([toward[0], toward[1], 0.0]) / np.hypot(toward[0], toward[1])
     down, turn = np.array([0.0, 0.0, -1.0]), np.linspace(0.0, 0.5 * np.pi, 501)[:, None]
-    bend = start + shape.wire_diameter * (np.sin(turn) * toward + (1.0 - np.cos(turn)) * down)
+    bend = start + shape.bend_radius * (np.sin(turn) * toward + (1.0 - np.cos(turn)) * down)
     pin = np.array([shape.arm, radius, rise * shape.arm])
     wire = np.concatenate([[pin], coil, bend])
     piece, middle = np.diff(wire, axis=0), 0.5 * (wire[1:] + wire[:-1])

@@ -179,3 +179,23 @@ def test_diameter_of_the_papers_spring_varies_as_din_2194_says(grade_factor: flo
     # 0.025 * 24.4094 * 2.413^-0.17 = 0.5254 mm: exp(-0.17 * 0.88087) = 0.86093.
     tolerance = spring.diameter_tolerance(2.413e-3, 24.4094e-3, grade_factor)
     assert tolerance == pytest.approx(millimetres * 1e-3, rel=HALF_PERCENT)
+
+
+@pytest.mark.parametrize("wire", [1e-3, 1.5e-3, 2e-3])
+def test_a_coil_is_wound_on_the_mandrel_of_a_published_chart(wire: float) -> None:
+    # Chart of D_w/D over the index for music wire, read as a straight line: metalworkingfun.com, thread 1441, post 50.
+    strength = 2211e6 / (1e3 * wire) ** 0.145  # ASTM A228
+    for index in (5.0, 8.0, 11.0, 15.0):
+        wound = spring.wound_coil_diameter(index * wire, wire, strength, 203.4e9)
+        assert wound / (index * wire) == pytest.approx(0.980364 - 0.012436 * index, rel=0.02)
+
+
+def test_a_wound_coil_springs_back_as_a_section_that_yields_in_slices() -> None:
+    # An ideally plastic round wire bent on the mandrel and let go, its moment summed over slices of its section.
+    wire, wound, stress, modulus = 2e-3, 12e-3, 1.9e9, 203e9
+    height = (np.arange(200_000) + 0.5) / 200_000 * 0.5 * wire
+    width = 2.0 * np.sqrt((0.5 * wire) ** 2 - height**2)
+    borne = np.minimum(modulus * height * 2.0 / wound, stress)
+    moment = 2.0 * np.sum(borne * height * width) * height[0] * 2.0
+    free = 2.0 / (2.0 / wound - moment / (modulus * np.pi * wire**4 / 64.0))
+    assert spring.wound_coil_diameter(free, wire, stress, modulus) == pytest.approx(wound, rel=2e-3)

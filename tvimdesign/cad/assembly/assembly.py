@@ -107,9 +107,13 @@ def _left_of(right: cq.Solid, progress: Progress | None) -> cq.Solid:
 
 
 def _built(name: str, draw: Callable[[], cq.Shape], progress: Progress | None) -> cq.Solid:
-    """Draw a part and return its one solid; raises GeometryError that names the part."""
     if progress:
         progress(name)
+    return one_solid(name, draw)
+
+
+def one_solid(name: str, draw: Callable[[], cq.Shape]) -> cq.Solid:
+    """Draw a part and return its one solid; raises GeometryError that names the part."""
     try:
         shape = draw()
     except GeometryError as error:

@@ -12,7 +12,7 @@ import yaml
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import KINDS
+from tvimdesign.cad.geometry.kinds import is_of_structure
 from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
@@ -53,7 +53,7 @@ def _about(mass: float) -> str:
 def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]:
     """How the made parts are made: the structure by the process, what is of PCL printed or cut either way."""
     is_milled = design.choices["making_method"] == "milled"
-    milled = [kind for kind in kinds if is_milled and KINDS[kind].material == "structure_material"]
+    milled = [kind for kind in kinds if is_milled and is_of_structure(kind)]
     lines = []
     if milled:
         listed = ", ".join(map(_words, milled)).capitalize()
@@ -80,8 +80,10 @@ def _printing(kind: str) -> str:
 
 def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]:
     """Steps for the kinds this module has, and one for each kind that no step takes."""
+    counts: dict[str, object] = {f"number_of_{one.kind}": one.quantity for one in items}
+    counts |= {f"grams_of_{one.kind}": f"{one.mass:.2f}" for one in items}
     wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, dims)]
-    known = _Figures(design, dims, {f"number_of_{one.kind}": one.quantity for one in items})
+    known = _Figures(design, dims, counts)
     texts = [str(step["text"]).format_map(known) for step in wanted]
     taken = {kind for step in wanted for kind in step["kinds"]}
     return texts + [f"Fit the {_words(one.kind)} ({one.quantity})." for one in items if one.kind not in taken]
@@ -104,8 +106,8 @@ class _Figures(dict[str, Any]):
     """Rows by name as they are written in a text: lengths in mm, angles in degrees, counts as they are, else as rows
     show them."""
 
-    def __init__(self, design: Design, dims: Dimensions, counts: Mapping[str, int]) -> None:
-        """`counts` are there beside the rows."""
+    def __init__(self, design: Design, dims: Dimensions, counts: Mapping[str, object]) -> None:
+        """`counts` are there beside the rows: of parts, and the grams of one."""
         super().__init__(counts)
         self._design, self._dims = design, dims
         rows: list[Input | Output] = [*table_for(design.mode).inputs, *table_for(design.mode).outputs]

@@ -13,10 +13,11 @@ import cadquery as cq
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.assembly import file_names
-from tvimdesign.cad.assembly.heater_leads import thermistor_in_words, up, wire_in_words
+from tvimdesign.cad.assembly.heater_leads import pad_count, thermistor_in_words, up, wire_in_words
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.parts import casting_jig
 from tvimdesign.device.fixtures.tang import BONDED
 from tvimdesign.study.design import Design
 
@@ -55,6 +56,8 @@ class Item:
     """Kinds of solid of the assembly that each of them is; none for what is drawn in no file."""
     fit: str = ""
     """Tolerance classes of what it sits in and on."""
+    fixture: bool = False
+    """Whether it is made to make the module, and no part of it."""
 
 
 def bill(
@@ -110,7 +113,7 @@ def _titled(design: Design, kind: str, title: str) -> str:
 def _resistance(design: Design) -> float:
     """Resistance of one foil heater [ohm], which goes with its area."""
     scale = design.value("peltier_volume") / (design.value("peltier_thickness") * design.value("peltier_area"))
-    return design.value("peltier_resistance") * scale / design.value("heater_count")
+    return design.value("peltier_resistance") * scale / pad_count(design)
 
 
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
@@ -123,6 +126,17 @@ def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
         record = str(design.choices["tang_adhesive"])
         items.append(Item("tang_adhesive", 1, False, record, titles.get("tang_adhesive", record), mass, ()))
     return items
+
+
+def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
+    """What is made to make the module: the jig that its PCL is cast in. No part of it, and not in its mass."""
+    record = str(design.choices["structure_material"])
+    bears = f"of {titles.get('structure_material', record)} where that bears 80 °C, else of aluminium, PC or ABS"
+    return [
+        Item(kind, 1, True, record, f"Fixture, {bears}", 0.0, (file_names.step(kind), file_names.print_3mf(kind)),
+             fixture=True)
+        for kind in casting_jig.MAKING
+    ]  # fmt: skip
 
 
 def _polymer(design: Design, titles: Mapping[str, str]) -> Item:
@@ -166,7 +180,7 @@ def _of_the_heater(design: Design, titles: Mapping[str, str]) -> list[Item]:
     if titles.get("heater_fuse"):
         record = str(design.choices["heater_fuse"])
         items.append(Item("thermal_cutout", 1, False, record, titles["heater_fuse"], 0.0, ()))
-    wire = wire_in_words(design, round(design.values.get("heater_count", 1.0)))
+    wire = wire_in_words(design, pad_count(design))
     return items + ([Item("heater_wire", 1, False, "", wire, 0.0, ())] if wire else [])
 
 
@@ -195,10 +209,16 @@ def _papers(kind: str) -> tuple[str, ...]:
     """Files a part is made from, or ordered by."""
     if kind in SPRINGS:
         return (file_names.SPRING_SHEET, file_names.SPRING_TABLE)
-    if PRODUCTION[kind].down == "bought":
-        return (file_names.step(kind),)
     drawing = (file_names.drawing_pdf(kind),) if PRODUCTION[kind].drawn else ()
+    if PRODUCTION[kind].down == "bought":
+        return (file_names.step(kind), *drawing)
     return (file_names.step(kind), *drawing, file_names.print_3mf(kind))
+
+
+def _come_by(one: Item) -> str:
+    if one.fixture:
+        return "fixture"
+    return "made" if one.made else "bought"
 
 
 def bill_csv(items: Sequence[Item]) -> bytes:
@@ -209,7 +229,7 @@ def bill_csv(items: Sequence[Item]) -> bytes:
                      "mass_all_g", "price", "solids", "files"])  # fmt: skip
     for number, one in enumerate(as_ordered(items), start=1):
         writer.writerow([
-            number, one.kind, one.quantity, "made" if one.made else "bought", one.material, one.title,
+            number, one.kind, one.quantity, _come_by(one), one.material, one.title,
             one.fit, f"{one.mass:.3f}", f"{one.mass * one.quantity:.3f}", _NOT_KNOWN, " ".join(one.solids),
             " ".join(one.papers),
         ])  # fmt: skip

@@ -53,6 +53,13 @@ def thermistor_in_words(design: Design) -> str:
     return f"Thermistor, for {rated}, with insulated wires"
 
 
+def pad_count(design: Design) -> int:
+    """Heaters of a design: those of the arcs, or two for each vane."""
+    if design.mode == "compression":
+        return 2 * round(design.value("vane_count"))
+    return round(design.value("heater_count"))
+
+
 def wire_in_words(design: Design, pads: int) -> str:
     """The wires of the pads, by the current of the whole heater; empty where that is not known."""
     current = largest(design, _STRONGEST)

@@ -12,9 +12,9 @@ from OCP.TopoDS import TopoDS_Shape
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly import file_names
-from tvimdesign.cad.assembly.assembly import drawn_part, free_spring, place
+from tvimdesign.cad.assembly.assembly import drawn_part, free_spring, one_solid, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
-from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
+from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import glb_bytes, instances, product
 from tvimdesign.cad.build.worker import Job, Work
@@ -26,12 +26,13 @@ from tvimdesign.cad.export.mesh import CHORD, spring_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
-from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, is_of_structure, kind_of
+from tvimdesign.cad.geometry.production import PRODUCTION, Production
 from tvimdesign.cad.geometry.spring_solids import free_coil
+from tvimdesign.cad.inspection.casting import casting_checks
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
-from tvimdesign.cad.parts import dowel_parts
+from tvimdesign.cad.parts import casting_jig, dowel_parts
 from tvimdesign.study.design import Design
 
 PICTURES = "pictures"
@@ -53,7 +54,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
     inspections = [
         Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,))
         for kind in kinds
-        if PRODUCTION[kind].drawn
+        if is_of_structure(kind)
     ]
     return [
         *parts,
@@ -62,6 +63,8 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name=PICTURES, do=_pictures, needs=kinds),
         *clearances,
         *inspections,
+        *(Work(name=kind, do=partial(_fixture, kind)) for kind in casting_jig.DRAWN),
+        Work(name="inspect_casting", do=_inspect_casting, needs=(casting_jig.part_of(kinds), *casting_jig.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True),
         Work(name="spring_sheet", do=_spring_sheet, named=True),
@@ -82,7 +85,18 @@ def _part(kind: str, job: Job) -> list[SolidCheck]:
         _write(job.folder, file_names.drawing_pdf(kind), sheet.pdf())
     if PRODUCTION[kind].down == "bought":
         return [*checks, _bought_mesh(job.folder, solid, kind)]
-    return [*checks, _print(job, kind, solid, what)]
+    return [*checks, _print(job, kind, solid, what, PRODUCTION[kind])]
+
+
+def _fixture(kind: str, job: Job) -> list[SolidCheck]:
+    """One piece of the jig that the PCL is cast in."""
+    cast = casting_jig.part_of(tuple(MODULES[job.dims.mode].drawn(job.dims)))
+    solid = one_solid(kind, lambda: casting_jig.DRAWN[kind](job.dims, drawn_part(job.dims, cast)))
+    _keep(job.folder / "kept" / _SOLID, solid)
+    of = str(job.design.choices["structure_material"])
+    density = job.design.value("structure_density")
+    what = Product(name=kind, colour=casting_jig.COLOUR, material=of, density=density)
+    return [*_step(job.folder, solid, what), _print(job, kind, solid, what, casting_jig.MAKING[kind])]
 
 
 def _spring(kind: str, job: Job) -> list[SolidCheck]:
@@ -107,11 +121,11 @@ def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
     return [SolidCheck(file_names.step(what.name), off, _READ_BACK, off <= _READ_BACK, text)]
 
 
-def _print(job: Job, kind: str, solid: cq.Solid, what: Product) -> SolidCheck:
+def _print(job: Job, kind: str, solid: cq.Solid, what: Product, making: Production) -> SolidCheck:
     """Write what a printer gets. A mesh that does not close is a check that fails, and its files are left out."""
     name = file_names.print_stl(kind)
     try:
-        lying = as_printed(solid, PRODUCTION[kind], job.dims.hole_compensation, dowel_parts.places(job.dims))
+        lying = as_printed(solid, making, job.dims.hole_compensation, dowel_parts.places(job.dims))
         body, distance = printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))
@@ -140,6 +154,10 @@ def _inspect(kind: str, job: Job) -> list[SolidCheck]:
     return part_checks(job.design, job.dims, kind, _solids(job.needs)[kind])
 
 
+def _inspect_casting(job: Job) -> list[SolidCheck]:
+    return list(casting_checks(job.dims, casting_jig.part_of(tuple(job.needs)), _solids(job.needs)))
+
+
 def _inspect_module(job: Job) -> list[SolidCheck]:
     return list(module_checks(job.design, job.dims, _solids(job.needs)))
 
@@ -165,7 +183,7 @@ def _spring_sheet(job: Job) -> list[SolidCheck]:
 def _bill_and_note(job: Job) -> list[SolidCheck]:
     """What there is of each part, and how they go together."""
     items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)), fits(job.design, job.dims))
-    extra = beside(job.design, job.titles)
+    extra = [*beside(job.design, job.titles), *fixtures(job.design, job.titles)]
     _write(job.folder, file_names.BILL_OF_MATERIALS, bill_csv([*items, *extra]))
     _write(job.folder, file_names.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items, extra))
     return []

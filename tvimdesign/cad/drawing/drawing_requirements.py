@@ -134,7 +134,8 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
     ]  # fmt: skip
     threads = [one for one in reported["threads"].get(kind, ()) if _is_there(one, dims)]
     holes = [one for one in reported["clearance_holes"].get(kind, ()) if _is_there(one, dims)]
-    general, is_milled = reported["general"][method], method == "milled"
+    general = reported["of_kind"].get(kind, reported["general"][method])
+    is_milled = method == "milled" and kind not in reported["of_kind"]
     return DrawingRequirements(
         tolerances=general["tolerances"],
         surface=general["surface"],
@@ -143,7 +144,7 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
             *([_BEARINGS] if any("bearing" in one for one in seats) else []),
             *_remarks(kind, dims, choices),
         ],
-        printed=method == "printed",
+        printed=method == "printed" and kind not in reported["of_kind"],
         seats=[_seat(one, dims, DATUM if index == 0 and "radius" in one else "") for index, one in enumerate(seats)],
         threads=[_thread(one, dims, is_milled) for one in threads],
         clearance_holes=[_clearance_hole(one, dims, is_milled) for one in holes],

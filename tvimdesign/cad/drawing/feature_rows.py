@@ -148,7 +148,9 @@ def _told_of_sector(group: list[Sector]) -> FeatureRow:
     place = f"middle {around(_azimuths([other.middle for other in group]))}"
     faces = tuple(face for other in group for face in other.faces)
     points = tuple(other.point for other in group)
-    return FeatureRow("pocket" if one.is_pocket else "vane", size, place, *one.levels, points=points, of=faces,
+    # A single one is no vane of a part with an axis, but the part: an arc, a block, a spreader.
+    body = "vane" if len(group) > 1 else "sector"
+    return FeatureRow("pocket" if one.is_pocket else body, size, place, *one.levels, points=points, of=faces,
                       azimuths=tuple(_azimuths([other.middle for other in group])))  # fmt: skip
 
 

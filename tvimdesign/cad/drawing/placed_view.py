@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, hypot, sin
+from math import atan2, cos, degrees, hypot, sin
 
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.drawing.projection import Arc, Chain, View
@@ -61,18 +61,35 @@ class PlacedView:
     def axis(self) -> None:
         """Draw the axis of the module in a view from the front."""
         over = self.paper(3.0)
-        self.line((0.0, self.view.bounds[2] - over), (0.0, self.view.bounds[3] + over))
+        if self.has_axis:
+            self.line((0.0, self.view.bounds[2] - over), (0.0, self.view.bounds[3] + over))
+
+    @property
+    def has_axis(self) -> bool:
+        """Whether the module's axis goes through the part: of a segment beside it, it may lie off the sheet."""
+        return self.view.bounds[0] <= 0.0 <= self.view.bounds[1]
 
     def centre_lines(self, rounds: Sequence[Cylinder]) -> None:
-        """Draw a cross at the axis, the circles on which holes and pins stand, and a cross at each of those."""
+        """Draw a cross at the axis, the circles on which holes and pins stand, and a cross at each of those.
+
+        Of a part beside the axis only as much of each circle as its holes are on, and no cross.
+        """
         left, right, bottom, top = self.view.bounds
         over = self.paper(3.0)
         self.line((left - over, 0.0), (right + over, 0.0))
-        self.line((0.0, bottom - over), (0.0, top + over))
+        if self.has_axis:
+            self.line((0.0, bottom - over), (0.0, top + over))
         beside = [one for one in rounds if not one.is_central]
         pitches = [round(hypot(one.x, one.y), 4) for one in beside]
         for pitch in sorted({pitch for pitch in pitches if pitches.count(pitch) > 1}):
-            self.sheet.space.add_circle(self.at(0.0, 0.0), pitch, dxfattribs={"layer": "CENTRE"})
+            if self.has_axis:
+                self.sheet.space.add_circle(self.at(0.0, 0.0), pitch, dxfattribs={"layer": "CENTRE"})
+                continue
+            there = [degrees(atan2(one.y, one.x)) for one in beside if abs(hypot(one.x, one.y) - pitch) < 1e-3]
+            more = degrees(over / pitch)
+            self.sheet.space.add_arc(
+                self.at(0.0, 0.0), pitch, min(there) - more, max(there) + more, dxfattribs={"layer": "CENTRE"}
+            )
         for x, y, radius in sorted({(one.x, one.y, one.radius) for one in beside}):
             arm = radius + self.paper(1.5)
             self.line((x - arm, y), (x + arm, y))

@@ -7,7 +7,7 @@ import io
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from math import atan2, cos, degrees, radians, sin, tan
+from math import atan2, cos, degrees, hypot, pi, radians, sin, tan
 
 from tvimdesign import __version__
 from tvimdesign.base.errors import CatalogError
@@ -20,7 +20,7 @@ from tvimdesign.device.fixtures.tang import BONDED
 from tvimdesign.study.design import Design, catalog_of
 
 _N_MM = 1e3
-_TIGHT = "inside radius, tight: 1.5 d is advised (Newcomb Spring)"
+_BEND = "coils to tang; under 1.5 d it may crack (Newcomb)"
 _DIN = "DIN 2194 grade 2"
 _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2)
 
@@ -61,8 +61,8 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
              "right: coils leave the eye clockwise"),
         SpringLine("leg, tangential", _figure(coil.leg_length / cos(coil.rise)), "mm", "± 0.5", "straight; assumed"),
         SpringLine("tang, parallel to the axis", _figure(coil.tang_length), "mm", "+ 0 / - 0.3", "assumed"),
-        SpringLine("bend between coils and tang", _figure(0.5 * d), "mm", "", _TIGHT),
-        SpringLine("free angle", _figure(_free_angle(coil)), "deg", f"± {_figure(angle)}",
+        SpringLine("inside radius of the bend", _figure(coil.bend_radius - 0.5 * d), "mm", "+ 0.5 / - 0", _BEND),
+        SpringLine("free angle", _figure(_free_angle(coil), 1), "deg", f"± {_figure(angle, 1)}",
              f"from tang to leg around the axis; {_DIN}"),
         SpringLine("rate", _figure(rate, 3), "N.mm/deg"),
         SpringLine(f"torque M1 at {_figure(preload)} deg", _figure(rate * preload), "N.mm", spread_torque,
@@ -72,7 +72,10 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
         SpringLine("winds", "so that the coil gets smaller"),
         SpringLine("mean coil diameter at M2", _figure(tight), "mm"),
         SpringLine("body length at M2", _figure(1e3 * design.value("spring_body_length")), "mm"),
-        SpringLine("mandrel, at most", _figure(2.0 * dims.post_radius), "mm", "", "the post the spring stands on"),
+        SpringLine("winding mandrel", _figure(1e3 * design.value("winding_mandrel"), 1), "mm", "",
+             "trial size: by its strength the wire springs back to D"),
+        SpringLine("measuring mandrel, at most", _figure(2.0 * dims.post_radius), "mm", "",
+             "the post the spring stands on"),
         SpringLine("stress at M2, inner fibre", _figure(1e-6 * design.value("spring_stress"), 0), "MPa"),
         SpringLine("tensile strength taken", _figure(1e-6 * design.value("spring_tensile_strength"), 0), "MPa"),
         _stress_relief(design),
@@ -128,7 +131,7 @@ def spring_csv(lines: Sequence[SpringLine]) -> bytes:
 def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) -> DrawingSheet:
     """The right-hand spring, free, drawn in simple lines, beside the table."""
     coil = free_coil(dims)
-    reach = 0.5 * coil.diameter + 1.5 * coil.wire_diameter
+    reach = 0.5 * coil.diameter + coil.bend_radius + 0.5 * coil.wire_diameter
     height = coil.end_level + coil.tang_length + coil.wire_diameter
     room = min(150.0 / (reach + max(coil.leg_length, reach)), 165.0 / (2.0 * reach + height))
     scale = next((one for one in _SCALES if one <= room), _SCALES[-1])
@@ -161,19 +164,22 @@ def _plan(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
     half, radius = 0.5 * coil.wire_diameter, 0.5 * coil.diameter
     for other in (radius - half, radius + half):
         space.add_circle((x, y), other, dxfattribs=outline)
-    tang = _turned(coil, *coil.tang_position)
+    tang, begin = _turned(coil, *coil.tang_position), _coil_start(coil)
     space.add_circle((x + tang[0], y + tang[1]), half, dxfattribs=outline)
+    for beside in (-half / radius, half / radius):
+        shift = (beside * begin[0], beside * begin[1])
+        first, last = ((x + at[0] + shift[0], y + at[1] + shift[1]) for at in (begin, tang))
+        space.add_line(first, last, dxfattribs=outline)
     low, high, far = y - radius - half, y - radius + half, x + coil.leg_length
     space.add_lwpolyline([(x, low), (far, low), (far, high), (x, high)], close=True, dxfattribs=outline)
-    start = _turned(coil, radius, 0.0)
-    for end in (start, (0.0, -radius)):
+    for end in (begin, (0.0, -radius)):
         space.add_line((x, y), (x + end[0], y + end[1]), dxfattribs={"layer": "CENTRE"})
     space.add_linear_dim(
         (x, low - 8.0 / sheet.scale), (x, low), (far, low), dimstyle="SHEET", dxfattribs=dimension
     ).render()
     if 1.0 < _free_angle(coil) < 359.0:
         space.add_angular_dim_cra(
-            (x, y), radius + half, degrees(atan2(start[1], start[0])), -90.0, distance=7.0 / sheet.scale,
+            (x, y), radius + half, degrees(atan2(begin[1], begin[0])), -90.0, distance=7.0 / sheet.scale,
             dimstyle="SHEET", dxfattribs=dimension,
         ).render()  # fmt: skip
 
@@ -194,10 +200,18 @@ def _side(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
     far = (x + coil.leg_length, top + rise)
     leg = [(right, top), far, (far[0], far[1] - 2.0 * half), (right, top - 2.0 * half)]
     space.add_lwpolyline(leg, dxfattribs=outline)
-    tang, low = x + _turned(coil, *coil.tang_position)[0], y - coil.tang_length
-    space.add_lwpolyline(
-        [(tang - half, bottom), (tang - half, low), (tang + half, low), (tang + half, bottom)], dxfattribs=outline
-    )
+    begin, tang, low = x + _coil_start(coil)[0], x + _turned(coil, *coil.tang_position)[0], y - coil.tang_length
+    reach = tang - begin
+    for beside in (-half, half):
+        edge = []
+        for angle in (0.05 * pi * step for step in range(11)):
+            along, down = reach * cos(angle), coil.bend_radius * sin(angle)
+            across = beside / hypot(along, down) if along or down else 0.0
+            edge.append(
+                (begin + reach * sin(angle) + across * down, y + coil.bend_radius * cos(angle) + across * along)
+            )
+        space.add_lwpolyline([*edge, (tang + beside, low)], dxfattribs=outline)
+    space.add_line((tang - half, low), (tang + half, low), dxfattribs=outline)
     space.add_line((x, low), (x, top + 0.4 * away), dxfattribs={"layer": "CENTRE"})
     for index, (inset, said) in enumerate(((2.0 * half, "inside ⌀<>"), (half, "D <>"), (0.0, "outside ⌀<>"))):
         space.add_linear_dim(
@@ -209,6 +223,12 @@ def _side(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
             (base, y), (left if from_low == bottom else tang - half, from_low), (left, to_high), angle=90,
             dimstyle="SHEET", dxfattribs=dimension,
         ).render()  # fmt: skip
+
+
+def _coil_start(coil: Coil) -> tuple[float, float]:
+    """Where the coils start, above the bend, as `_turned` sees it."""
+    radius, azimuth = 0.5 * coil.diameter, coil.start_azimuth
+    return _turned(coil, radius * cos(azimuth), radius * sin(azimuth))
 
 
 def _turned(coil: Coil, x: float, y: float) -> tuple[float, float]:

@@ -108,7 +108,7 @@ def spring_mesh(coil: Coil) -> Mesh:
 
 def _wire_centre(coil: Coil) -> tuple[Array, Array, Array]:
     """Points along the wire's centre from tang to leg; the unit vectors there away from the coil's axis, and along."""
-    d, rise, up = coil.wire_diameter, coil.rise, np.array([0.0, 0.0, 1.0])
+    rise, up = coil.rise, np.array([0.0, 0.0, 1.0])
     step = min(0.25, 2.0 * np.sqrt(CHORD / coil.diameter))
     azimuth = coil.start_azimuth + np.linspace(0.0, 2.0 * pi * coil.turns, ceil(2.0 * pi * coil.turns / step) + 1)
     radial = np.stack((np.cos(azimuth), np.sin(azimuth), 0.0 * azimuth), -1)
@@ -118,7 +118,7 @@ def _wire_centre(coil: Coil) -> tuple[Array, Array, Array]:
     climb = np.cos(rise) * around + np.sin(rise) * up
     slope = np.linspace(0.5 * pi, rise, 12)[:-1, None]
     outward = np.sin(slope) * around[0] - np.cos(slope) * up
-    bend = helix[0] + d * (np.sin(rise) * around[0] - np.cos(rise) * up - outward)
+    bend = helix[0] + coil.bend_radius * (np.sin(rise) * around[0] - np.cos(rise) * up - outward)
     bending = np.cos(slope) * around[0] + np.sin(slope) * up
     tang_end = bend[0] - coil.tang_length * up
     leg_end = helix[-1] + coil.leg_length / np.cos(rise) * climb[-1]

@@ -79,6 +79,11 @@ MADE_TURNING = TURNING[:3]
 SPRINGS = ("spring_right", "spring_left")
 
 
+def is_of_structure(kind: str) -> bool:
+    """Whether a kind of part is made by the module's process, and held against what that can make."""
+    return KINDS[kind].material == _STRUCTURE[0]
+
+
 def kind_of(name: str) -> str:
     """Kind of a placed part: `pcl_arc` for `pcl_arc_3`."""
     return name.rstrip("0123456789").rstrip("_")

@@ -15,7 +15,7 @@ class Production:
     why: str
     """Why that side, or where it is bought."""
     drawn: bool = False
-    """Whether a workshop gets a drawing of it."""
+    """Whether a workshop gets a drawing of it, or who cuts what is bought."""
 
 
 PRODUCTION = {
@@ -26,17 +26,23 @@ PRODUCTION = {
     ),
     "rotor": Production(
         down="top", drawn=True,
-        why="link end of the core on the bed: the face the PCL bonds to, and the vanes, come out on top without marks "
+        why="link end of the core on the bed: the face the PCL bonds to, or the vanes, come out on top without marks "
         "of supports, which stand between plate and bed",
     ),
     "link": Production(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
     "retainer": Production(down="bottom", drawn=True, why="flat: no support"),
-    "pcl_arc": Production(down="bottom", why="flat, keys upwards; print it of PCL, or without keys cut it from sheet"),
-    "pcl_block": Production(down="bottom", why="flat; print it of PCL, or cut it from sheet"),
-    "peltier_pad": Production(
-        down="bought", why="a Peltier module of the catalogue, cut to this outline or of this size as it is sold",
+    "pcl_arc": Production(
+        down="bottom", drawn=True,
+        why="flat, keys upwards; cast it, print it of PCL, or without keys cut it from sheet",
     ),
-    "spreader": Production(down="bought", why="cut from sheet of its material to the outline in its STEP file"),
+    "pcl_block": Production(
+        down="bottom", drawn=True, why="flat; cast it, print it of PCL, or cut it from sheet",
+    ),
+    "peltier_pad": Production(
+        down="bought", drawn=True,
+        why="a Peltier module of the catalogue, cut to this outline or of this size as it is sold",
+    ),
+    "spreader": Production(down="bought", drawn=True, why="cut from sheet of its material by its drawing"),
     "thermistor": Production(down="bought", why="a thermistor in glass with a bead of this size and insulated wires"),
     "adjuster": Production(
         down="bottom", drawn=True, why="flange on the bed: post and slot grow upwards, the screw's hole stands upright",

@@ -20,7 +20,7 @@ VOLUME_TOLERANCE = 1e-3
 
 @dataclass(frozen=True)
 class Coil:
-    """A right-hand torsion spring: straight leg, coils, bend of radius d, straight tang. Lengths in mm."""
+    """A right-hand torsion spring: straight leg, coils, quarter bend, straight tang. Lengths in mm."""
 
     wire_diameter: float
     diameter: float
@@ -30,6 +30,8 @@ class Coil:
     leg_length: float
     """In plan view; the leg keeps rising as the coils do."""
     tang_length: float
+    bend_radius: float
+    """Of the wire's centre, between coils and tang."""
     leg_azimuth: float
     """Direction of the leg in plan view [rad]."""
 
@@ -46,7 +48,7 @@ class Coil:
     @property
     def start_level(self) -> float:
         """Level at which the coils start, so that the bend below ends on the floor."""
-        return self.wire_diameter * cos(self.rise)
+        return self.bend_radius * cos(self.rise)
 
     @property
     def end_level(self) -> float:
@@ -56,7 +58,7 @@ class Coil:
     @property
     def tang_position(self) -> tuple[float, float]:
         """Centre of the tang in the floor, from the spring's axis."""
-        way = self.wire_diameter * (1.0 - sin(self.rise))
+        way = self.bend_radius * (1.0 - sin(self.rise))
         radial, tangent = _directions(self.start_azimuth)
         centre = radial * (0.5 * self.diameter) - tangent * way
         return centre.x, centre.y
@@ -66,7 +68,7 @@ class Coil:
         """Length of the wire along its centre."""
         leg = self.leg_length / cos(self.rise)
         helix = self.turns * hypot(pi * self.diameter, self.pitch)
-        return leg + helix + self.wire_diameter * (0.5 * pi - self.rise) + self.tang_length
+        return leg + helix + self.bend_radius * (0.5 * pi - self.rise) + self.tang_length
 
     def check(self) -> None:
         """Raise GeometryError where no wire can be bent to this shape."""
@@ -78,6 +80,7 @@ class Coil:
             ("gap between coils", gap),
             ("leg_length", self.leg_length),
             ("tang_length", self.tang_length),
+            ("inside radius of the tang's bend", self.bend_radius - 0.5 * d),
         ):
             if not (isfinite(value) and value > 0.0):
                 raise GeometryError(f"spring: {name} is {value:.4g}; it must be above zero")
@@ -87,7 +90,8 @@ def free_coil(dims: Dimensions) -> Coil:
     """Return the spring as its maker delivers it, the coils starting on the x axis."""
     return Coil(
         wire_diameter=dims.wire_diameter, diameter=dims.coil_diameter, turns=dims.coil_count, pitch=dims.coil_pitch,
-        leg_length=dims.leg_length, tang_length=dims.tang_length, leg_azimuth=0.5 * pi + 2.0 * pi * dims.coil_count,
+        leg_length=dims.leg_length, tang_length=dims.tang_length,
+        bend_radius=dims.tang_bend_radius, leg_azimuth=0.5 * pi + 2.0 * pi * dims.coil_count,
     )  # fmt: skip
 
 
@@ -106,7 +110,8 @@ def installed_coil(dims: Dimensions, rotor_angle: float = 0.0) -> Coil:
         turns = rest_turns + (azimuth - rest) / (2.0 * pi)
     return Coil(
         wire_diameter=dims.wire_diameter, diameter=_wound_diameter(dims, turns), turns=turns, pitch=dims.coil_pitch,
-        leg_length=dims.leg_length, tang_length=dims.tang_length, leg_azimuth=azimuth,
+        leg_length=dims.leg_length, tang_length=dims.tang_length,
+        bend_radius=dims.tang_bend_radius, leg_azimuth=azimuth,
     )  # fmt: skip
 
 
@@ -136,13 +141,13 @@ def _directions(azimuth: float) -> tuple[cq.Vector, cq.Vector]:
 
 def wire_edges(coil: Coil) -> list[cq.Edge]:
     """Centre of the wire from the tang's end to the leg's: line, arc, helix, line, tangent to one another."""
-    d, rise, down = coil.wire_diameter, coil.rise, cq.Vector(0, 0, -1)
+    bend_radius, rise, down = coil.bend_radius, coil.rise, cq.Vector(0, 0, -1)
     radial, tangent = _directions(coil.start_azimuth)
     start = radial * (0.5 * coil.diameter) - down * coil.start_level
-    centre = start + (tangent * sin(rise) + down * cos(rise)) * d
+    centre = start + (tangent * sin(rise) + down * cos(rise)) * bend_radius
     half_way = 0.5 * (rise + 0.5 * pi)
-    middle = centre - (tangent * sin(half_way) + down * cos(half_way)) * d
-    floor = centre - tangent * d
+    middle = centre - (tangent * sin(half_way) + down * cos(half_way)) * bend_radius
+    floor = centre - tangent * bend_radius
     tang = cq.Edge.makeLine(floor + down * coil.tang_length, floor)
     bend = cq.Edge.makeThreePointArc(floor, middle, start)
     helix = cq.Wire.makeHelix(coil.pitch, coil.pitch * coil.turns, 0.5 * coil.diameter)

@@ -33,10 +33,16 @@ def pin_radius(placement_radius: Scalar, pin_radius_ratio: Scalar) -> Scalar:
 
 
 @quantities.output("mm")
-def spring_reach(coil_diameter: Scalar, wire_diameter: Scalar) -> Scalar:
+def tang_bend_radius(tang_bend_ratio: Scalar, wire_diameter: Scalar) -> Scalar:
+    """Mean radius of the bend between a spring's coils and its tang."""
+    return (tang_bend_ratio + 0.5) * wire_diameter
+
+
+@quantities.output("mm")
+def spring_reach(coil_diameter: Scalar, wire_diameter: Scalar, tang_bend_radius: Scalar) -> Scalar:
     """Radius of the circle around a spring's axis that holds its coils and its tang."""
-    # The tang leaves the coil along the tangent and turns down over a bend of the radius d.
-    return np.sqrt((0.5 * coil_diameter) ** 2 + wire_diameter**2) + 0.5 * wire_diameter
+    # The tang leaves the coil along the tangent and turns down over its bend.
+    return np.sqrt((0.5 * coil_diameter) ** 2 + tang_bend_radius**2) + 0.5 * wire_diameter
 
 
 @quantities.output("mm")
@@ -109,9 +115,9 @@ def helix_slope(coil_pitch: Scalar, coil_diameter: Scalar) -> Scalar:
 
 
 @quantities.output("mm")
-def coil_start_level(wire_diameter: Scalar, helix_slope: Scalar) -> Scalar:
+def coil_start_level(tang_bend_radius: Scalar, helix_slope: Scalar) -> Scalar:
     """Level of the wire's centre where the coils start; the tang's bend below it ends on the floor."""
-    return wire_diameter / np.sqrt(1.0 + helix_slope**2)
+    return tang_bend_radius / np.sqrt(1.0 + helix_slope**2)
 
 
 @quantities.output("mm")

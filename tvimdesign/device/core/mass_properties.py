@@ -20,12 +20,12 @@ def helix_length(coil_count: Scalar, coil_diameter: Scalar, coil_pitch: Scalar) 
 
 @quantities.output("mm")
 def wire_length(
-    helix_length: Scalar, leg_length: Scalar, wire_diameter: Scalar, helix_slope: Scalar, tang_length: Scalar
+    helix_length: Scalar, leg_length: Scalar, tang_bend_radius: Scalar, helix_slope: Scalar, tang_length: Scalar
 ) -> Scalar:
-    """Length of the wire of one spring: leg, coils, bend of radius d, and tang."""
+    """Length of the wire of one spring: leg, coils, quarter bend and tang."""
     # The leg rises with the helix, so it is a little longer than its plan view; the bend turns from the helix to -z.
     leg = leg_length * np.sqrt(1.0 + helix_slope**2)
-    bend = wire_diameter * (0.5 * np.pi - np.arctan(helix_slope))
+    bend = tang_bend_radius * (0.5 * np.pi - np.arctan(helix_slope))
     return leg + helix_length + bend + tang_length
 
 

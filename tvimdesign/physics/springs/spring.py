@@ -1,7 +1,8 @@
 """The helical torsion spring: rate, stress, strength, and its size under load.
 
 Sources: [S] Budynas and Nisbett, Shigley's Mechanical Engineering Design, 10th ed., section 10-12 (torsion springs);
-[E] EN 13906-3. Angles in radians, except where a name says turns.
+[E] EN 13906-3; [T] Timoshenko, Strength of Materials, part II, 3rd ed. (bars bent beyond the elastic limit). Angles in
+radians, except where a name says turns.
 """
 
 from __future__ import annotations
@@ -67,6 +68,17 @@ def tensile_strength(wire_diameter: Any, strength: Sequence[tuple[float, float]]
     for curve in curves[1:]:
         lowest = np.fmin(lowest, curve)
     return lowest
+
+
+def wound_coil_diameter(coil_diameter: Any, wire_diameter: Any, yield_strength: Any, youngs_modulus: Any) -> Any:
+    """Mean diameter [m] of a coil on its mandrel that springs back to `coil_diameter` once it is let go.
+
+    Cold wound, the whole section of the wire yields: its plastic moment is s d^3/6 [T]. Let go, the curvature falls by
+    that moment over E I: D_w = D/(1 + (16/(3 pi)) C s/E), C the spring index and s the stress of the yielding wire,
+    which is its tensile strength. The mandrel is a wire thinner. Stress relief afterwards is not in it.
+    """
+    index = spring_index(wire_diameter, coil_diameter)
+    return coil_diameter / (1.0 + 16.0 / (3.0 * np.pi) * index * yield_strength / youngs_modulus)
 
 
 def endurance_strength(tensile: Any, strength_ratio: Any) -> Any:

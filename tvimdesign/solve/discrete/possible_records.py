@@ -28,7 +28,7 @@ def possible(study: Study, family: Family) -> Family:
     limits = constraints_of(asked, study.table, model.words)
     records, mixtures = dict(family.records), []
     for mixture in family.mixtures:
-        left = _left(model, mixture, _of_it_alone(study, model, limits, mixture))
+        left = _left(asked, model, mixture, _of_it_alone(study, model, limits, mixture))
         records |= left.records[0]
         mixtures += [left] if len(left.records) > 1 else []
     return Family(records, tuple(mixtures))
@@ -49,7 +49,7 @@ def _of_it_alone(
     return [limit for limit in without_cycle if limit.output in own - moved]
 
 
-def _left(model: MixedDevice, mixture: Mixture, limits: Sequence[Constraint]) -> Mixture:
+def _left(study: Study, model: MixedDevice, mixture: Mixture, limits: Sequence[Constraint]) -> Mixture:
     """The records that keep the limits."""
     outputs = list(dict.fromkeys(limit.output for limit in limits))
     cycle = dict.fromkeys(model.switch_names, np.inf)
@@ -60,7 +60,7 @@ def _left(model: MixedDevice, mixture: Mixture, limits: Sequence[Constraint]) ->
             inputs[model.index[name]] = float(other == place)
         values = model.some_values(outputs, inputs, cycle)
         broken = [one for one in limits if not one.residual(values[one.output]) <= ALGEBRAIC_TOLERANCE]
-        told += [unchangeable(limit, model.table, values[limit.output]) for limit in broken]
+        told += [unchangeable(limit, model.table, values[limit.output], study) for limit in broken]
         kept += [] if broken else [place]
     if not kept:
         raise InfeasibleError("\n  ".join(dict.fromkeys(told)))

@@ -15,7 +15,7 @@ from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_
 from tvimdesign.solve.nlp.solution import ConflictSet
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
-from tvimdesign.study import ProfileOptions, Study
+from tvimdesign.study import ProfileOptions, Study, brought_along_by
 
 _STARTS = 5
 _MOST_RECORDS = 20
@@ -60,12 +60,15 @@ def _conflict(study: Study) -> str:
         return ""
     lines = conflict_in_words(found.conflict_set)
     fixed = _fixed(optimizer, found.conflict_set)
-    ways = f"Ease a limit, widen a range, or vary {fixed}." if fixed else "Ease a limit, or widen a range."
+    ways = f"Ease a limit, widen a range, or {fixed}." if fixed else "Ease a limit, or widen a range."
     return "\n".join([*lines, ways])
 
 
 def _fixed(optimizer: Optimizer, conflict_set: ConflictSet) -> str:
-    """The input that could be varied and is not, where a hundredth of it moves the only limit's output most of all."""
+    """What to change where it moves the only limit's output most of all by a hundredth, and is not varied.
+
+    An input that could be varied, or the record bought whole that brings it along.
+    """
     if len(conflict_set.sides) != 1:
         return ""
     model, table = optimizer.model, optimizer.table
@@ -80,5 +83,8 @@ def _fixed(optimizer: Optimizer, conflict_set: ConflictSet) -> str:
     most = max((name for name in moved if name in could or name in free), key=moved.__getitem__)
     if most in free:
         return ""
+    brought = brought_along_by(optimizer.study)
+    if most in brought:
+        return f"choose another `{brought[most]}`: its {most} moves it more than all that is varied"
     value = format_quantity(float(model.start[model.index[most]]), table.unit(most))
-    return f"{most} ({value}), which moves it more than all that is varied"
+    return f"vary {most} ({value}), which moves it more than all that is varied"

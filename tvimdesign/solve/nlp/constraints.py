@@ -10,7 +10,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
 from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.table.quantity import Feature, Rule
-from tvimdesign.study import Study, given
+from tvimdesign.study import Study, brought_along_by, given
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on what needs no simulation may be broken: IPOPT's tolerance with a margin."""
@@ -97,13 +97,16 @@ def is_constant(limit: Constraint, table: Table, free: Iterable[str]) -> bool:
     return not on_cycle(table, limit.output) and not set(free) & table.ancestors(limit.output)
 
 
-def unchangeable(limit: Constraint, table: Table, value: float) -> str:
+def unchangeable(limit: Constraint, table: Table, value: float, study: Study) -> str:
     """Say of a limit that is broken by a value and stands on nothing free what could be freed."""
     is_now = format_quantity(value, table.output(limit.output).unit)
     behind = [row for row in table.inputs if row.name in table.ancestors(limit.output)]
-    variable = [row.name for row in behind if row.variable]
+    brought = brought_along_by(study)
+    variable = [row.name for row in behind if row.variable and row.name not in brought]
     ways = f"vary one of: {', '.join(variable)}"
-    if not variable:
+    if bought := sorted({brought[row.name] for row in behind if row.name in brought}):
+        ways = f"choose another `{'`, `'.join(bought)}`" + (f", or {ways}" if variable else "")
+    elif not variable:
         fixed = [row.name for row in behind if row.record is None][:_INPUTS_NAMED] or ["the records it stands on"]
         ways = f"change under `module`: {', '.join(fixed)}"
     return f"{in_words(limit, table)} does not hold (it is {is_now}), and nothing under `vary` can change it; {ways}"

@@ -177,14 +177,38 @@ class Constant:
 
 
 @dataclass(frozen=True)
-class YieldReached:
-    """What modules drawn at random keep of a design of which a yield was asked for."""
+class LostTo:
+    """A limit that too many modules break, and what spreads it."""
 
+    text: str
+    share: float
+    """Share of the modules that keep it."""
+    carriers: dict[str, float]
+    """Inputs by their share of the variance behind it, the largest first."""
+
+
+@dataclass(frozen=True)
+class YieldReached:
+    """What modules drawn at random keep of a design of which a yield was asked for, and what that cost."""
+
+    asked: float
     modules: int
+    """Drawn apart from those the design was found by."""
     shares: dict[str, float]
     """Share of them that keeps each limit, by its name."""
     together: float
     """Share of them that keeps all."""
+    lost_to: tuple[LostTo, ...]
+    """The limits that most modules break, the worst first."""
+    nominal_together: float
+    """Share of modules that keeps all at the optimum without margins."""
+    nominal: dict[str, float]
+    """Headline values and minimised outputs (SI) of the optimum without margins."""
+
+    @property
+    def reached(self) -> bool:
+        """Whether as many modules as asked keep every limit."""
+        return self.together >= self.asked
 
 
 @dataclass(frozen=True)

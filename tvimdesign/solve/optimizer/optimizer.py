@@ -135,7 +135,7 @@ class Optimizer:
 
     def _problem(self, kept: list[Constraint], objectives: Sequence[str]) -> Problem:
         back_offs = None
-        if self.study.robust:
+        if self.study.robust and self.study.robust.sigma is not None:
             from tvimdesign.solve.nlp.back_off import back_offs_of
 
             back_offs = back_offs_of(self.model, self.study, kept)
@@ -151,7 +151,7 @@ class Optimizer:
         values = self.model.some_values([limit.output for limit in constant], self.model.start, without_switch)
         broken = [one for one in constant if not one.residual(values[one.output]) <= ALGEBRAIC_TOLERANCE]
         if broken:
-            told = [unchangeable(limit, self.table, values[limit.output]) for limit in broken]
+            told = [unchangeable(limit, self.table, values[limit.output], self.study) for limit in broken]
             raise InfeasibleError("\n  ".join(told))
         return [limit for limit in limits if limit not in constant]
 

@@ -114,14 +114,15 @@ def test_margins_are_those_of_the_stress_between_the_extremes(transmission: str,
 
 
 def test_the_drawn_wire_is_as_soft_as_fe_of_the_solid(base: dict[str, Any]) -> None:
-    # validation/fe_spring, the optimum of paper_shear on 2026-11-22: 1.0882 N*m/rad; coil and leg alone gave 1.300.
+    # validation/fe_spring, a spring like paper_shear's on 2026-11-22: 1.0293 N*m/rad; coil and leg alone gave 1.300.
     drawn = {
         "wire_diameter": 1.81288e-3, "coil_diameter": 8.0e-3, "coil_count": 3.0, "preload_angle": 0.12,
         "placement_radius": 31.6e-3,
     }  # fmt: skip
     found = evaluate(base, **drawn)
     wound = 2.0 * np.pi * 3.0 + 0.12
-    shape = drawn_spring.DrawnSpring(1.81288e-3, 8.0e-3 * 6.0 * np.pi / wound, wound, 1.91288e-3, found["leg_arm"])
+    coil, bend = 8.0e-3 * 6.0 * np.pi / wound, 2.0 * 1.81288e-3
+    shape = drawn_spring.DrawnSpring(1.81288e-3, coil, wound, 1.91288e-3, found["leg_arm"], bend)
     straight = 196.5e9 * np.pi * 1.81288e-3**4 / 64.0 / drawn_spring.bending_length(shape, 0.292)
     assert found["spring_rate"] == pytest.approx(straight, rel=1e-9)
     ignored = evaluate(base, **drawn, leg_model="ignored")

@@ -25,11 +25,12 @@ def drawn_spring(
     coil_pitch: Scalar,
     preload_angle: Scalar,
     leg_arm: Scalar,
+    tang_bend_radius: Scalar,
 ) -> drawn.DrawnSpring:
     """Spring in the module at rest, wound up by its preload."""
     wound = 2.0 * np.pi * coil_count + preload_angle
     diameter = spring.loaded_coil_diameter(coil_diameter, coil_count, preload_angle)
-    return drawn.DrawnSpring(wire_diameter, diameter, wound, coil_pitch, leg_arm)
+    return drawn.DrawnSpring(wire_diameter, diameter, wound, coil_pitch, leg_arm, tang_bend_radius)
 
 
 @quantities.output("1")

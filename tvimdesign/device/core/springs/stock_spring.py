@@ -24,9 +24,9 @@ def stock_leg_margin(stock_spring: Record, leg_length: Scalar) -> Scalar:
 
 
 @quantities.output("mm", at_least(0.0, "the stock spring's other leg is too short to be bent down into the floor"))
-def stock_tang_margin(stock_spring: Record, tang_length: Scalar, wire_diameter: Scalar) -> Scalar:
-    """Other leg of the stock spring beyond its tang and the quarter bend above that, of radius d. Zero without."""
-    return stock_spring.value("leg_length") - tang_length - 0.5 * np.pi * wire_diameter
+def stock_tang_margin(stock_spring: Record, tang_length: Scalar, tang_bend_radius: Scalar) -> Scalar:
+    """Other leg of the stock spring beyond its tang and the quarter bend above that. Zero without."""
+    return stock_spring.value("leg_length") - tang_length - 0.5 * np.pi * tang_bend_radius
 
 
 @quantities.output("N*m", at_least(0.0, "the springs are wound beyond the torque that their maker gives"))

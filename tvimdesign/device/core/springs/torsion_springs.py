@@ -231,6 +231,15 @@ def spring_wound_diameter(coil_diameter: Scalar, coil_count: Scalar, spring_wind
 
 
 @quantities.output("mm")
+def winding_mandrel(
+    coil_diameter: Scalar, wire_diameter: Scalar, spring_tensile_strength: Scalar, spring_youngs_modulus: Scalar
+) -> Scalar:
+    """Diameter of the mandrel that a spring is wound on, from which it springs back to its size."""
+    wound = spring.wound_coil_diameter(coil_diameter, wire_diameter, spring_tensile_strength, spring_youngs_modulus)
+    return wound - wire_diameter
+
+
+@quantities.output("mm")
 def spring_body_length(wire_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar, coil_gap: Scalar) -> Scalar:
     """Axial length of the coils at full winding."""
     return spring.body_length(wire_diameter, coil_count, spring_winding, coil_gap)

@@ -13,6 +13,8 @@ from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.first_screen.layout import block, joined
 from tvimdesign.report.run.first_screen.requirements import may_be
 from tvimdesign.report.run.first_screen.stalling import stalling_in_words
+from tvimdesign.report.run.yield_words import percent, yield_of
+from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3
@@ -45,8 +47,13 @@ def _of_evaluation(answer: StudyResult) -> str:
 
 
 def _of_optimum(answer: StudyResult) -> str:
-    """Optimal within the ratings, or beyond those that the study accepts; else the ratings that it does not."""
+    """Optimal within the ratings, or beyond those that the study accepts; else the ratings that it does not, or that
+    fewer modules than asked keep its limits.
+    """
     said = _of_ratings(answer)
+    reached = yield_of(answer)
+    if reached is not None and answer.design.status == BELOW_YIELD:
+        return f"YIELD {percent(reached.together)}, {percent(reached.asked)} ASKED{said and ', '}{said}"
     return said if answer.design.above_rating else f"OPTIMAL{said and ', '}{said}"
 
 

@@ -1,0 +1,88 @@
+"""The jig that a PCL arc or block is cast in: a mould with a dam as high as the part, and a lid that lies on the dam.
+
+It is drawn around the part where this stands in the module, so that it is closed by construction: the dam's height is
+the layer's thickness, pockets of the lid are the part's keys. What is too much flows over the dam. A fixture: it has no
+place in the module, and no part in its mass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import cadquery as cq
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.production import Production
+from tvimdesign.cad.geometry.solids import cylinder, join
+
+LAND = 2.0
+"""Width of the dam around the part [mm]; assumed, 1 to 4: the lid lies on it, and what runs over it breaks off."""
+PLATE = 3.0
+"""Thickness of mould and lid [mm]; assumed, 2 to 10: they are pressed flat between two boards."""
+PINS = (1.5, 2.5)
+"""Radii of the two guide pins [mm], before and behind the part; assumed, 1 to 4: unlike, so the lid lies one way."""
+WALL = 2.0
+"""Least way from dam to pin, and from pin to edge [mm]; assumed, 1 to 4."""
+COLOUR = (0.55, 0.62, 0.50)
+MAKING: Mapping[str, Production] = {
+    "casting_mould": Production(down="bottom", why="flat: dam and pins grow upwards, no support"),
+    "casting_lid": Production(down="top", why="the outer face on the bed: pockets open upwards, no support"),
+}
+"""How its two pieces are printed, by name."""
+
+
+def part_of(kinds: tuple[str, ...]) -> str:
+    """The kind of part that is cast, of those a module has."""
+    return next(kind for kind in kinds if kind.startswith("pcl_"))
+
+
+def levels(dims: Dimensions) -> tuple[float, float]:
+    """Lower and upper face of the part in the module, its keys left out [mm]."""
+    if dims.mode == "shear":
+        return 0.0, dims.pcl_thickness
+    return dims.running_clearance, dims.vane_height
+
+
+def mould(dims: Dimensions, part: cq.Solid) -> cq.Shape:
+    """Lower piece: a plate with the dam around the part, and two guide pins."""
+    bottom, top = levels(dims)
+    pins = [cylinder(radius, bottom, top + PLATE, at) for radius, at in _pins(dims, part)]
+    return join(_plate(dims, part, bottom - PLATE, bottom), [dam(dims, part), *pins]).cut(part)
+
+
+def lid(dims: Dimensions, part: cq.Solid) -> cq.Shape:
+    """Upper piece: a plate with pockets for the part's keys, and holes that slip over the pins."""
+    _, top = levels(dims)
+    upper = max(part.BoundingBox().zmax, top) + PLATE
+    holes = [cylinder(radius + dims.slip_clearance, top, upper, at) for radius, at in _pins(dims, part)]
+    return _plate(dims, part, top, upper).cut(part, *holes)
+
+
+DRAWN = {"casting_mould": mould, "casting_lid": lid}
+
+
+def dam(dims: Dimensions, part: cq.Solid) -> cq.Solid:
+    """The dam and all inside it: the layer's outline, wider by the land, as high as the layer."""
+    bottom, top = levels(dims)
+    floor = next(face for face in part.Faces() if face.geomType() == "PLANE" and face.normalAt().z < -0.5)
+    outlines = floor.outerWire().offset2D(LAND, "arc")
+    if len(outlines) != 1:
+        raise GeometryError(f"casting jig: no dam of {LAND:g} mm fits around the part; is its inner radius that small?")
+    return cq.Solid.extrudeLinear(outlines[0], [], cq.Vector(0, 0, top - bottom))
+
+
+def _pins(dims: Dimensions, part: cq.Solid) -> list[tuple[float, tuple[float, float]]]:
+    """Radius and place of the guide pins: on the x axis, before and behind the dam."""
+    box = dam(dims, part).BoundingBox()
+    inner, outer = PINS
+    return [(inner, (box.xmin - WALL - inner, 0.0)), (outer, (box.xmax + WALL + outer, 0.0))]
+
+
+def _plate(dims: Dimensions, part: cq.Solid, bottom: float, top: float) -> cq.Solid:
+    """A plate under, or over, dam and pins between two levels."""
+    box = dam(dims, part).BoundingBox()
+    (first, (start, _)), (last, (end, _)) = _pins(dims, part)
+    low, high = start - first - WALL, end + last + WALL
+    half = max(abs(box.ymin), abs(box.ymax)) + WALL
+    return cq.Solid.makeBox(high - low, 2.0 * half, top - bottom, cq.Vector(low, -half, bottom))
