@@ -57,7 +57,7 @@ def tally_in_words(choosing: Choosing) -> str:
         without = f"; {_count(work.screened, 'set')} of sizes needed none, by arithmetic alone" if work.screened else ""
         said.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}{without}.")
     if choosing.bound is not None and choosing.best:
-        above = choosing.best[0].objective / choosing.bound - 1.0
+        above = max(choosing.best[0].objective / choosing.bound - 1.0, 0.0)
         said.append(
             f"Records were divided as sizes are: the best combination is {above:.2%} worse than the best mixture of "
             "all, with sizes in between."
