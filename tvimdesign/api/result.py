@@ -252,7 +252,7 @@ class Result:
         `timestep`, such as "0.5 ms", is that of the simulation; without it one that suits the bench's load. Raises
         GeometryError where the solids are not the design's, InputError for a time step that is none.
         """
-        from tvimdesign.report.robot_files import write_models
+        from tvimdesign.report.robot.robot_files import write_models
 
         step = parse_quantity(timestep, "s") if timestep else None
         with ResultsFolder(Path(folder), overwrite) as written, shown_progress(progress) as say:

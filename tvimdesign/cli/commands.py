@@ -164,7 +164,7 @@ def robot(
 ) -> None:
     """Write the joint for simulators (MJCF, URDF, meshes, tables) into results/<name>-robot."""
     from tvimdesign.base.units import parse_quantity
-    from tvimdesign.report.robot_files import write_robot
+    from tvimdesign.report.robot.robot_files import write_robot
 
     folder = out or Path("results") / f"{name_of(result)}-robot"
     step = parse_quantity(timestep, "s") if timestep else None

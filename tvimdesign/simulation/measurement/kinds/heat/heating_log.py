@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.catalog import CATEGORIES
 from tvimdesign.device import Input
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.simulation.measurement.fitting.fit import fitted
@@ -65,8 +64,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
 
 def _rows(resolved: ResolvedModule, settings: Settings) -> list[Input]:
     """The inputs that are fitted: those named, or all of `heat_paths` that count for the module."""
-    names = CATEGORIES["heat_paths"].values
-    there = {row.name: row for row in resolved.table.inputs if row.name in names}
+    there = {row.name: row for row in resolved.table.inputs if row.record and row.record[0] == "heat_paths"}
     chosen = settings.get("fitted", "").replace(",", " ").split()
     for name in chosen:
         if name not in there:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as Xml
 
-from tvimdesign.robot.joint_model import JointModel, header
-from tvimdesign.robot.joint_state import JointState
-from tvimdesign.robot.maxwell_hinges import JOINT, Hinge, MaxwellHinges, Spring, held_angles, maxwell_hinges
-from tvimdesign.robot.rigid_bodies import RigidBody
-from tvimdesign.robot.xml_text import comment, document, numbers
+from tvimdesign.report.robot.joint_model import JointModel, header
+from tvimdesign.report.robot.joint_state import JointState
+from tvimdesign.report.robot.maxwell_hinges import JOINT, Hinge, MaxwellHinges, Spring, held_angles, maxwell_hinges
+from tvimdesign.report.robot.rigid_bodies import RigidBody
+from tvimdesign.report.robot.xml_text import comment, document, numbers
 
 _NEARLY_NOTHING = 1e-14
 """Inertia of a body that only carries a hinge [kg*m^2], a little above MuJoCo's least."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.robot.joint_model import JointModel
+from tvimdesign.report.robot.joint_model import JointModel
 from tvimdesign.simulation.working_cycle.curves import impedance_sweep
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 

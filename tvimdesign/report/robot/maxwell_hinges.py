@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.robot.joint_state import JointState
+from tvimdesign.report.robot.joint_state import JointState
 
 JOINT = "joint"
 """Name of the joint in every model."""

@@ -9,8 +9,8 @@ from math import sqrt
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.core.motor_choice import WITHOUT
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.robot.joint_state import JointState, joint_states, usual_step
-from tvimdesign.robot.rigid_bodies import RigidBody
+from tvimdesign.report.robot.joint_state import JointState, joint_states, usual_step
+from tvimdesign.report.robot.rigid_bodies import RigidBody
 from tvimdesign.simulation.joint_tests.release import ANGLE
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 

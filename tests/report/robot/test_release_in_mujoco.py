@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from robot_models import model_of, module_of
 
-from tvimdesign.robot.joint_model import JointModel
-from tvimdesign.robot.mjcf import mjcf
+from tvimdesign.report.robot.joint_model import JointModel
+from tvimdesign.report.robot.mjcf import mjcf
 from tvimdesign.simulation.joint_tests.release import release
 from tvimdesign.simulation.trial import Trial
 

@@ -14,12 +14,12 @@ from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, number
+from tvimdesign.report.robot import state_tables
+from tvimdesign.report.robot.joint_model import JointModel, joint_model, refuse_step
+from tvimdesign.report.robot.mjcf import mjcf
+from tvimdesign.report.robot.rigid_bodies import make_bodies
+from tvimdesign.report.robot.urdf import urdf
 from tvimdesign.report.run.parts_of_design import refuse_failed
-from tvimdesign.robot import state_tables
-from tvimdesign.robot.joint_model import JointModel, joint_model, refuse_step
-from tvimdesign.robot.mjcf import mjcf
-from tvimdesign.robot.rigid_bodies import make_bodies
-from tvimdesign.robot.urdf import urdf
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.study.design import Design, read_design, write_design
 

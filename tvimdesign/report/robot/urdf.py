@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as Xml
 
-from tvimdesign.robot.joint_model import JointModel, header
-from tvimdesign.robot.joint_state import JointState
-from tvimdesign.robot.maxwell_hinges import JOINT
-from tvimdesign.robot.rigid_bodies import RigidBody
-from tvimdesign.robot.xml_text import comment, document, numbers
+from tvimdesign.report.robot.joint_model import JointModel, header
+from tvimdesign.report.robot.joint_state import JointState
+from tvimdesign.report.robot.maxwell_hinges import JOINT
+from tvimdesign.report.robot.rigid_bodies import RigidBody
+from tvimdesign.report.robot.xml_text import comment, document, numbers
 
 _NO_STIFFNESS = (
     "URDF has no stiffness of a joint: the file has the damping and friction of the state; the stiffness is in "

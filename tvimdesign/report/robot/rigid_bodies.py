@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from tvimdesign.cad.bodies.main import BASE, BODIES, MESHES, MOVING
+from tvimdesign.cad.build.bodies.main import BASE, BODIES, MESHES, MOVING
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.cad.make import make_cad
 
@@ -38,7 +38,7 @@ def make_bodies(
     design: Path, folder: Path, progress: Callable[[str], None] | None = None
 ) -> tuple[RigidBody, RigidBody, CadReport]:
     """Make what stands and what turns of a design.json, with their meshes in the folder. Raises GeometryError."""
-    report = make_cad(design, folder, TIME_LIMIT, progress, job="tvimdesign.cad.bodies.main")
+    report = make_cad(design, folder, TIME_LIMIT, progress, job="tvimdesign.cad.build.bodies.main")
     data = json.loads((folder / BODIES).read_text())
     base, moving = (
         RigidBody(

@@ -1,4 +1,4 @@
-"""The child process that makes the rigid bodies: `python -m tvimdesign.cad.bodies.main DESIGN OUT SECONDS`."""
+"""The child process that makes the rigid bodies: `python -m tvimdesign.cad.build.bodies.main DESIGN OUT SECONDS`."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def run(design_path: Path, out: Path, _timeout_s: float, lines: TextIO) -> None:
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
     from tvimdesign.cad.assembly.assembly import drawn_parts, place
-    from tvimdesign.cad.bodies.body_meshes import body_stl, coarse_meshes
+    from tvimdesign.cad.build.bodies.body_meshes import body_stl, coarse_meshes
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.inspection.size_checks import size_checks
 
@@ -60,7 +60,7 @@ def names_of_bodies(placed: Mapping[str, Any]) -> dict[str, list[str]]:
 
 def _weighed(design: Design, placed: Mapping[str, Any], bodies: Mapping[str, list[str]]) -> dict[str, Any]:
     """Mass properties of each body as plain data."""
-    from tvimdesign.cad.bodies.mass_properties import of_solid, together
+    from tvimdesign.cad.build.bodies.mass_properties import of_solid, together
     from tvimdesign.cad.geometry.kinds import KINDS, kind_of
 
     return {

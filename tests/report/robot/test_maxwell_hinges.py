@@ -7,8 +7,8 @@ import pytest
 from robot_models import model_of
 
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.robot.joint_state import JointState
-from tvimdesign.robot.maxwell_hinges import held_angles, maxwell_hinges, without_spring
+from tvimdesign.report.robot.joint_state import JointState
+from tvimdesign.report.robot.maxwell_hinges import held_angles, maxwell_hinges, without_spring
 
 MODES: Modes = [(40.0, 3.0), (0.2, 120.0), (1e-3, 55.0)]
 

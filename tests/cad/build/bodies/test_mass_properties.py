@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from tvimdesign.cad.bodies.mass_properties import of_solid, together
+from tvimdesign.cad.build.bodies.mass_properties import of_solid, together
 from tvimdesign.cad.export.mesh import solid_mesh
 
 DENSITY = 1270.0
