@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -17,8 +17,8 @@ $(STAMP): pyproject.toml constraints.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
 	@touch $@
 
-study: $(STAMP)  ## run studies/paper_shear.yaml and say where the results are
-	$(BIN)/tvimdesign run studies/paper_shear.yaml --overwrite
+study: $(STAMP)  ## run studies/elbow_printed.yaml and say where the results are
+	$(BIN)/tvimdesign run studies/elbow_printed.yaml --overwrite
 
 # Two workers for two processors: a library that starts threads of its own in each would only be in their way.
 PYTEST := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder
@@ -46,6 +46,9 @@ bench-switch: $(STAMP)  ## one switch simulated here and by scipy, side by side
 
 bench-choices: $(STAMP)  ## the best of two thousand combinations by branch and bound, and all of them accounted for
 	$(BENCH) benchmarks/choices.py
+
+bench-shelf: $(STAMP)  ## the best three of some 50,000 combinations of heater, process, steel, wire and counts, in both modes
+	$(BENCH) benchmarks/shelf.py
 
 bench-sweep: $(STAMP)  ## designs a second through compiled equations, and through what else there is
 	$(BENCH) benchmarks/sweep.py

@@ -46,7 +46,10 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
         expected.add(f"step/{kind}.step")
         bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw"}
         expected |= {f"mesh/{kind}.stl"} if bought else {f"print/{kind}.stl", f"print/{kind}.3mf"}
-    for kind in ("housing", "rotor", "link", "retainer"):
+    expected |= {f"step/{piece}.step" for piece in ("casting_mould", "casting_lid")}
+    expected |= {f"print/casting_{piece}.{form}" for piece in ("mould", "lid") for form in ("stl", "3mf")}
+    cast = "pcl_arc" if design.mode == "shear" else "pcl_block"
+    for kind in ("housing", "rotor", "link", "retainer", "peltier_pad", cast):
         expected |= {f"drawings/{kind}.dxf", f"drawings/{kind}.pdf"}
     assert set(report.files) == expected
     found = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}

@@ -5,7 +5,9 @@ from __future__ import annotations
 import itertools
 import math
 
+from tvimdesign.device import Input
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.study import Options, Study, read_study_text
 
 LISTED = """
@@ -39,7 +41,11 @@ def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> di
     The best of some starts, the study's own and random ones. Sizes come in the study's order; objectives are over
     `reference`.
     """
-    lists = {name: vary.values for name, vary in study.vary.items() if isinstance(vary, Options)}
+    lists = {
+        name: vary.values
+        for name, vary in study.vary.items()
+        if isinstance(vary, Options) and isinstance(study.table.quantity(name), Input)
+    }
     asked = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": starts})})
     optimizer = Optimizer(asked, reference)
     begins = list(optimizer.multistart.points())
@@ -54,4 +60,13 @@ def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> di
             run = optimizer.solve(within, begin=place)
             if run.start.converged:
                 found[tuple(sizes)] = min(run.start.objective, found.get(tuple(sizes), math.inf))
+    return found
+
+
+def with_each_record(study: Study, reference: dict[str, float], starts: int) -> dict[tuple[str | float, ...], float]:
+    """The same for every combination of records and sizes; records come first, in the study's order."""
+    found: dict[tuple[str | float, ...], float] = {}
+    for records in discrete_records(study, study.table):
+        alone = by_brute_force(with_records(study, records), reference, starts)
+        found |= {(*records.values(), *sizes): objective for sizes, objective in alone.items()}
     return found

@@ -48,7 +48,8 @@ def test_kinds_are_listed(tvimdesign: Command) -> None:
     listed = tvimdesign("fit", "--kinds").stdout
     assert "columns: angle, torque or mass or force" in listed
     assert set(json.loads(tvimdesign("fit", "--kinds", "--json").stdout)) == {
-        "torque_angle", "frequency_sweep", "dsc", "pad", "release",
+        "torque_angle", "frequency_sweep", "temperature_ramp", "creep", "relaxation", "melt", "amplitude_sweep", "dsc",
+        "pad", "release", "sine", "frozen_torque", "heating_log",
     }  # fmt: skip
 
 

@@ -76,6 +76,30 @@ def test_combinations_that_are_left_are_counted_as_such(monkeypatch: pytest.Monk
     assert not choosing.proven
 
 
+RECORDS = (
+    SEARCHED.replace("starts: 6", "starts: 1")
+    .replace(
+        "vary:",
+        "vary:\n  peltier_module: {choose: [flexible_1600, silicone_9ar_08_24v]}\n"
+        "  process: {choose: [print_pei_1010, print_pc]}\n  hub_depth: {from: 0 mm, to: 6 mm, step: 0.5 mm}",
+    )
+    .replace("accept: [", "accept: [current_margin, ")
+)
+
+
+def test_the_best_of_mixed_records_is_kept_and_told_as_one_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = clock_until("^[1-9][0-9]* combinations solved", monkeypatch)
+    answered = answer(read_study_text(RECORDS), clock.say)
+    solution = answered.solution
+    assert solution is not None
+    assert solution.choosing is not None
+    assert (solution.status, answered.feasible) == (OPTIMAL, True)
+    assert solution.choosing.not_searched > 0
+    best = solution.choosing.best[0].choices
+    assert answered.design.choices["process"] == best["process"]
+    assert answered.design.choices["peltier_module"] == best["peltier_module"]
+
+
 def test_a_search_without_a_design_when_the_time_is_over_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = clock_until("start 1 of 6", monkeypatch)
     solution = optimize(read_study_text(SEARCHED), clock.say)

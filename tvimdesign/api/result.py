@@ -12,7 +12,7 @@ from tvimdesign.api.quantity import Quantity
 from tvimdesign.api.shown_progress import shown_progress
 from tvimdesign.api.tables import constraint_table, interval_table, value_table
 from tvimdesign.base.errors import InfeasibleError, InputError
-from tvimdesign.base.units import from_si
+from tvimdesign.base.units import from_si, parse_quantity
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import margin_text, value_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, drawings
@@ -102,7 +102,9 @@ class Result:
 
     @property
     def status(self) -> str:
-        """`evaluated`, `optimal`, `above_rating` (the optimum, beyond ratings that are not accepted), or why not."""
+        """`evaluated`, `optimal`, `above_rating` (the optimum, beyond ratings that are not accepted), `below_yield` (a
+        design that fewer modules keep than asked), or why not.
+        """
         return self.design.status
 
     @property
@@ -240,6 +242,23 @@ class Result:
             written.finish(self.status, {}, self.design.study)
         files = tuple(sorted(written.path / name for name in report.files))
         return Parts(written.path, files, tuple(plain_report(report)["checks"]))
+
+    def robot(
+        self, folder: str | os.PathLike[str], *, timestep: str | None = None, overwrite: bool = False,
+        progress: bool = True,
+    ) -> Path:  # fmt: skip
+        """Write the joint for simulators: MJCF and URDF of each operating point, meshes, tables; returns the folder.
+
+        `timestep`, such as "0.5 ms", is that of the simulation; without it one that suits the bench's load. Raises
+        GeometryError where the solids are not the design's, InputError for a time step that is none.
+        """
+        from tvimdesign.report.robot_files import write_models
+
+        step = parse_quantity(timestep, "s") if timestep else None
+        with ResultsFolder(Path(folder), overwrite) as written, shown_progress(progress) as say:
+            write_models(self.design, written, step, say)
+            written.finish("written", {}, self.design.study)
+        return Path(folder)
 
     # --- what it looks like ---
 

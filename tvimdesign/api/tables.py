@@ -60,6 +60,7 @@ def interval_table(intervals: Mapping[str, IntervalEntry]) -> pd.DataFrame:
             "value": _never(one["value"]), **ends(one), **ends(one["one_at_a_time"], "alone_"), "unit": one["unit"],
             "measure_first": next(iter(one["shares"]), ""), "share": next(iter(one["shares"].values()), 0.0),
             "to_halve": ", ".join(one["to_halve"]),
+            **(ends(one["before"], "before_") if one["before"] else {}),
         }
         for name, one in intervals.items()
     }  # fmt: skip

@@ -35,6 +35,10 @@ class AboveRatingError(InfeasibleError):
     """The optimum is beyond what a material or a bought part is rated for, and the study does not accept that."""
 
 
+class BelowYieldError(InfeasibleError):
+    """Fewer modules keep the limits of the best design found than the study asks."""
+
+
 class GeometryError(TvimError):
     """A part could not be built, or a built part is not what the model says it is."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
@@ -67,8 +68,15 @@ class Catalog:
         return self._records[category, name]
 
     def _read(self, category: str, name: str) -> Record:
-        path = self.path(category, name)
-        return _built(category, name, path, self._tree(category, path, ()))
+        return self._of_file(category, name, self.path(category, name))
+
+    def _of_file(self, category: str, name: str, path: Path) -> Record:
+        tree = self._tree(category, path, ())
+        record = _built(category, name, path, tree)
+        if "based_on" not in tree:
+            return record
+        other = self._base(category, path, str(tree["based_on"]))
+        return replace(record, based_on=self._of_file(category, other.stem, other))
 
     def _tree(self, category: str, path: Path, before: tuple[Path, ...]) -> dict[str, Tree]:
         """What a record's file says, over what those it is based on say; raises CatalogError for a circle."""

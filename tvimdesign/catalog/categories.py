@@ -245,6 +245,19 @@ CATEGORIES: Mapping[str, Category] = {
             ("melting_start", "equilibrium_melting_temperature"),
         ),
     ),
+    "heat_paths": Category(
+        values={
+            "cold_side_coefficient": "W/m^2/K",
+            "sink_contact": "W/m^2/K",
+            "sink_coefficient": "W/m^2/K",
+            "hot_contact": "W/m^2/K",
+            "spreader_contact": "W/m^2/K",
+            "rotor_contact": "W/m^2/K",
+            "rotor_coefficient": "W/m^2/K",
+            "housing_coefficient": "W/m^2/K",
+            "pad_edge_contact": "W/m^2/K",
+        }
+    ),
     "peltiers": Category(
         values={
             "seebeck": "mV/K",

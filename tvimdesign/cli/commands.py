@@ -145,6 +145,33 @@ def cad(
 
 
 @app.command()
+def robot(
+    result: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RESULT", help="design.json or folder of a run.", autocompletion=completions.designs_and_studies
+        ),
+    ],
+    timestep: Annotated[
+        str,
+        typer.Option(
+            "--timestep", metavar="TIME", help="Time step of the simulation, such as '0.5 ms'; chosen unless given."
+        ),
+    ] = "",
+    out: Out = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
+    """Write the joint for simulators (MJCF, URDF, meshes, tables) into results/<name>-robot."""
+    from tvimdesign.base.units import parse_quantity
+    from tvimdesign.report.robot_files import write_robot
+
+    folder = out or Path("results") / f"{name_of(result)}-robot"
+    step = parse_quantity(timestep, "s") if timestep else None
+    write_robot(result, folder, step, overwrite=overwrite, as_json=json)
+
+
+@app.command()
 def simulate(
     study: StudyOrDesign,
     test: Annotated[

@@ -30,7 +30,7 @@ from tvimdesign.solve.nlp.constraints import (
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress
 from tvimdesign.solve.optimizer.ratings import exceeded, happened, kept, sorted_by_acceptance
-from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, OPTIMAL
+from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, BELOW_YIELD, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
@@ -86,8 +86,8 @@ class StudyResult:
 
     @property
     def found(self) -> bool:
-        """Whether there is a design: evaluated, optimal, or the optimum beyond a rating that is not accepted."""
-        return self.solution is None or self.design.status in {OPTIMAL, ABOVE_RATING}
+        """Whether there is a design: evaluated, optimal, beyond a rating that is not accepted, or below a yield."""
+        return self.solution is None or self.design.status in {OPTIMAL, ABOVE_RATING, BELOW_YIELD}
 
     @property
     def accepted_in_vain(self) -> tuple[str, ...]:
@@ -140,7 +140,7 @@ def answer(
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
     resolved = ResolvedModule(study, {**given(study), **model.words, **numbers})
     open_values = intervals(resolved, model, inputs, cycle.values, current_profiles)
-    seen = _seen(resolved, exists=solution is None or status == OPTIMAL)
+    seen = _seen(resolved, exists=solution is None or status in {OPTIMAL, BELOW_YIELD})
     open_values |= {name: (low, high) for name, (_, low, high) in seen.items() if low < high}
     values = values | {name: nominal for name, (nominal, _, _) in seen.items()}
     ratings = {limit.output: _check(limit, values, table, open_values) for limit in exceeded(values, table)}
@@ -149,7 +149,7 @@ def answer(
         tvimdesign=__version__,
         name=study.name,
         mode=study.mode,
-        status=ABOVE_RATING if above and status == OPTIMAL else status,
+        status=ABOVE_RATING if above and status in {OPTIMAL, BELOW_YIELD} else status,
         above_rating=above,
         accepting=accepting,
         choices=_choices(model, table),

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes
+from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
 from tvimdesign.solve.discrete.enumeration import enumerate_all
+from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
+from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
+from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
 from tvimdesign.solve.nlp.deadline import Deadline
@@ -18,16 +20,13 @@ from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, Solve
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
+from tvimdesign.solve.optimizer.statuses import BELOW_YIELD, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
 
 Keep = Callable[[Optimizer, list[Run]], None]
 Search = Callable[[Study, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]
 """What finds the best design of a study, as `optimize` does."""
-MAX_COMBINATIONS = 20_000
-MAX_RECORDS = 60
-"""Combinations of records: each is searched on its own, from every start."""
 _Found = dict[tuple[int, Box], Run]
 """Designs of single combinations: the place of their tree, their sizes, the run that found them."""
 
@@ -47,25 +46,31 @@ def optimize(
     """
     deadline = Deadline(study.solver.time_limit)
     refuse_unreachable(study)
-    sizes, records = discrete_sizes(study, study.table), discrete_records(study, study.table)
-    _refuse_too_many(sizes, len(records))
-    trees = _trees(study, sizes, records, reference, progress, objectives, deadline)
+    sizes, families = discrete_sizes(study, study.table), families_of(study)
+    refuse_too_many(families, sizes)
+    combinations = sizes.count * sum(family.count for family in families)
+    building = Trees(study, reference, progress, objectives, deadline, sizes)
+    trees = building.of(families)
+    listed = any(relaxation.sizes.names for relaxation in trees)
     hopeless = all(relaxation.hopeless() for relaxation in trees)
     free: list[tuple[Relaxation, Run]] = []
     for relaxation in trees:
         if not (free and deadline.passed):
             free += [(relaxation, run) for run in relaxation.starts(1 if hopeless else None)]
     choosing: Choosing | None = None
-    if sizes.names:
-        choosing, found = _choose(trees, len(records), study.solver)
+    if listed:
+        choosing, found = _choose(trees, building.exact(), combinations, study.solver)
     else:
         found = free
-        choosing = _chosen(free, len(records), study.solver) if len(records) > 1 else None
+        choosing = _chosen(free, combinations, study.solver) if combinations > 1 else None
     relaxation, run = min(found, key=lambda one: order(one[1]))
-    recorded = [*free, *(found if sizes.names else [])]
+    recorded = [*free, *(found if listed else [])]
+    nominal = run
     if study.robust and not deadline.passed:
-        run, begun = _robust(relaxation, run), run
-        recorded = [(one[0], run) if one[1] is begun else one for one in recorded]
+        relaxation, nominal, run = _robust(found)
+        if study.robust.share is None:
+            recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
+    margined = study.robust is not None and study.robust.share is not None and run is not nominal
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
     settled = put_at_bounds(relaxation.optimizer, run)
     recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
@@ -74,7 +79,7 @@ def optimize(
     for number, (_, one) in enumerate(recorded):
         one.start = replace(one.start, number=number)
     keep(relaxation.optimizer, [one for other, one in recorded if other is relaxation])
-    starts = tuple(one.start for _, one in recorded)
+    starts = tuple(one.start for _, one in recorded if not (margined and one is run))  # those without margins
     seconds = {
         key: sum(relaxation.optimizer.seconds[key] for relaxation in trees) for key in trees[0].optimizer.seconds
     }
@@ -85,34 +90,39 @@ def optimize(
         choosing=choosing,
         conflict_set=conflict_set,
         passed_over=dict(passed_over),
-        yield_reached=_yield_reached(relaxation.optimizer, run),
+        yield_reached=_yield_reached(relaxation.optimizer, run, nominal),
         out_of_time=deadline.seconds if deadline.met else None,
     )
+    if solution.status == OPTIMAL and solution.yield_reached and not solution.yield_reached.reached:
+        return replace(solution, status=BELOW_YIELD)
     return replace(solution, status="infeasible: this design breaks its limits least") if conflict_set else solution
 
 
-def _robust(relaxation: Relaxation, run: Run) -> Run:
-    """The best run, sought again so that limits on times, too, are kept by modules that spread; told as its start."""
-    from tvimdesign.solve.uncertainty.robust import settle
+def _robust(found: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:
+    """The best of some designs that can be made robust, as it was and as it is then, told as its start."""
+    from tvimdesign.solve.uncertainty.robust import most_robust  # it loads the compiler
 
-    sizes = {
-        name: (float(size), float(size)) for name, size in run.start.choices.items() if name in relaxation.sizes.names
-    }
-    found = settle(relaxation.optimizer, run, sizes)
-    begun = run.start
-    found.start = replace(found.start, choices=begun.choices, begin=begun.begin)
-    return found
+    ranked = sorted(found, key=lambda one: order(one[1]))
+    place, run = most_robust([(relaxation.optimizer, run, _sizes(relaxation, run)) for relaxation, run in ranked])
+    relaxation, begun = ranked[place]
+    run.start = replace(run.start, choices=begun.start.choices, begin=begun.start.begin)
+    return relaxation, begun, run
 
 
-def _yield_reached(optimizer: Optimizer, run: Run) -> YieldReached | None:
+def _sizes(relaxation: Relaxation, run: Run) -> dict[str, tuple[float, float]]:
+    """The listed sizes of a run's combination, each as the ends that keep it."""
+    chosen = run.start.choices
+    return {name: (float(chosen[name]), float(chosen[name])) for name in relaxation.sizes.names if name in chosen}
+
+
+def _yield_reached(optimizer: Optimizer, run: Run, nominal: Run) -> YieldReached | None:
     """What modules drawn at random keep of the best run, where a yield is asked for."""
     robust = optimizer.study.robust
     if robust is None or robust.share is None or not run.start.converged:
         return None
-    from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
+    from tvimdesign.solve.uncertainty.yield_account import account_of_yield  # it loads the compiler
 
-    drawn = yields_of(optimizer).at(run.inputs)
-    return YieldReached(drawn.residuals.shape[1], drawn.shares, drawn.together.share)
+    return account_of_yield(optimizer, run, nominal, robust.share)
 
 
 def _reconciled(
@@ -131,47 +141,8 @@ def _reconciled(
     return conflict_search.run, conflict_search.conflict_set
 
 
-def _refuse_too_many(sizes: Sizes, records: int) -> None:
-    if sizes.count * records > MAX_COMBINATIONS:
-        raise InputError(
-            f"vary: {sizes.count * records} combinations of listed choices; the limit is {MAX_COMBINATIONS}; "
-            "narrow a list with from and to, take a longer step, or give a range in place of a list"
-        )
-    if records > MAX_RECORDS:
-        raise InputError(
-            f"vary: {records} combinations of records; the limit is {MAX_RECORDS}, as each is searched on its own; "
-            "choose among fewer records"
-        )
-
-
-def _trees(
-    study: Study, sizes: Sizes, records: Sequence[Mapping[str, str]],
-    reference: dict[str, float] | None, progress: Progress, objectives: Sequence[str], deadline: Deadline,
-) -> list[Relaxation]:  # fmt: skip
-    """The problem of each combination of records, built once for all whose numbers alone differ."""
-    trees: list[Relaxation] = []
-    refused: list[InfeasibleError] = []
-    for choice in records:
-        if trees and deadline.passed:
-            break
-        asked = with_records(study, choice)
-        try:
-            optimizer = next(filter(None, (relaxation.optimizer.with_records(asked) for relaxation in trees)), None)
-            optimizer = optimizer or Optimizer(
-                asked, reference, progress, objectives=objectives, deadline=deadline
-            )  # fmt: skip
-        except InfeasibleError as error:  # a limit that nothing free can mend, with these records
-            refused.append(error)
-            continue
-        reference = optimizer.reference
-        trees.append(Relaxation(len(trees), optimizer, dict(choice), sizes, SolverEffort()))
-    if not trees:
-        raise refused[0]
-    return trees
-
-
 def _choose(
-    trees: Sequence[Relaxation], records: int, asked: SolverOptions
+    trees: Sequence[Relaxation], exact: ExactCombinations, combinations: int, asked: SolverOptions
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
     """The best combinations by branch and bound, and where that is asked for by solving all."""
     search = BranchAndBound(trees, asked.alternatives)
@@ -183,25 +154,43 @@ def _choose(
         found, pruned = _each(trees, search.found, proof), 0
         improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
-    shown = ranked[: asked.alternatives]
-    combinations = trees[0].sizes.count * records
-    optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
-    between = min(optima, key=lambda one: order(one[1]), default=None)
+    told = [(trees[place], found[place, box]) for place, box in ranked]
+    best = exact.solved(trees[ranked[0][0]], ranked[0][1], found[ranked[0]]) if ranked else None
+    shown = [*([best] if best else []), *told[1 : asked.alternatives]]
     choosing = Choosing(
         combinations=combinations, solved=len(found), pruned=pruned,
         without_design=0 if stopped else combinations - len(found) - pruned,
         not_searched=combinations - len(found) - pruned if stopped else 0,
-        best=tuple(_standard(trees[key[0]], found[key]) for key in shown),
-        between=_standard(*between) if between else None,
+        best=tuple(_standard(*one) for one in shown), between=_between(trees, exact, shown), bound=_least(trees),
         proven=asked.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
         work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
-    reported = [(trees[key[0]], found[key]) for key in ranked if key in search.found or key in shown]
-    return choosing, reported or [_closest(trees[0])]
+    others = [one for key, one in zip(ranked, told, strict=True) if key in search.found or one in shown]
+    plain = [one for one in others[1:] if not one[0].sizes.mixtures]
+    return choosing, [best, *plain] if best else [_closest(trees[0], exact)]
+
+
+def _between(
+    trees: Sequence[Relaxation], exact: ExactCombinations, best: Sequence[tuple[Relaxation, Run]]
+) -> Standard | None:
+    """The best design with every size free; with the best records, where these are mixed."""
+    if any(relaxation.sizes.mixtures for relaxation in trees):
+        run = exact.between(*best[0]) if best else None
+        return _standard(best[0][0], run) if run else None
+    optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
+    between = min(optima, key=lambda one: order(one[1]), default=None)
+    return _standard(*between) if between else None
+
+
+def _least(trees: Sequence[Relaxation]) -> float | None:
+    """Objective below which no combination comes; None where no records are mixed."""
+    if not any(relaxation.sizes.mixtures for relaxation in trees):
+        return None
+    return min((relaxation.optima[0].start.objective for relaxation in trees if relaxation.optima), default=None)
 
 
 def _chosen(runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverOptions) -> Choosing:
-    """The account where records alone are listed: each has been searched from every start."""
+    """The account where only records of different structure are listed: each has been searched from every start."""
     best: dict[int, tuple[Relaxation, Run]] = {}
     stopped = any(relaxation.optimizer.deadline.met for relaxation, _ in runs)
     searched = len({relaxation.place for relaxation, _ in runs}) if stopped else records
@@ -237,12 +226,12 @@ def _improvement(found: _Found, every: _Found) -> float:
     return max(best - least, 0.0) / abs(best)
 
 
-def _closest(relaxation: Relaxation) -> tuple[Relaxation, Run]:
+def _closest(relaxation: Relaxation, exact: ExactCombinations) -> tuple[Relaxation, Run]:
     """Where the solver ended at the sizes nearest to the best design between them, as no combination has a design."""
     whole = relaxation.sizes.whole
     optimum = relaxation.optima[0] if relaxation.optima else None
     values = relaxation.values(optimum) if optimum else relaxation.start_values
-    return relaxation, relaxation.closest(relaxation.sizes.nearest(values, whole))
+    return exact.closest(relaxation, relaxation.sizes.nearest(values, whole))
 
 
 def _standard(relaxation: Relaxation, run: Run) -> Standard:
@@ -250,6 +239,7 @@ def _standard(relaxation: Relaxation, run: Run) -> Standard:
     optimizer = relaxation.optimizer
     cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
     values = optimizer.model.values(run.inputs, cycle.values)
-    numbers: dict[str, str | float] = dict(relaxation.values(run))
-    reported = {name: values[name] for name in optimizer.study.minimize}
-    return Standard({**relaxation.records, **numbers}, run.start.objective, reported)
+    choices: dict[str, str | float] = {**relaxation.records, **relaxation.values(run)}
+    if relaxation.sizes.mixtures:
+        choices = run.start.choices
+    return Standard(choices, run.start.objective, {name: values[name] for name in optimizer.study.minimize})

@@ -18,7 +18,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Choice, Input
 from tvimdesign.study.resolve import given
-from tvimdesign.study.study import Range, Requirement, Study, Vary
+from tvimdesign.study.study import Range, Requirement, Robust, Study, Vary
 from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.places import Places
 from tvimdesign.study.text.values import ROUNDING
@@ -129,11 +129,17 @@ def _conditions(of: Entrant) -> Iterator[_Condition]:
     for name in ("cells", "elements"):
         value = getattr(study.solver, name)
         yield _Condition(name, f"solver.{name}", value, str(value))
-    sigma = study.robust.sigma if study.robust else 0.0
-    yield _Condition("robust", "robust", sigma, f"limits are kept by {sigma:.3g} standard deviations")
+    robust = study.robust and (study.robust.sigma, study.robust.share)
+    yield _Condition("robust", "robust", robust, _robust_in_words(study.robust))
     if study.vary:
         shares = ", ".join(f"{name} {weight:g}" for name, weight in study.minimize.items())
         yield _Condition("objective", "minimize", dict(study.minimize), f"the objective is {shares}")
+
+
+def _robust_in_words(robust: Robust | None) -> str:
+    if robust is not None and robust.share is not None:
+        return f"{robust.share:.3g} of the modules keep the limits"
+    return f"limits are kept by {robust.sigma if robust and robust.sigma else 0.0:.3g} standard deviations"
 
 
 def _is_condition(row: Input | Choice) -> bool:

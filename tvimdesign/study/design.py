@@ -29,8 +29,8 @@ class Design(BaseModel):
     name: str
     mode: str
     status: str
-    """`evaluated`, `optimal`, `above_rating` (the optimum, beyond a rating that the study does not accept), or why
-    not."""
+    """`evaluated`, `optimal`, `above_rating` (the optimum, beyond a rating that the study does not accept),
+    `below_yield` (a design that fewer modules keep than the study asks), or why not."""
     above_rating: tuple[str, ...] = ()
     """Quantities beyond their rating that the study does not accept."""
     accepting: tuple[str, ...] = ()

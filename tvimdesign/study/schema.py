@@ -210,7 +210,7 @@ def _tolerances(table: Table) -> _Schema:
 
 def _robust() -> _Schema:
     number = {"$ref": "#/definitions/number"}
-    about = "in how many of the modules each requirement must hold, within `tolerances`"
+    about = "standard deviations by which each limit must hold, or the share of modules that must keep all of them"
     return _section(about, {"sigma": number, "yield": number}) | {"maxProperties": 1}
 
 

@@ -75,9 +75,9 @@ class Tolerance(_Part):
 
 
 class Robust(_Part):
-    """By how many standard deviations each requirement's mean must keep its limit; `share` is the yield asked for."""
+    """By how many standard deviations each limit must be kept, or which share of the modules must keep all of them."""
 
-    sigma: float
+    sigma: float | None = None
     share: float | None = None
 
 

@@ -109,7 +109,7 @@ def _size(one: Tolerance, unit: str) -> str | None:
     return None if one.plus_minus is None else exactly(one.plus_minus, unit)
 
 
-def _robust(asked: Robust) -> dict[str, float]:
+def _robust(asked: Robust) -> dict[str, float | None]:
     return {"sigma": asked.sigma} if asked.share is None else {"yield": asked.share}
 
 

@@ -119,7 +119,7 @@ def test_each_gap_between_hub_blocks_slots_and_feet_is_what_its_drawing_gives(sq
     # In mm: six vanes of 5 and twelve blocks of 7 on 33, from 26 to 40, pads of 1.5, slots of 7 from 29.5 to 36.5.
     mm = 1e-3
     housing = np.pi / 3.0 - (2 * 7.0 + 5.0) / 33.0
-    reach = np.hypot(0.5 * 24.4094, 2.413) + 0.5 * 2.413
+    reach = np.hypot(0.5 * 24.4094, 2.0 * 2.413) + 0.5 * 2.413
     block, stroke = 7.0 / 33.0, squeezed["stroke"]
     # Squeezed, a block keeps its area and its inner radius: (r^2 - 26^2) (a - stroke) = (40^2 - 26^2) a.
     pressed_out = np.sqrt(26.0**2 + (40.0**2 - 26.0**2) * block / (block - stroke))

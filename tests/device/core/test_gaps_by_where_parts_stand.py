@@ -76,9 +76,9 @@ def test_pins_stand_on_the_rotor_and_legs_pass_above_it(p: dict[str, Any]) -> No
     pins = around(0.5 * p["pin_diameter"], p["pin_radius_ratio"] * p["placement_radius"], int(2 * p["spring_pairs"]))
     rim, leg, reach = of(p, "pin_rim_gap", "leg_rotor_gap", "leg_reach_gap")
     assert rim == pytest.approx(within(pins, p["pcl_outer_radius"] + p["rotor_rim"]) - p["radial_clearance"], abs=1e-12)
-    # The tang's bend of one wire ends on the floor; from its top the coils rise by a pitch a turn.
+    # The tang's bend of two wires ends on the floor; from its top the coils rise by a pitch a turn.
     wire, pitch = p["wire_diameter"], p["wire_diameter"] + p["coil_gap"]
-    start = wire * np.cos(np.arctan2(pitch, np.pi * p["coil_diameter"]))
+    start = 2.0 * wire * np.cos(np.arctan2(pitch, np.pi * p["coil_diameter"]))
     end = start + pitch * (p["coil_count"] + p["preload_angle"] / (2.0 * np.pi))
     plate = p["pcl_thickness"] + p["rotor_thickness"]
     assert leg == pytest.approx(end - 0.5 * wire - plate - p["axial_clearance"], abs=1e-12)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from every import of_every
 
-from tvimdesign.catalog import Catalog
+from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.device import Choice, Input, table_for
 from tvimdesign.device.table.quantity_group import _all_inputs
 
@@ -34,11 +34,14 @@ def test_a_choice_has_a_reason_and_no_range() -> None:
 
 def test_what_surrounds_a_module_is_not_chosen() -> None:
     # Air, contacts, friction and a supply are not drawn: their ranges are what a result rests on.
-    for name in ("ambient_temperature", "sink_contact", "hot_contact", "rotor_contact", "cold_side_coefficient",
-                 "sink_coefficient", "rotor_coefficient", "surface_emissivity", "adjuster_friction"):  # fmt: skip
+    for name in ("ambient_temperature", "surface_emissivity", "adjuster_friction"):
         row = INPUTS[name]
         assert None not in (row.low, row.high), name
         assert row.low < row.high, name
+    handbook = Catalog().record("heat_paths", "handbook")
+    for name in CATEGORIES["heat_paths"].values:
+        assert INPUTS[name].record == ("heat_paths", name)
+        assert handbook.entry(name).low < handbook.entry(name).value < handbook.entry(name).high, name
 
 
 def test_a_default_lies_within_its_range_and_that_within_the_limits() -> None:

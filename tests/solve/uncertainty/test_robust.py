@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tvimdesign.report.run.first_screen.verdict import status
 from tvimdesign.report.run.front_report import kept_at
-from tvimdesign.report.run.full_summary import _robustness
 from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.yield_words import below_yield, cost_of_margins, yield_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -68,9 +69,24 @@ def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price() -> None:
     assert spread.drawn.mean[i] - 2.0 * spread.drawn.deviation[i] == pytest.approx(5.0, rel=1e-3)
 
 
-def test_a_yield_asks_for_the_same_as_its_deviations() -> None:
-    _, spread = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
-    assert _share(spread, "spring_stiffness") == pytest.approx(0.9, abs=5e-3)
+def _together(study: str, seed: int) -> float:
+    """Share of modules, drawn apart from those a search draws, that keep every limit of a study's optimum."""
+    found = answer(read_study_text(study, "a test"))
+    return Tolerancing(resolve_design(found.design), lambda _: None).analyse(1 << 13, seed).together.share
+
+
+@pytest.mark.slow
+def test_a_yield_is_of_all_limits_together_and_an_independent_draw_finds_it() -> None:
+    band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.8 N.m/rad"]')
+    assert _together(band, 11) < 0.55
+    assert 0.9 <= _together(f"{band}robust: {{yield: 90 %}}\n", 11) < 0.93
+
+
+@pytest.mark.slow
+def test_limits_on_times_and_sizes_together_come_to_the_yield_too() -> None:
+    """Each of them at that share alone would leave a tenth of the modules beyond one of them."""
+    assert _together(TIMED, 12) < 0.5
+    assert 0.9 <= _together(f"{TIMED}robust: {{yield: 90 %}}\n", 12) < 0.93
 
 
 @pytest.mark.slow
@@ -80,15 +96,35 @@ def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
     sigma, all_kept = _solved(f"{uniform}robust: {{sigma: {NormalDist().inv_cdf(0.99):.6f}}}\n")
     asked, spread = _solved(f"{uniform}robust: {{yield: 99 %}}\n")
     assert _share(all_kept, "spring_stiffness") == 1.0
-    assert _share(spread, "spring_stiffness") == pytest.approx(0.99, abs=2e-3)
+    assert _share(spread, "spring_stiffness") == pytest.approx(0.993, abs=3e-3)
     assert asked.design.values["springs_mass"] < 0.97 * sigma.design.values["springs_mass"]
-    assert asked.solution is not None
-    reached = asked.solution.yield_reached
+
+
+def test_what_a_yield_costs_is_told() -> None:
+    asked, _ = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
+    plain, _ = _solved(ALGEBRAIC)
+    reached = yield_of(asked)
     assert reached is not None
-    assert reached.shares["spring_stiffness >="] == pytest.approx(0.99, abs=2e-3)
-    assert reached.together <= min(reached.shares.values())
-    (reported,) = _robustness(asked)
-    assert "keep the worst of them (spring_stiffness >=)" in reported
+    assert reached.nominal["springs_mass"] == pytest.approx(plain.design.values["springs_mass"], rel=1e-6)
+    assert reached.nominal_together == pytest.approx(0.5, abs=0.02)
+    assert 0.9 <= reached.together <= min(reached.shares.values())
+    (line,) = cost_of_margins(asked, reached, read_study_text(ALGEBRAIC, "a test").table)
+    share = 100.0 * (asked.design.values["springs_mass"] / plain.design.values["springs_mass"] - 1.0)
+    assert line.endswith(f"({share:+.2g} %)")
+
+
+def test_a_yield_that_cannot_be_reached_says_which_limit_loses_it_and_by_which_tolerance() -> None:
+    band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
+    study = read_study_text(f"{band}robust: {{yield: 95 %}}\n", "a test")
+    found = answer(study)
+    assert found.found
+    assert found.design.status == "below_yield"
+    assert status(found).startswith("YIELD ")
+    said = below_yield(found)
+    assert "no design found that 95 % of the modules keep" in said
+    # d^4 with 0.05 mm at 2 mm against D with the coil's 2 to 3 %: the wire carries most of it.
+    assert "spring_stiffness" in said
+    assert "its spread is of wire_diameter" in said
 
 
 @pytest.mark.slow

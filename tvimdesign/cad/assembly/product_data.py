@@ -29,7 +29,7 @@ def product(design: Design, kind: str) -> Product:
 def instances(dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, cq.Solid]) -> dict[str, Instance]:
     """Mesh and place of every part at rest, by name."""
     meshes = part_meshes(drawn, installed_coils(dims))
-    return {name: Instance(meshes[kind_of(name)], _matrix(solid.location())) for name, solid in placed.items()}
+    return {name: Instance(meshes[kind_of(name)], placement(solid.location())) for name, solid in placed.items()}
 
 
 def glb_bytes(placed: Mapping[str, Instance]) -> bytes:
@@ -59,7 +59,7 @@ def _linear(part: float) -> float:
     return part / 12.92 if part <= 0.04045 else float(((part + 0.055) / 1.055) ** 2.4)
 
 
-def _matrix(location: cq.Location) -> Array:
+def placement(location: cq.Location) -> Array:
     """4 x 4 matrix of a location."""
     place_of = location.wrapped.Transformation()
     rows = [[place_of.Value(row, column) for column in range(1, 5)] for row in range(1, 4)]

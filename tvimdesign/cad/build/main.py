@@ -12,6 +12,7 @@ import os
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
@@ -110,15 +111,15 @@ def _hand_out(done: Done, out: Path) -> list[str]:
     return sorted(files)
 
 
-def main(arguments: list[str]) -> int:
-    """Run the job; returns the exit code. An error is a line of JSON too."""
+def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] = run) -> int:
+    """Run a job, which makes all parts unless told; returns the exit code. An error is a line of JSON too."""
     follow_parent()
     # The kernel prints to standard output from C++; the parent reads only what is written to this copy of it.
     lines = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
     try:
         design_path, out = (Path(argument) for argument in arguments[:2])
-        run(design_path, out, float(arguments[2]), lines)
+        job(design_path, out, float(arguments[2]), lines)
     except TvimError as error:
         lines.write(json.dumps({"error": str(error), "code": error.exit_code}) + "\n")
         return error.exit_code

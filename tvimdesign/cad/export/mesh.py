@@ -53,19 +53,19 @@ class Instance:
         return np.asarray(self.mesh.vertices @ self.matrix[:3, :3].T + self.matrix[:3, 3])
 
 
-def solid_mesh(solid: cq.Solid) -> Mesh:
-    """Triangulate a solid in its own coordinates."""
-    patches = [mesh for _, mesh in face_meshes(solid)]
+def solid_mesh(solid: cq.Solid, chord: float = CHORD, turn: float = TURN) -> Mesh:
+    """Triangulate a solid in its own coordinates, to a distance [mm] and an angle between triangles [rad]."""
+    patches = [mesh for _, mesh in face_meshes(solid, chord, turn)]
     first = np.cumsum([0] + [len(mesh.vertices) for mesh in patches])
     faces = [mesh.faces + start for mesh, start in zip(patches, first, strict=False)]
     return Mesh(np.concatenate([mesh.vertices for mesh in patches]), np.concatenate(faces))
 
 
-def face_meshes(solid: cq.Solid) -> list[tuple[cq.Face, Mesh]]:
+def face_meshes(solid: cq.Solid, chord: float = CHORD, turn: float = TURN) -> list[tuple[cq.Face, Mesh]]:
     """Triangulate a solid, face by face; neighbours have the same points on the edge between them."""
     # A fresh copy: the kernel keeps triangles with a shape, and gives those of an earlier setting.
     fresh = solid.located(cq.Location()).copy()
-    BRepMesh_IncrementalMesh(fresh.wrapped, CHORD, False, TURN, False)
+    BRepMesh_IncrementalMesh(fresh.wrapped, chord, False, turn, False)
     return [(face, _patch(face)) for face in fresh.Faces()]
 
 
@@ -83,26 +83,29 @@ def _patch(face: cq.Face) -> Mesh:
     return Mesh(vertices, corners[:, ::-1] if inside_out else corners)
 
 
-def spring_mesh(coil: Coil) -> Mesh:
-    """Tube around the wire's centre. OCC takes seconds for a swept helix, and the file is ten times as large."""
+def spring_mesh(coil: Coil, points: int = _RING) -> Mesh:
+    """Tube around the wire's centre, of so many points around it.
+
+    OCC takes seconds for a swept helix, and the file is ten times as large.
+    """
     centre, normal, tangent = _wire_centre(coil)
     binormal = np.cross(tangent, normal)
-    angle = np.arange(_RING) * 2.0 * pi / _RING
+    angle = np.arange(points) * 2.0 * pi / points
     ring = np.cos(angle)[:, None] * normal[:, None, :] + np.sin(angle)[:, None] * binormal[:, None, :]
-    radius = 0.5 * coil.wire_diameter * np.sqrt((2.0 * pi / _RING) / np.sin(2.0 * pi / _RING))
+    radius = 0.5 * coil.wire_diameter * np.sqrt((2.0 * pi / points) / np.sin(2.0 * pi / points))
     tube = (centre[:, None, :] + radius * ring).reshape(-1, 3)
-    here = np.arange(_RING)
-    following = (here + 1) % _RING
-    first = np.arange(len(centre) - 1)[:, None] * _RING
+    here = np.arange(points)
+    following = (here + 1) % points
+    first = np.arange(len(centre) - 1)[:, None] * points
     a, b = first + here, first + following
-    sides = [np.stack((a, b, b + _RING), -1), np.stack((a, b + _RING, a + _RING), -1)]
-    start_cap, end_cap = len(tube) + here, len(tube) + _RING + here
-    fan = np.arange(1, _RING - 1)
+    sides = [np.stack((a, b, b + points), -1), np.stack((a, b + points, a + points), -1)]
+    start_cap, end_cap = len(tube) + here, len(tube) + points + here
+    fan = np.arange(1, points - 1)
     caps = [
         np.stack((np.full_like(fan, start_cap[0]), start_cap[fan + 1], start_cap[fan]), -1),
         np.stack((np.full_like(fan, end_cap[0]), end_cap[fan], end_cap[fan + 1]), -1),
     ]
-    vertices = np.concatenate((tube, tube[:_RING], tube[-_RING:]))
+    vertices = np.concatenate((tube, tube[:points], tube[-points:]))
     return Mesh(vertices, np.concatenate([part.reshape(-1, 3) for part in (*sides, *caps)]))
 
 

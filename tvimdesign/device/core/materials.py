@@ -35,6 +35,13 @@ quantities.record(
     "heater_fuse", "thermal_fuses", "ultimheat_5ma3", "Thermal cut-out in the heater's leads, or none", others=("none",)
 )
 
+quantities.record(
+    "heat_paths",
+    "heat_paths",
+    "handbook",
+    "How heat passes faces that touch and leaves the module: of handbooks, or its log",
+)
+
 for name, unit, field, description in (
     ("spring_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the spring wire"),
     ("spring_density", "kg/m^3", "density", "Density of the spring wire"),

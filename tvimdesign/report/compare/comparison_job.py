@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.child_process import follow_parent
-from tvimdesign.base.errors import AboveRatingError, InfeasibleError, TvimError
+from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, TvimError
 from tvimdesign.base.units import from_si
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.device import Table
@@ -28,6 +28,7 @@ from tvimdesign.report.output.tables import check_row
 from tvimdesign.report.output.thresholds import soft_in_words
 from tvimdesign.report.run.infeasible_report import above_rating, complaint
 from tvimdesign.report.run.why import binding
+from tvimdesign.report.run.yield_words import below_yield
 from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
@@ -114,6 +115,8 @@ class ComparisonJob:
             self.found["troubles"].append(
                 {"step": "ratings", "error": refused, "exit_code": AboveRatingError.exit_code}
             )
+        if missed := below_yield(answered):
+            self.found["troubles"].append({"step": "yield", "error": missed, "exit_code": BelowYieldError.exit_code})
         return answered
 
     def _keep(self, built: Optimizer, runs: list[Run]) -> None:

@@ -106,7 +106,10 @@ def _print(measured: Measured, written: Path | None, out: Path, console: Console
     console.print(f"Values, residuals and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
 
 
-_CHOICES = {"spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module"}
+_CHOICES = {
+    "spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module",
+    "heat_paths": "heat_paths",
+}  # fmt: skip
 
 
 def _use(written: Path, category: str) -> str:

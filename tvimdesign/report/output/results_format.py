@@ -84,12 +84,25 @@ class CurrentProfileEntry(TypedDict):
 
 
 @closed
-class Yield(TypedDict):
-    """What modules drawn at random keep of a design of which a yield was asked for."""
+class LostTo(TypedDict):
+    """A limit that too many modules break, the share that keeps it, and what carries its spread [shares]."""
 
+    text: str
+    share: float
+    carriers: dict[str, float]
+
+
+@closed
+class Yield(TypedDict):
+    """What modules drawn at random keep of a design of which a yield was asked for, and of the one without margins."""
+
+    asked: float
     modules: int
     shares: dict[str, float]
     together: float
+    lost_to: list[LostTo]
+    nominal_together: float
+    nominal: dict[str, NumberEntry]
 
 
 @closed
@@ -113,6 +126,7 @@ class ChoosingEntry(TypedDict):
     proven: bool
     better_by_proof: float
     better_than_bound: float
+    objective_of_mixture: float | None
     ruled_out_by_arithmetic: int
     runs: int
     iterations: int

@@ -18,7 +18,7 @@ from tvimdesign.report.output.provenance import FindRecord, provenance
 from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, ValueEntry, Yield
 from tvimdesign.report.output.thresholds import meaning, notes
 from tvimdesign.report.output.uncertainty_format import IntervalEntry
-from tvimdesign.solve.nlp.solution import ActiveConstraint
+from tvimdesign.solve.nlp.solution import ActiveConstraint, YieldReached
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import Design, catalog_of
 
@@ -192,10 +192,16 @@ def results(answer: StudyResult, table: Table) -> Answered:
             "unpowered": {n: number_entry(v, table.unit(n)) for n, v in answer.cooling.unpowered.items()},
         },
         "best_constant_currents": best,
-        "yield_reached": cast("Yield", asdict(reached)) if reached else None,
+        "yield_reached": yield_entry(reached, table) if reached else None,
         "choosing": choosing_data(answer.solution.choosing if answer.solution else None, table),
         "solution": _all_finite(design.solution) or None,
     }
+
+
+def yield_entry(reached: YieldReached, table: Table) -> Yield:
+    """The account of a yield that was asked for, with units."""
+    nominal = {name: number_entry(value, table.unit(name)) for name, value in reached.nominal.items()}
+    return cast("Yield", asdict(reached) | {"nominal": nominal})
 
 
 def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> ValueEntry:

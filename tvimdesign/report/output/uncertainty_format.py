@@ -21,6 +21,8 @@ class IntervalEntry(NumberEntry):
     """Share of the variance that knowing one input would take away; the first is what to measure first."""
     to_halve: list[str]
     """The fewest inputs to measure for half the width; none where no few do it."""
+    before: NumberEntry | None
+    """The same by the ranges that inputs had before a user's records measured them; none where none did."""
 
 
 @closed

@@ -25,7 +25,10 @@ from tvimdesign.report.output.tables import (
     variable_rows,
 )
 from tvimdesign.report.output.thresholds import meaning
+from tvimdesign.report.run.first_screen.measured import ends_in_words
 from tvimdesign.report.run.why import binding, sentences, slack_in_words
+from tvimdesign.report.run.yield_words import cost_of_margins, lost_in_words, reached_in_words, yield_of
+from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 _SENTENCES_SHOWN = 3
@@ -41,7 +44,7 @@ def print_full_summary(
 ) -> None:
     """Print everything of an answer; `uncertainty` is what `uncertainty_data` says, `warnings` what to mend and how."""
     console.print(_verdict(answer))
-    for sentence in _robustness(answer):
+    for sentence in _robustness(answer, table):
         console.print(sentence)
     if not answer.found:
         _print_variables(answer, table, console, "Where the solver ended; this is not a design")
@@ -65,21 +68,21 @@ def print_full_summary(
     _print_prices(answer, table, console)
 
 
-def _robustness(answer: StudyResult) -> list[str]:
+def _robustness(answer: StudyResult, table: Table) -> list[str]:
     """How far within its limits a robust design is, and what modules drawn at random keep of them."""
-    robust, reached = answer.design.study.get("robust"), answer.solution.yield_reached if answer.solution else None
+    robust, reached = answer.design.study.get("robust"), yield_of(answer)
     if not robust or not answer.found:
         return []
-    if reached is None or not reached.shares:
+    if reached is None:
+        if robust["sigma"] is None:
+            return []
         return [
             f"Limits are kept by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
             "margin they show below; `tvimdesign tolerate` checks that on many modules."
         ]
-    least = min(reached.shares, key=lambda name: reached.shares[name])
-    return [
-        f"Asked was that each limit be kept by {robust['share']:.4g} of the modules. Of {reached.modules} drawn at "
-        f"random {reached.shares[least]:.2%} keep the worst of them ({least}), {reached.together:.2%} keep all."
-    ]
+    cost = ", ".join(cost_of_margins(answer, reached, table))
+    worst = "; ".join(lost_in_words(one) for one in reached.lost_to)
+    return [f"{reached_in_words(reached)}; the margins cost {cost}.", *([f"Most is lost to {worst}."] if worst else [])]
 
 
 def _print_variables(answer: StudyResult, table: Table, console: Console, title: str) -> None:
@@ -189,7 +192,9 @@ def _verdict(answer: StudyResult) -> str:
         agree = ", others may be better"
     of_start = sum(answer.design.study["minimize"].values())
     ended = f"[green]Optimal{warned}[/green]"
-    if answer.design.above_rating:
+    if answer.design.status == BELOW_YIELD:
+        ended = f"[red]Fewer modules keep the limits than the study asks{warned}[/red]"
+    elif answer.design.above_rating:
         ended = f"[red]The best design is beyond ratings that the study does not accept{warned}[/red]"
     elif answer.design.accepting:
         ended = f"[green]Optimal, accepting: {', '.join(answer.design.accepting)}{warned}[/green]"
@@ -271,7 +276,9 @@ def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Consol
     """What each headline and requirement may be, given what nobody has measured; what to measure first, and how many
     values for half the width (results.json names them).
     """
-    heads = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    measured = any(one.get("before") for one in intervals.values())
+    heads: tuple[str, ...] = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    heads += ("before measuring",) if measured else ()
     grid = _grid("What may be, over the ranges of what is not measured (95 %, all together)", heads, right=(1, 2, 3, 7))
     for output, one in intervals.items():
         if one["low"] == one["high"]:
@@ -289,7 +296,8 @@ def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Consol
         first = next(iter(one["shares"]), "")
         share = f"{100.0 * one['shares'][first]:.0f} %" if first else ""
         half = f"{len(one['to_halve'])}" if one["to_halve"] else "many"
-        grid.add_row(output, value, low, high, f"{least} to {most}", one["unit"], first, share, half)
+        earlier = (ends_in_words(one["before"]),) if measured else ()
+        grid.add_row(output, value, low, high, f"{least} to {most}", one["unit"], first, share, half, *earlier)
     if grid.row_count:
         console.print(grid)
 

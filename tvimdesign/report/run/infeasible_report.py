@@ -35,7 +35,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
         lines += ["These stand in the way there, at their limits:", *(f"  {text}" for text in held)] if held else []
     if math.isinf(answer.design.value("response_time")):
         lines.append("The switch does not end there within `horizon`.")
-    if answer.design.study.get("robust"):
+    if (answer.design.study.get("robust") or {}).get("sigma") is not None:
         lines.append("Limits are to be kept by so many standard deviations (`robust`): ask for fewer, or spread less.")
     if conflict_set:
         lines.append(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from rich.markup import escape
 
-from tvimdesign.base.errors import AboveRatingError, InfeasibleError, TvimError
+from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, TvimError
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.study import read_tree
@@ -38,6 +38,7 @@ def run_study(
     from tvimdesign.report.run.infeasible_report import above_rating, complaint
     from tvimdesign.report.run.refusal import leaving_the_reason
     from tvimdesign.report.run.write_answer import finish, write_answer
+    from tvimdesign.report.run.yield_words import below_yield
 
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
@@ -77,6 +78,8 @@ def run_study(
         raise InfeasibleError(complaint(found, answered.study.table))
     if refused := above_rating(found, answered.study.table):
         raise AboveRatingError(refused)
+    if missed := below_yield(found):
+        raise BelowYieldError(missed)
     if failures:
         raise done_in_part(failures)
 

@@ -31,7 +31,9 @@ def unknown_data(unknown: DesignUncertainty, table: Table) -> dict[str, Any]:
         "holds": None if holds is None else {"share": holds.share, "low": holds.low, "high": holds.high},
         "held": unknown.held,
         "unmeasured": [one.name for one in unknown.unmeasured],
-        "intervals": {name: interval_entry(name, one, table) for name, one in unknown.intervals.items()},
+        "intervals": {
+            name: interval_entry(name, one, table, unknown.before.get(name)) for name, one in unknown.intervals.items()
+        },
     }
 
 

@@ -66,12 +66,12 @@ def spectrum(stiffness: float, loss: float, frequency: float) -> tuple[float, Mo
 
 
 def in_series(layer: Modes, spring: float, elements: Modes) -> Modes:
-    """Modes of a layer of Maxwell elements in series with a spring beside Maxwell elements.
+    """Modes of a layer of Maxwell elements in series with a spring beside Maxwell elements, or with the spring alone.
 
     K = Q S/(Q + S) with Q, S = sum k s/(s + r) along s = -x: one zero of Q + S lies below the least rate r and one
     between each two, and is the rate of a mode; its stiffness is Q^2/(x d(Q + S)/ds) there.
     """
-    of_layer, of_structure = (np.array(modes, dtype=float).T for modes in (layer, elements))
+    of_layer, of_structure = (np.array(modes, dtype=float).reshape(-1, 2).T for modes in (layer, elements))
     rates = _apart(1.0 / of_layer[0], 1.0 / of_structure[0])
     stiffnesses = np.concatenate([of_layer[1], of_structure[1]])
     order = np.argsort(rates)

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from tvimdesign.simulation.measurement.reading.data_file import Block
 
 _FILE = Path(__file__).with_name("kinds.yaml")
+_KELVIN = 6.0
+_THIRD, _STRAY, _TAKEN_OFF = 0.33, 0.1, 0.1
 
 
 @dataclass(frozen=True)
@@ -25,6 +27,7 @@ class KindSheet:
     """A kind of measurement."""
 
     name: str
+    room: str
     about: str
     needs: tuple[tuple[str, ...], ...]
     """Columns; of each tuple one."""
@@ -33,14 +36,25 @@ class KindSheet:
     category: str
     """Of the catalogue's record that follows; empty where none does."""
     settings: Mapping[str, Mapping[str, Any]]
+    varies: tuple[str, ...] = ()
+    """Columns of which one must change, where it is there."""
+    constant: tuple[str, ...] = ()
+    """Columns that must not change, where they are there."""
+    only_asked: bool = False
+    """Whether it is fitted only where it is asked for."""
 
     def column(self, block: Block, need: tuple[str, ...]) -> str | None:
         """Which of the columns that will do a block has."""
         return next((name for name in need if name in block.columns), None)
 
     def fits(self, block: Block) -> bool:
-        """Whether a block has every column."""
-        return all(self.column(block, need) for need in self.needs)
+        """Whether a block has every column, and what must change in it changes, what must not does not."""
+        there = [name for name in self.varies if name in block.columns]
+        return (
+            all(self.column(block, need) for need in self.needs)
+            and (not there or any(_changes(block, name) for name in there))
+            and not any(_changes(block, name) for name in self.constant if name in block.columns)
+        )
 
     def lacking(self, block: Block) -> str:
         """What a block lacks, in words; why a column of that name could not be read, where there is one."""
@@ -50,9 +64,9 @@ class KindSheet:
                 return why or f"{block.file}:{block.lines[0]}: no column is {' or '.join(need)}"
         return ""
 
-    def values(self, given: Mapping[str, str]) -> dict[str, float]:
+    def values(self, given: Mapping[str, str]) -> dict[str, Any]:
         """Settings in SI: those given, as `name=value with unit`, and the defaults. Raises InputError."""
-        found = {
+        found: dict[str, Any] = {
             name: to_si(float(entry["default"]), entry["unit"])
             for name, entry in self.settings.items()
             if "default" in entry
@@ -62,11 +76,31 @@ class KindSheet:
                 close = get_close_matches(name, self.settings, n=1)
                 hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(self.settings)}"
                 raise InputError(f"--set {name}: {self.name} has no such setting; {hint}")
+            if self.settings[name]["unit"] == "text":
+                found[name] = text
+                continue
             try:
                 found[name] = parse_quantity(text, self.settings[name]["unit"])
             except UnitError as error:
                 raise InputError(f"--set {name}: {error}") from None
         return found
+
+
+def _changes(block: Block, name: str) -> bool:
+    """Whether a column changes: a temperature by some kelvin, all else by more than a third from its middle.
+
+    Values near zero are none of its own: what is taken off, as the stress of a recovery. A tenth of the rows may stray.
+    """
+    import numpy as np
+
+    values = np.abs(block.values(name)[np.isfinite(block.values(name))])
+    if name == "temperature":
+        return bool(np.quantile(values, 0.95) - np.quantile(values, 0.05) > _KELVIN)
+    on = values[values > _TAKEN_OFF * np.max(values)] if len(values) else values
+    if len(on) == 0:
+        return False
+    middle = float(np.median(on))
+    return bool(np.mean(np.abs(on / middle - 1.0) > _THIRD) > _STRAY)
 
 
 @cache
@@ -75,11 +109,16 @@ def kind_sheets() -> dict[str, KindSheet]:
     tree = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
     return {
         name: KindSheet(
-            name, entry["about"], tuple(tuple(need.split(" | ")) for need in entry["needs"]),
-            tuple(entry.get("takes", ())), entry.get("category", ""), entry["settings"],
+            name, entry["room"], entry["about"], tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ())),
+            entry.get("category", ""), entry["settings"], _words(entry.get("varies", "")),
+            _words(entry.get("constant", "")), entry.get("only_asked", False),
         )
         for name, entry in tree.items()
     }  # fmt: skip
+
+
+def _words(text: str) -> tuple[str, ...]:
+    return tuple(text.split(" | ")) if text else ()
 
 
 def kind_sheet(name: str) -> KindSheet:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -64,8 +64,13 @@ def measure_files(
         raise InputError(
             f"{why}; {sheet.name} needs {_needed(sheet)}. A column map (--columns) says which column is what"
         )
-    measure = import_module(f"tvimdesign.simulation.measurement.kinds.{sheet.name}").measure
-    return Measured(sheet, files, fitting, measure(fitting, values))
+    return Measured(sheet, files, fitting, measure_of(sheet)(fitting, values))
+
+
+def measure_of(sheet: KindSheet) -> Callable[..., Measurement]:
+    """What fits tables of a kind."""
+    measure: Callable[..., Measurement] = import_module(f"{__package__}.kinds.{sheet.room}.{sheet.name}").measure
+    return measure
 
 
 def _rows(block: Block, sheet: KindSheet) -> int:
@@ -74,7 +79,8 @@ def _rows(block: Block, sheet: KindSheet) -> int:
 
 def _likely_kind(blocks: Sequence[Block]) -> KindSheet:
     """The one kind whose columns a table has. Raises InputError where there is none, or several."""
-    likely = [sheet for sheet in kind_sheets().values() if any(sheet.fits(block) for block in blocks)]
+    guessed = [sheet for sheet in kind_sheets().values() if not sheet.only_asked]
+    likely = [sheet for sheet in guessed if any(sheet.fits(block) for block in blocks)]
     if len(likely) == 1:
         return likely[0]
     names = [sheet.name for sheet in likely or kind_sheets().values()]

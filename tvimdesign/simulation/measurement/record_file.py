@@ -12,7 +12,12 @@ from tvimdesign.base.whole_files import write_whole
 from tvimdesign.simulation.measurement.measure_files import Measured
 from tvimdesign.study import Catalog
 
-BASED_ON = {"spring_materials": "music_wire", "polymers": "pcl_80k", "peltiers": "flexible_1600"}
+BASED_ON = {
+    "spring_materials": "music_wire",
+    "polymers": "pcl_80k",
+    "peltiers": "flexible_1600",
+    "heat_paths": "handbook",
+}
 """What a record is based on unless told: all that was not measured is that one's."""
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,60}")
 _DIGITS = 6

@@ -21,6 +21,8 @@ from tvimdesign.solve.nlp.solver_run import Run
 
 GAP = 1e-6
 """Share by which a box must promise better than what is known to be looked into."""
+_NEXT_RECORDS = 3
+"""Records of each mixture, by cost, that are tried beside a tree's first combination."""
 _DATA = 20
 """Boxes between two words of progress."""
 
@@ -50,6 +52,7 @@ class BranchAndBound:
     _open: list[Node] = field(default_factory=list)
     _made: int = 0
     _told: int = 0
+    _tried_others: set[int] = field(default_factory=set)
     _bounded: list[NDArray[np.bool_]] = field(default_factory=list)
 
     def run(self) -> None:
@@ -121,7 +124,7 @@ class BranchAndBound:
     def _bound(self, node: Node, box: Box) -> None:
         """Solve one half of a box, and keep it where it may hold better combinations."""
         relaxation, near = node.relaxation, node.run
-        if near is not None and _inside(relaxation, near, box):
+        if near is not None and relaxation.sizes.hold(relaxation.values(near), box):
             self._add(relaxation, box, node.bound, near, node.depth + 1)
             return
         run, certain = relaxation.best_within(box, near)
@@ -139,11 +142,29 @@ class BranchAndBound:
         self._made += 1
 
     def _try(self, relaxation: Relaxation, box: Box, near: Run | None) -> None:
-        """Solve one combination; the better of two where another tree came to it too."""
+        """Solve one combination; the better of two where another box came to it too, and promises better."""
         key = (relaxation.place, box)
+        if key in self.found and near is not None:
+            known, promised = self.found[key].start.objective, near.start.objective
+            if known <= promised + GAP * abs(promised):
+                return
         run, _ = relaxation.exactly(box, near)
         if run is not None and (key not in self.found or order(run) < order(self.found[key])):
+            best = min((one.start.objective for one in self.found.values()), default=math.inf)
             self.found[key] = run
+            if run.start.objective < best:
+                self._say(relaxation)
+            self._try_other_records(relaxation, box, run)
+
+    def _try_other_records(self, relaxation: Relaxation, box: Box, run: Run) -> None:
+        """Solve what differs from a tree's first combination in one record: good ones rule out much from then on."""
+        if relaxation.place in self._tried_others:
+            return
+        self._tried_others.add(relaxation.place)
+        for axis in range(len(box) - len(relaxation.sizes.mixtures), len(box)):
+            for place in range(min(_NEXT_RECORDS, len(relaxation.sizes.sizes[axis]))):
+                if place != box[axis][0] and not self.stopped:
+                    self._try(relaxation, (*box[:axis], (place, place), *box[axis + 1 :]), run)
 
     def _halves(self, node: Node) -> tuple[Box, Box]:
         """Split where a number lies farthest from its sizes, in shares of it; else the longest list in the middle."""
@@ -155,7 +176,7 @@ class BranchAndBound:
                 continue
             below = int(np.searchsorted(listed[first : last + 1], values[name] * (1.0 + SAME_SIZE), side="right"))
             below = min(max(first + below - 1, first), last - 1)
-            distance = min(_apart(values[name], listed[place], listed[-1]) for place in (below, below + 1))
+            distance = min(sizes.apart(i, values[name], listed[place]) for place in (below, below + 1))
             if distance > far:
                 chosen, cut, far = i, below, distance
         if chosen < 0 or far <= SAME_SIZE:
@@ -168,26 +189,14 @@ class BranchAndBound:
     def _tell(self, relaxation: Relaxation) -> None:
         self._told += 1
         if self._told % _DATA == 1:
-            left, best = len(self._open), min((run.start.objective for run in self.found.values()), default=None)
-            so_far = "" if best is None else f", objective {best:.5g} so far"
-            said = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
-            relaxation.optimizer.progress(said)
+            self._say(relaxation)
 
-
-def _inside(relaxation: Relaxation, run: Run, box: Box) -> bool:
-    """Whether a run's own numbers lie in a box."""
-    values = relaxation.values(run)
-    return all(
-        low * (1.0 - SAME_SIZE) <= values[name] <= high * (1.0 + SAME_SIZE)
-        for name, (low, high) in relaxation.sizes.ends(box).items()
-    )
-
-
-def _apart(value: float, size: float, largest: float) -> float:
-    """How far a value is from a size, in shares of it; of the largest size where one of them is nothing."""
-    if value > 0.0 and size > 0.0:
-        return abs(math.log(value / size))
-    return abs(value - size) / (abs(largest) or 1.0)
+    def _say(self, relaxation: Relaxation) -> None:
+        """How far the search is, and the best objective so far."""
+        left, best = len(self._open), min((run.start.objective for run in self.found.values()), default=None)
+        so_far = "" if best is None else f", objective {best:.5g} so far"
+        said = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
+        relaxation.optimizer.progress(said)
 
 
 def _slices(box: Box) -> tuple[slice, ...]:

@@ -3,27 +3,39 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Input, Table
+from tvimdesign.solve.nlp.mixture import Mixture
 from tvimdesign.solve.nlp.solver_run import Ends
 from tvimdesign.study import Options, Study
 
 Box = tuple[tuple[int, int], ...]
-"""First and last place among the sizes of each listed number, in their order."""
+"""First and last place among the sizes of each listed number and the records of each mixture, in their order."""
 
 SAME_SIZE = 1e-6
 """Share of a size within which a number has it."""
+_ONE_RECORD = 1e-4
+"""Share of other records up to which a design is that of one: IPOPT leaves as much of what it does not want."""
+_RECORDS_LAST = 0.1
+"""Distance [shares of a size] at which half of another record lies, twice: records that are as good as one another stay
+mixed while sizes are divided, for their boxes would all be divided alike."""
+_BESIDE = 0.45
+"""A mixed design is nearer to the record it has most of than to the next."""
 
 
 @dataclass(frozen=True)
 class Sizes:
-    """The listed numbers of a study, each with its sizes (SI) from the smallest up."""
+    """The listed numbers of a study, each with its sizes (SI) from the smallest up; then its mixtures of records.
+
+    The records of a mixture have the sizes 1, 2, ... in their order. A mixed design lies beside the record that it has
+    most of, farther from it the more it has of others.
+    """
 
     names: tuple[str, ...]
     sizes: tuple[tuple[float, ...], ...]
+    mixtures: tuple[Mixture, ...] = ()
 
     @property
     def count(self) -> int:
@@ -40,12 +52,55 @@ class Sizes:
         """The box of all sizes."""
         return tuple((0, count - 1) for count in self.shape)
 
-    def ends(self, box: Box) -> dict[str, Ends]:
+    def mixed(self, mixtures: Sequence[Mixture]) -> Sizes:
+        """The same numbers, and the records of mixtures."""
+        numbers = len(self.names) - len(self.mixtures)
+        places = tuple(tuple(float(i + 1) for i in range(len(one.records))) for one in mixtures)
+        names = (*self.names[:numbers], *(one.name for one in mixtures))
+        return Sizes(names, (*self.sizes[:numbers], *places), tuple(mixtures))
+
+    def numbers(self, box: Box) -> dict[str, Ends]:
         """Least and largest value of each listed number in a box."""
+        count = len(self.names) - len(self.mixtures)
         return {
             name: (sizes[first], sizes[last])
-            for name, sizes, (first, last) in zip(self.names, self.sizes, box, strict=True)
+            for name, sizes, (first, last) in zip(self.names[:count], self.sizes, box, strict=False)
         }
+
+    def ends(self, box: Box) -> dict[str, Ends]:
+        """The same, and the least and largest share of each record."""
+        found = self.numbers(box)
+        for mixture, (first, last) in zip(self.mixtures, self._places(box), strict=True):
+            for place, name in enumerate(mixture.shares):
+                inside = first <= place <= last
+                found[name] = (float(inside and first == last), float(inside))
+        return found
+
+    def records(self, box: Box) -> dict[str, str]:
+        """What is chosen in a box of one."""
+        found: dict[str, str] = {}
+        for mixture, (first, _) in zip(self.mixtures, self._places(box), strict=True):
+            found |= mixture.records[first]
+        return found
+
+    def values(self, inputs: Mapping[str, float]) -> dict[str, float]:
+        """The listed numbers of a design, and where it lies among the records of each mixture."""
+        found = {name: inputs[name] for name in self.names[: len(self.names) - len(self.mixtures)]}
+        return found | {one.name: _among([inputs[name] for name in one.shares]) for one in self.mixtures}
+
+    def apart(self, place: int, value: float, size: float) -> float:
+        """How far a value is from a size, in shares of it; of the largest size where one of them is nothing.
+
+        Records are nearer to one another, so that sizes are divided first.
+        """
+        if place >= len(self.names) - len(self.mixtures):
+            return _RECORDS_LAST * abs(value - size)
+        if value > 0.0 and size > 0.0:
+            return abs(math.log(value / size))
+        return abs(value - size) / (abs(self.sizes[place][-1]) or 1.0)
+
+    def _places(self, box: Box) -> Box:
+        return box[len(self.names) - len(self.mixtures) :]
 
     def each(self) -> Iterator[Box]:
         """Every combination once, each a neighbour of the one before: to and fro along one number after another."""
@@ -69,13 +124,24 @@ class Sizes:
 
     def are_sizes(self, values: Mapping[str, float], box: Box) -> bool:
         """Whether values are those of one combination in a box."""
-        ends = self.ends(self.nearest(values, box))
-        return all(abs(values[name] - size) <= SAME_SIZE * abs(size) for name, (size, _) in ends.items())
+        return self.hold(values, self.nearest(values, box))
 
-    def in_words(self, table: Table, box: Box) -> str:
-        """`wire_diameter 2 mm, coil_count 3.25`: the smallest of a box."""
-        ends = self.ends(box).items()
-        return ", ".join(f"{name} {format_quantity(low, table.unit(name))}" for name, (low, _) in ends)
+    def hold(self, values: Mapping[str, float], box: Box) -> bool:
+        """Whether values lie in a box."""
+        return all(
+            sizes[first] * (1.0 - SAME_SIZE) <= values[name] <= sizes[last] * (1.0 + SAME_SIZE)
+            for name, sizes, (first, last) in zip(self.names, self.sizes, box, strict=True)
+        )
+
+
+def _among(shares: Sequence[float]) -> float:
+    """Where shares lie among records: at one, or beside it on the side on which there is more of the others."""
+    most = max(range(len(shares)), key=shares.__getitem__)
+    beside = min(1.0 - shares[most], _BESIDE)
+    if beside < _ONE_RECORD:
+        return most + 1.0
+    more = sum(shares[:most]) < sum(shares[most + 1 :])
+    return most + 1.0 + (beside if more else -beside)
 
 
 def is_one(box: Box) -> bool:

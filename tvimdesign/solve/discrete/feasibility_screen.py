@@ -31,11 +31,20 @@ class FeasibilityScreen:
         self._optimizer = optimizer
         unknowns, worst = ca.MX.sym("free", len(optimizer.free)), ca.MX.sym("worst")
         residuals = self._residuals(unknowns)
-        function = ca.Function(
-            "screen", [ca.vertcat(unknowns, worst), ca.MX.sym("none", 0)], [worst, residuals - worst], *NLP
-        )
+        inputs = optimizer.problem.with_unknowns(ca.MX(ca.DM(optimizer.model.start)), unknowns)
+        rows = ca.vertcat(optimizer.problem.shares_less_one(inputs), residuals - worst)
+        function = ca.Function("screen", [ca.vertcat(unknowns, worst), ca.MX.sym("none", 0)], [worst, rows], *NLP)
+        self._count = residuals.numel()
         options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
+        self._at: Any = ca.Function("residuals", [unknowns], [residuals]).expand()
         self._solver: Any = ca.nlpsol("screen", "ipopt", function.expand(), options)
+
+    def broken(self, inputs: Array) -> float:
+        """The most by which some inputs break a limit, as a share of its scale; infinite at no geometry."""
+        optimizer = self._optimizer
+        unknowns = [free.to_unknown(inputs[optimizer.model.index[free.name]]) for free in optimizer.free]
+        residuals = np.asarray(self._at(unknowns)).ravel()
+        return float(np.max(residuals, initial=-np.inf)) if np.all(np.isfinite(residuals)) else np.inf
 
     def _residuals(self, unknowns: Any) -> Any:
         """Those of the arithmetic limits at the free numbers' unknowns; margins for what spreads are left out."""
@@ -57,8 +66,9 @@ class FeasibilityScreen:
         count = len(optimizer.free)
         lower, upper = (ends[:count] for ends in optimizer.vector.bounds(within))
         start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
+        least, largest = optimizer.with_room_where_decided(np.zeros(len(optimizer.mixtures)), within)
         found = self._solver(
-            x0=np.append(np.clip(start, lower, upper), 0.1), lbg=-np.inf, ubg=0.0,
-            lbx=np.append(lower, 0.0), ubx=np.append(upper, np.inf),
+            x0=np.append(np.clip(start, lower, upper), 0.1), lbg=np.append(least, np.full(self._count, -np.inf)),
+            ubg=np.append(largest, np.zeros(self._count)), lbx=np.append(lower, 0.0), ubx=np.append(upper, np.inf),
         )  # fmt: skip
         return bool(self._solver.stats()["success"]) and float(found["f"]) > ALGEBRAIC_TOLERANCE

@@ -7,9 +7,12 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 
+import numpy as np
+
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
 from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
+from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
@@ -17,6 +20,14 @@ from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+
+_CLOSE = 0.1
+"""Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
+whether the limits can be kept there at all."""
+
+
+_SAME_RECORDS = 0.5
+"""Change of a record's share from which on multipliers of a run nearby say nothing any more."""
 
 
 @dataclass(eq=False)
@@ -58,7 +69,7 @@ class Relaxation:
             best = min((one.start.objective for one in runs if one.start.converged), default=None)
             so_far = "" if best is None else f", objective {best:.5g} so far"
             self.optimizer.progress(f"start {number + 1} of {count}{so_far}")
-            run = self.optimizer.solve(begin=self.constant_current_optimum.beyond(begin))
+            run = self._from_one_of_each(self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
                 run = second_try.from_conflict_search(run)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
@@ -71,21 +82,62 @@ class Relaxation:
             if all(abs(objective - o.start.objective) > SAME_OPTIMUM * abs(objective) for o in self.optima):
                 self.optima.append(run)
         self._ends = [] if self.optima else runs
+        self._sort_records()
         return runs
+
+    def _from_one_of_each(self, begin: Array) -> Run:
+        """The best design from a start, with the records that it has most of first, and then with all of them.
+
+        A mixture that IPOPT begins in the middle of takes several times as long, and ends in worse optima.
+        """
+        if not self.sizes.mixtures:
+            return self.optimizer.solve(begin=begin)
+        index = self.optimizer.model.index
+        point, ends = begin.copy(), dict[str, Ends]()
+        for mixture in self.sizes.mixtures:
+            most = max(mixture.shares, key=lambda name: begin[index[name]])
+            ends |= {name: (float(name == most),) * 2 for name in mixture.shares}
+        for name, (share, _) in ends.items():
+            point[index[name]] = share
+        point = self._mixed(point, ends)
+        alone = self.optimizer.solve(ends, begin=point)
+        if not alone.start.converged:
+            return self.optimizer.solve(begin=begin)
+        run = self.optimizer.solve(begin=alone.inputs, unknowns=alone.unknowns, beginning="near")
+        return run if run.start.converged else self.optimizer.solve(begin=alone.inputs)
+
+    def _sort_records(self) -> None:
+        """Put first the records that the best optimum would have, then those that would cost it least.
+
+        What a share costs is what presses on its lower end: to first order, what an optimum with more of it loses.
+        """
+        if not self.optima:
+            return
+        places = {free.name: i for i, free in enumerate(self.optimizer.free)}
+        press = self.optima[0].bound_multipliers
+        mixtures = []
+        for mixture in self.sizes.mixtures:
+            costs = [-press[places[name]] for name in mixture.shares]
+            mixtures.append(mixture.in_order(sorted(range(len(costs)), key=lambda i: (costs[i], i))))
+        self.sizes = self.sizes.mixed(mixtures)
 
     def choices(self, box: Box) -> dict[str, str | float]:
         """Records and sizes of a box of one."""
-        return {**self.records, **{name: low for name, (low, _) in self.sizes.ends(box).items()}}
+        chosen = {**self.records, **self.sizes.records(box)}
+        records = {name: chosen[name] for name in self.optimizer.study.module if name in chosen}
+        return {**records, **{name: low for name, (low, _) in self.sizes.numbers(box).items()}}
 
     def values(self, run: Run) -> dict[str, float]:
-        """The listed numbers where a run ended."""
-        return {name: float(run.inputs[self.optimizer.model.index[name]]) for name in self.sizes.names}
+        """The listed numbers where a run ended, and where it lies among the records."""
+        return self.sizes.values(self._named_inputs(run.inputs))
 
     @property
     def start_values(self) -> dict[str, float]:
-        """The listed numbers of the study's start."""
-        model = self.optimizer.model
-        return {name: float(model.start[model.index[name]]) for name in self.sizes.names}
+        """Those of the study's start."""
+        return self.sizes.values(self._named_inputs(self.optimizer.model.start))
+
+    def _named_inputs(self, inputs: Array) -> dict[str, float]:
+        return dict(zip(self.optimizer.model.names, inputs.tolist(), strict=True))
 
     def best_within(self, box: Box, near: Run | None) -> tuple[Run | None, bool]:
         """The best design within a box, warm from a run nearby; and where there is none, whether that is certain.
@@ -95,14 +147,17 @@ class Relaxation:
         """
         ends = self.sizes.ends(box)
         begins = self._begins(ends, near)
-        if self._screened(ends, begins):
+        close = near is not None and self._screen.broken(begins[0]) <= _CLOSE
+        if not close and self._screened(ends, begins):
             return None, True
         statuses = []
         if near is not None:
-            run = self._solved(ends, warm=near)
+            run = self._beside(ends, near, begins[0])
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
+        if close and self._screened(ends, begins):
+            return None, True
         for begin in begins:
             run = self._solved(ends, begin=begin)
             if run.start.converged:
@@ -127,8 +182,6 @@ class Relaxation:
         """
         ends = self.sizes.ends(box)
         begins = self._begins(ends, None)
-        if self._screened(ends, begins):
-            return None
         runs = [self._solved(ends, warm=near)] if near else []
         runs += [self._solved(ends, begin=begin) for begin in begins]
         best = min(runs, key=order)
@@ -155,8 +208,32 @@ class Relaxation:
             for name, (low, high) in ends.items():
                 place = self.optimizer.model.index[name]
                 point[place] = min(max(point[place], low), high)
-            moved.append(point)
+            moved.append(self._mixed(point, ends))
         return moved
+
+    def _mixed(self, point: Array, ends: Mapping[str, Ends]) -> Array:
+        """Inputs whose shares add up to one: the first record in the ends alone where the point has none of them."""
+        if not isinstance(self.optimizer.model, MixedDevice):
+            return point
+        for mixture in self.sizes.mixtures:
+            places = [self.optimizer.model.index[name] for name in mixture.shares]
+            if not np.any(point[places]):
+                first = next(i for i, name in enumerate(mixture.shares) if ends[name][1] > 0.0)
+                point[places[first]] = 1.0
+        return self.optimizer.model.mixed(point)
+
+    def _beside(self, ends: Mapping[str, Ends], near: Run, point: Array) -> Run:
+        """A run within some ends from one nearby: warm, or with its states alone where its records are not in them."""
+        index, shares = self.optimizer.model.index, [name for one in self.sizes.mixtures for name in one.shares]
+        places = [index[name] for name in shares]
+        if np.all(np.abs(near.inputs[places] - point[places]) < _SAME_RECORDS):
+            return self._solved(ends, warm=near)
+        unknowns = near.unknowns.copy()
+        for i, free in enumerate(self.optimizer.free):
+            unknowns[i] = free.to_unknown(point[index[free.name]])
+        run = self.optimizer.solve(ends, begin=point, unknowns=unknowns, beginning="near")
+        self.work.count(run.start, warm=True)
+        return run
 
     def _solved(self, ends: Mapping[str, Ends], warm: Run | None = None, begin: Array | None = None) -> Run:
         run = self.optimizer.solve(ends, warm=warm, begin=begin)

@@ -14,6 +14,7 @@ from tvimdesign.study import Study
 def back_offs_of(model: DeviceFunctions, study: Study, limits: Sequence[Constraint]) -> Callable[[Any], dict[str, Any]]:
     """What is added to the residual of each limit on an algebraic output: its mean's shift and so many deviations."""
     assert study.robust is not None
+    assert study.robust.sigma is not None
     sigma = study.robust.sigma
     algebraic = [limit for limit in limits if not on_cycle(model.table, limit.output)]
     if not algebraic:

@@ -122,5 +122,7 @@ class DecisionVector:
         return inputs
 
     def free_values(self, inputs: Array) -> dict[str, float]:
-        """The free numbers among the inputs, by name."""
-        return {free.name: float(inputs[self.model.index[free.name]]) for free in self.problem.free}
+        """The free numbers among the inputs, by name; shares of records are none of the table's."""
+        shares = {name for mixture in self.problem.mixtures for name in mixture.shares}
+        names = [free.name for free in self.problem.free if free.name not in shares]
+        return {name: float(inputs[self.model.index[name]]) for name in names}

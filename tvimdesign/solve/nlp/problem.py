@@ -23,6 +23,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import Constraint
+from tvimdesign.solve.nlp.mixture import Mixture
 from tvimdesign.solve.nlp.transcription import Block, at_each, phase_block
 
 Array = NDArray[np.float64]
@@ -85,8 +86,8 @@ class Problem:
     x: the free numbers; for each block its states, column by column, and its log time; the free currents at their
     nodes; the balances' states and currents; the peaks.
     p: every input of the device, then the weights of what is minimised, then the factors of the sums, column by column.
-    g: equations, zero; the limits' residuals, in their order, kept where <= 0; sums of what is traded, below what the
-    caller says; the currents' slopes; samples less peaks, all <= 0.
+    g: equations, zero, the sums of mixtures' shares last; the limits' residuals, in their order, kept where <= 0; sums
+    of what is traded, below what the caller says; the currents' slopes; samples less peaks, all <= 0.
     """
 
     def __init__(
@@ -99,11 +100,13 @@ class Problem:
         currents: Sequence[FreeCurrent] = (),
         objectives: Sequence[str] = (),
         back_offs: Callable[[Any], dict[str, Any]] | None = None,
+        mixtures: Sequence[Mixture] = (),
     ) -> None:
         """Write objective and constraints. `minimize` names the outputs whose weighted sum is least.
 
         Those that are `traded` get a row each that bounds a sum of them, with factors that are parameters.
-        `reserves` gives, for the device's inputs, what is added to the residuals of some limits, by name.
+        `reserves` gives, for the device's inputs, what is added to the residuals of some limits, by name. The shares of
+        records in a mixture are free numbers that add up to one.
         """
         self.model = model
         self.free = tuple(free)
@@ -113,6 +116,7 @@ class Problem:
         self._elements = elements
         self.free_currents = tuple(currents)
         self._reserves = back_offs
+        self.mixtures = tuple(mixtures)
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self._check()
         self._build()
@@ -138,7 +142,10 @@ class Problem:
         ]
         objectives = ca.vertcat(*(values[wanted.index(name)] for name in self.objectives))
         sums = ca.mtimes(factors, objectives) if self.objectives else ca.MX(0, 1)
-        equations = ca.vertcat(*(block.equations for block in self.blocks), *(b.equations for b in self.balances))
+        equations = ca.vertcat(
+            *(block.equations for block in self.blocks), *(b.equations for b in self.balances),
+            self.shares_less_one(device_inputs),
+        )  # fmt: skip
         slopes = self._slopes(device_inputs)
         everything = ca.vertcat(
             unknowns, *(block.unknowns for block in self.blocks), *self._nodes.values(),
@@ -161,6 +168,11 @@ class Problem:
         for i, free in enumerate(self.free):
             entries[self.model.index[free.name]] = free.to_value(unknowns[i])
         return ca.vertcat(*entries)
+
+    def shares_less_one(self, inputs: Any) -> Any:
+        """What the shares of each mixture add up to beyond one."""
+        places = ([self.model.index[name] for name in mixture.shares] for mixture in self.mixtures)
+        return ca.vertcat(*(ca.sum1(ca.vertcat(*(inputs[place] for place in one))) - 1.0 for one in places))
 
     # --- what is simulated elsewhere, as equations ---
 

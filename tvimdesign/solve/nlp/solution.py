@@ -123,7 +123,11 @@ class Choosing:
     best: tuple[Standard, ...]
     """The best combinations, the first of them the answer."""
     between: Standard | None
-    """The best design with every listed number free between its smallest and its largest size; None where none is."""
+    """The best design with every listed number free between its smallest and its largest size, with the best records
+    where these are listed; None where none is."""
+    bound: float | None = field(default=None, kw_only=True)
+    """Objective of the best mixture of records with sizes in between, below which no combination comes as far as the
+    starts go; None where no records are mixed."""
     proven: bool
     """Whether every combination was solved, and not only those that branch and bound leaves."""
     improved: float
@@ -173,14 +177,38 @@ class Constant:
 
 
 @dataclass(frozen=True)
-class YieldReached:
-    """What modules drawn at random keep of a design of which a yield was asked for."""
+class LostTo:
+    """A limit that too many modules break, and what spreads it."""
 
+    text: str
+    share: float
+    """Share of the modules that keep it."""
+    carriers: dict[str, float]
+    """Inputs by their share of the variance behind it, the largest first."""
+
+
+@dataclass(frozen=True)
+class YieldReached:
+    """What modules drawn at random keep of a design of which a yield was asked for, and what that cost."""
+
+    asked: float
     modules: int
+    """Drawn apart from those the design was found by."""
     shares: dict[str, float]
     """Share of them that keeps each limit, by its name."""
     together: float
     """Share of them that keeps all."""
+    lost_to: tuple[LostTo, ...]
+    """The limits that most modules break, the worst first."""
+    nominal_together: float
+    """Share of modules that keeps all at the optimum without margins."""
+    nominal: dict[str, float]
+    """Headline values and minimised outputs (SI) of the optimum without margins."""
+
+    @property
+    def reached(self) -> bool:
+        """Whether as many modules as asked keep every limit."""
+        return self.together >= self.asked
 
 
 @dataclass(frozen=True)
@@ -220,7 +248,10 @@ class Solution:
         best = min((s for s in self.starts if not s.relaxed), key=lambda s: (not s.converged, s.objective))
         records = {name: value for name, value in best.choices.items() if isinstance(value, str)}
         return tuple(
-            start for start in self.starts if start.relaxed == sizes_listed and records.items() <= start.choices.items()
+            start
+            for start in self.starts
+            if start.relaxed == sizes_listed
+            and all(start.choices.get(name, value) == value for name, value in records.items())
         )
 
     def reached(self, optimum: Start) -> int:

@@ -12,6 +12,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import impossible, on_cycle
 from tvimdesign.solve.nlp.deadline import Deadline
+from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.solver_run import Array, Progress
 from tvimdesign.solve.optimizer.starting_points import unit_points
@@ -73,14 +74,16 @@ class Multistart:
             for free, share in zip(self.problem.free, next(points), strict=True):
                 low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
                 point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
+            if isinstance(self.model, MixedDevice):
+                point = self.model.mixed(point)
             values = self.model.values(point, self.cycle.values)
             numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
-            if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table) and self._heats(point):
+            if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table) and self.heats(point):
                 return point
             self.passed_over["no such module"] += 1
         return self.model.start
 
-    def _heats(self, inputs: Array) -> bool:
+    def heats(self, inputs: Array) -> bool:
         """Whether every body that takes heat in the problem's phases is one; others cost seconds to simulate."""
         return all(np.all(np.asarray(block.phase.lumps(inputs)) > 0.0) for block in self.problem.blocks)
 

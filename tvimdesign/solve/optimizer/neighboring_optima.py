@@ -37,7 +37,7 @@ class NeighboringOptima:
         self._parts: dict[str, list[int]] = {}
         """Places of the free numbers that shape a part alone."""
         for place, free in enumerate(optimizer.free):
-            row = optimizer.table.quantity(free.name)
+            row = optimizer.table.by_name.get(free.name)  # a record's share is in no table
             if isinstance(row, Input) and row.period is not None:
                 self._periods[place] = row.period
             if isinstance(row, Input) and row.part:

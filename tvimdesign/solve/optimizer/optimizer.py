@@ -22,6 +22,7 @@ from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, co
 from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.ipopt import NLP, Beginning, solver_of
+from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.nlp.solution import Start
@@ -45,6 +46,7 @@ class Optimizer:
         *,
         without_cycle: bool = False,
         deadline: Deadline | None = None,
+        mixtures: Sequence[Mixture] = (),
     ) -> None:
         """Compile the device, simulate the study's start, and build the problem.
 
@@ -52,19 +54,20 @@ class Optimizer:
         of the same device saves compiling it again. Outputs among the `objectives` can be weighed and bounded by an
         `Objective` whether the study minimises them or not. `without_cycle` leaves out the limits that depend on a
         working cycle, so that none is simulated. Runs end at the `deadline`, the study's time limit from now on unless
-        given. Raises InfeasibleError where a limit is broken that nothing free can
-        mend, InputError from the table.
+        given. Records in `mixtures` are free, too, by their shares. Raises InfeasibleError where a limit is broken that
+        nothing free can mend, InputError from the table.
         """
         self.study, self.table, self.progress = study, study.table, progress
         self.deadline = deadline or Deadline(study.solver.time_limit)
         began = time.perf_counter()
-        points = tuple(study.operating_points)
-        self.simulator = simulator or Simulator(DeviceFunctions(self.table, given(study), points, study.solver.cells))
+        self.mixtures = tuple(mixtures)
+        self.simulator = simulator or Simulator(self._device())
         self.model = self.simulator.model
         self.currents = tuple(self._current(phase, pieces) for phase, pieces in study.profile.pieces().items())
         rows = {current.row for current in self.currents}
         numbers = [name for name in study.vary if isinstance(self.table.quantity(name), Input) and name not in rows]
         self.free = tuple(self._free(name) for name in numbers)
+        self.free += tuple(Free(name, 0.0, 1.0, 1.0) for mixture in self.mixtures for name in mixture.shares)
         self.margins: dict[str, float] = {}
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
         limits = constraints_of(study, self.table, self.model.words)
@@ -78,12 +81,19 @@ class Optimizer:
         """Seconds after which a run of each solver ends."""
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
+    def _device(self) -> DeviceFunctions:
+        study = self.study
+        known = (self.table, given(study), tuple(study.operating_points), study.solver.cells)
+        return MixedDevice(*known, self.mixtures) if self.mixtures else DeviceFunctions(*known)
+
     def with_constant_currents(self) -> Optimizer | None:
         """The same problem with currents that do not change over a phase; None where they do not anyway."""
         if not self.currents:
             return None
         study = self.study.model_copy(update={"profile": ProfileOptions()})
-        return Optimizer(study, self.reference, self.progress, self.simulator, deadline=self.deadline)
+        return Optimizer(
+            study, self.reference, self.progress, self.simulator, deadline=self.deadline, mixtures=self.mixtures
+        )
 
     def _free(self, name: str) -> Free:
         vary = self.study.vary[name]
@@ -125,12 +135,14 @@ class Optimizer:
 
     def _problem(self, kept: list[Constraint], objectives: Sequence[str]) -> Problem:
         back_offs = None
-        if self.study.robust:
+        if self.study.robust and self.study.robust.sigma is not None:
             from tvimdesign.solve.nlp.back_off import back_offs_of
 
             back_offs = back_offs_of(self.model, self.study, kept)
         elements, minimize = self.study.solver.elements, tuple(self.study.minimize)
-        return Problem(self.model, self.free, kept, minimize, elements, self.currents, objectives, back_offs)
+        return Problem(
+            self.model, self.free, kept, minimize, elements, self.currents, objectives, back_offs, self.mixtures
+        )
 
     def kept_constraints(self, limits: list[Constraint]) -> list[Constraint]:
         """The limits without those that nothing free can change, which are checked here and now."""
@@ -164,8 +176,12 @@ class Optimizer:
         """What is minimised, at the study's start."""
 
     def guess(self, inputs: Array) -> Array:
-        """The unknowns at a point, with the switch simulated there; with the start's where that does not end."""
-        return self.vector.at(inputs, self.multistart.trial(inputs) or self.multistart.cycle)
+        """The unknowns at a point, with the switch simulated there; with the start's where that does not end.
+
+        Nothing is simulated where a body takes no heat: CVODES needs seconds to give that up.
+        """
+        cycle = self.multistart.trial(inputs) if self.multistart.heats(inputs) else None
+        return self.vector.at(inputs, cycle or self.multistart.cycle)
 
     def _reference(self, name: str) -> float:
         value = self.start_values[name]
@@ -186,7 +202,9 @@ class Optimizer:
         left = self.deadline.remaining
         if beginning not in self._solvers or left < 0.5 * self._limits[beginning]:
             known, asked = self._solvers.values(), self.study.solver
-            self._solvers[beginning] = solver_of(self._compiled, asked, known, beginning, most_seconds=left)
+            self._solvers[beginning] = solver_of(
+                self._compiled, asked, known, beginning, of_parameters=not self.mixtures, most_seconds=left
+            )
             self._limits[beginning] = left
         return self._solvers[beginning]
 
@@ -230,10 +248,20 @@ class Optimizer:
             np.zeros(self.problem.slope_count + self.problem.peak_count),
         )
         most = np.concatenate([self._limits_less_margins(), room, rest])
+        least, largest = self.with_room_where_decided(equations, within)
         return {
             "lbx": lower, "ubx": upper,
-            "lbg": np.concatenate([equations, np.full(len(most), -np.inf)]), "ubg": np.concatenate([equations, most]),
+            "lbg": np.concatenate([least, np.full(len(most), -np.inf)]), "ubg": np.concatenate([largest, most]),
         }  # fmt: skip
+
+    def with_room_where_decided(self, equations: Array, within: Mapping[str, Ends]) -> tuple[Array, Array]:
+        """Ends of the equations: the sum of shares that are all fixed adds up to one, and needs no equation."""
+        least, largest = equations.copy(), equations.copy()
+        for place, mixture in enumerate(self.mixtures, start=len(equations) - len(self.mixtures)):
+            ends = [within.get(name, (0.0, 1.0)) for name in mixture.shares]
+            if all(low == high for low, high in ends):
+                least[place], largest[place] = -1.0, 1.0
+        return least, largest
 
     def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
         """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it."""

@@ -9,13 +9,18 @@ from tvimdesign.device import Input, Table
 from tvimdesign.study import Options, Study
 
 
-def discrete_records(study: Study, table: Table) -> list[dict[str, str]]:
-    """Every combination of the records and options a study lists; one that chooses nothing where it lists none."""
-    listed = {
+def listed_records(study: Study, table: Table) -> dict[str, list[str]]:
+    """The records and options a study lists, by the choice's name."""
+    return {
         name: [str(value) for value in vary.values]
         for name, vary in study.vary.items()
         if isinstance(vary, Options) and not isinstance(table.quantity(name), Input)
     }
+
+
+def discrete_records(study: Study, table: Table) -> list[dict[str, str]]:
+    """Every combination of the records and options a study lists; one that chooses nothing where it lists none."""
+    listed = listed_records(study, table)
     return [dict(zip(listed, combination, strict=True)) for combination in itertools.product(*listed.values())]
 
 

@@ -9,6 +9,8 @@ OPTIMAL = "optimal"
 its materials and bought parts are rated for, or beyond that as the study accepts."""
 ABOVE_RATING = "above_rating"
 """Status of such a design beyond a rating that the study does not accept."""
+BELOW_YIELD = "below_yield"
+"""Status of a design within its limits that fewer modules keep than the study asks."""
 NO_DESIGN = "Infeasible_Problem_Detected"
 """IPOPT's word for a point from which no step brings the limits nearer."""
 

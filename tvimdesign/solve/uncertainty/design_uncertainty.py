@@ -16,8 +16,8 @@ from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
 from tvimdesign.solve.sensitivity.output_sensitivity import behind_profiles
 from tvimdesign.solve.uncertainty.contributors import contributors_of
-from tvimdesign.solve.uncertainty.intervals import Interval, draw, intervals
-from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, unmeasured_inputs
+from tvimdesign.solve.uncertainty.intervals import Interval, covered, draw, intervals
+from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, before_measuring, unmeasured_inputs
 
 Array = NDArray[np.float64]
 
@@ -44,6 +44,9 @@ class DesignUncertainty:
     """That share for each limit that is not kept all over the ranges, the least first."""
     unmeasured: tuple[UnmeasuredInput, ...] = ()
     """The inputs that were moved."""
+    before: dict[str, tuple[float, float]] = field(default_factory=dict)
+    """By asked output: between what it would lie had nothing been measured that a user's records have; empty where
+    they have nothing."""
 
 
 class UncertaintyModel:
@@ -86,7 +89,8 @@ class UncertaintyModel:
         names = {limit.name for limit in counted}
         left_out = tuple(limit.name for limit in self.limits if limit.name not in names)
         found = self._of_ranges(resolved, counted, draws, workers)
-        return DesignUncertainty(self._yield(resolved, spreading, modules, workers), len(spreading), left_out, *found)
+        parts = self._yield(resolved, spreading, modules, workers)
+        return DesignUncertainty(parts, len(spreading), left_out, *found, self._before(resolved, draws, workers))
 
     def _rows(
         self, resolved: ResolvedModule, columns: Array, places: Sequence[str], workers: int,
@@ -115,6 +119,15 @@ class UncertaintyModel:
             contributors, modules, resolved.study.solver.seed,
         ).values  # fmt: skip
         return spread.share_kept(np.all(_kept(limits, self.outputs, drawn), axis=0))
+
+    def _before(self, resolved: ResolvedModule, draws: int, workers: int) -> dict[str, tuple[float, float]]:
+        """Intervals of the asked outputs by the ranges that measured inputs had before."""
+        moved = [one for one in unmeasured_inputs(resolved) if one.name in self.names]
+        if all(one.before is None for one in moved):
+            return {}
+        drawn = draw(before_measuring(moved), draws, resolved.study.solver.seed)
+        values = self._rows(resolved, drawn, [one.name for one in moved], workers)
+        return {name: covered(values[self.outputs.index(name)]) for name in self.asked}
 
     def _of_ranges(
         self, resolved: ResolvedModule, limits: Sequence[Constraint], draws: int, workers: int

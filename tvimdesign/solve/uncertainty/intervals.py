@@ -116,8 +116,7 @@ def _interval(
     inputs: Sequence[UnmeasuredInput], nominal: float, ends: Array, drawn: Array, row: Array, instead: float
 ) -> Interval:
     happens = np.where(np.isnan(row), np.inf, row)
-    outside = 0.5 * (1.0 - COVERED)
-    low, high = (float(end) for end in np.quantile(happens, [outside, 1.0 - outside], method="inverted_cdf"))
+    low, high = covered(row)
     moved = [Swing(one, _or_never(a), _or_never(b)) for one, (a, b) in zip(inputs, ends, strict=True)]
     swings = sorted((swing for swing in moved if swing.at_low != swing.at_high), key=lambda swing: -swing.size)
     most = high if np.isfinite(high) else max(instead, low)
@@ -131,6 +130,14 @@ def _interval(
     told = {name: share for name, share in shares.items() if share >= _LEAST}
     low, high = min(low, nominal), max(high, nominal)  # a value at an end of its range is none the less possible
     return Interval(nominal, low, high, tuple(swings), dict(sorted(told.items(), key=lambda item: -item[1])))
+
+
+def covered(row: Array) -> tuple[float, float]:
+    """Between what `COVERED` of the draws of an output lie; infinite where too many never happen."""
+    happens = np.where(np.isnan(row), np.inf, row)
+    outside = 0.5 * (1.0 - COVERED)
+    low, high = (float(end) for end in np.quantile(happens, [outside, 1.0 - outside], method="inverted_cdf"))
+    return low, high
 
 
 def _or_never(value: float) -> float:

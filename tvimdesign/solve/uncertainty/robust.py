@@ -1,14 +1,13 @@
 """A robust optimum: how far within its limits a design must stay so that modules that spread keep them.
 
-Limits on algebraic outputs stay inside by expressions of the problem itself (`reserves`). Times, energies and peaks
-follow from the working cycle; their spread comes from its exact derivatives at the optimum found, which is then sought
-again. Where a yield is asked for, modules drawn at random correct what deviations alone say of an output that is no
-normal one.
+By deviations: limits on algebraic outputs stay inside by expressions of the problem itself (`back_off`). Times,
+energies and peaks follow from the working cycle; their spread comes from its exact derivatives at the optimum found,
+which is then sought again. By a yield: see `yield_search`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -16,29 +15,65 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.contributors import contributors_of
-from tvimdesign.solve.uncertainty.yields import yields_of
+from tvimdesign.solve.uncertainty.yield_search import Robust, reach_yield
 
 ROUNDS = 6
 _SETTLED = 1e-3
 """Change of a margin, as a share of its limit's scale, below which it is settled."""
-_PRESSING = 1e-6
-"""Multiplier from which on a limit holds the design, objectives a share of its scale."""
+MOST_TRIED = 3
+"""Designs that are tried, the best first, until one of them comes to the yield that is asked for."""
+
+Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
+"""A design that is not robust: its problem, its run, and the sizes it is kept at."""
+
+
+def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
+    """The place of the first of some designs, the best first, that can be made as robust as its study asks, and the run
+    that is; where none can, of the one that comes nearest.
+    """
+    found: list[tuple[int, Robust]] = []
+    for place, candidate in enumerate(candidates):
+        optimizer, run, within = candidate
+        if found and (
+            len(found) >= MOST_TRIED or optimizer.deadline.passed or _tried(run, [candidates[i][1] for i, _ in found])
+        ):
+            continue
+        optimizer.margins = {}
+        found.append((place, _robust(optimizer, run, within, None)))
+        if found[-1][1].reached:
+            break
+    best, robust = max(found, key=lambda one: (one[1].reached, one[1].kept))
+    candidates[best][0].margins = robust.margins
+    return best, robust.run
+
+
+def _tried(run: Run, tried: Iterable[Run]) -> bool:
+    """Whether a run did not converge, or ended at an optimum that has been tried."""
+    return not run.start.converged or any(same_optimum(run.start, one.start) for one in tried)
 
 
 def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None = None) -> Run:
     """Seek the optimum `within` ends again until limits on what the cycle supplies are kept as robustly as the others,
-    and where a yield is asked for until so many modules keep each limit.
+    or, where a yield is asked for, until so many modules keep every limit.
 
     Returns the last run, converged or not; without such limits, the run as it is.
     """
-    run = _settled(optimizer, run, within, objective)
-    assert optimizer.study.robust is not None
-    share = optimizer.study.robust.share
-    return run if share is None else _reached(optimizer, run, within, objective, share)
+    return _robust(optimizer, run, within, objective).run
+
+
+def _robust(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Robust:
+    asked = optimizer.study.robust
+    assert asked is not None
+    if asked.share is None:
+        run = _settled(optimizer, run, within, objective)
+    elif run.start.converged:
+        return reach_yield(optimizer, run, within, asked.share, objective)
+    return Robust(run, optimizer.margins, 0.0, reached=asked.share is None)
 
 
 def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
@@ -55,40 +90,6 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
         optimizer.progress("staying within the limits on times by what they spread")
         run = _again(optimizer, run, within, objective)
     return run
-
-
-def _reached(
-    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None, share: float
-) -> Run:
-    """By modules drawn: a limit that fewer keep gets what they miss it by for a margin; one that holds the design and
-    that more keep gives back what it has too much.
-    """
-    for _ in range(ROUNDS):
-        if not run.start.converged:
-            return run
-        drawn = yields_of(optimizer).at(run.inputs)
-        beyond = drawn.beyond(share)
-        pressing = _pressing(optimizer, run)
-        moved = {
-            name: value for name, value in beyond.items()
-            if value > _SETTLED or (value < -_SETTLED and name in pressing)
-        }  # fmt: skip
-        if not moved:
-            return run
-        if not all(np.isfinite(value) for value in moved.values()):  # a time that never comes in too many modules
-            return run
-        optimizer.progress("staying within the limits by what modules drawn at random miss them by")
-        optimizer.margins = {name: optimizer.margins.get(name, 0.0) + moved.get(name, 0.0)
-                             for name in {**optimizer.margins, **moved}}  # fmt: skip
-        run = _again(optimizer, run, within, objective)
-    return run
-
-
-def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
-    """The limits that hold a design."""
-    first, limits = optimizer.problem.equation_count, optimizer.problem.limits
-    of_limits = run.multipliers[first : first + len(limits)]
-    return {limit.name for limit, multiplier in zip(limits, of_limits, strict=True) if multiplier > _PRESSING}
 
 
 def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
@@ -109,6 +110,7 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
     """How far within the limits on times, energies and peaks to stay at a run's design."""
     study = optimizer.study
     assert study.robust is not None
+    assert study.robust.sigma is not None
     limits = [limit for limit in optimizer.problem.limits if on_cycle(optimizer.table, limit.output)]
     if not limits:
         return {}

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,8 @@ class UnmeasuredInput:
     high: float
     status: str
     """How the value is known: assumed, calibrated, handbook, datasheet, measured."""
+    before: tuple[float, float] | None = None
+    """Of one that a user's record has measured, the range in the record that is based on."""
 
     @property
     def logarithmic(self) -> bool:
@@ -67,7 +70,32 @@ def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
     entry = _entry(resolved.values[row.record[0]], row.record[1])
     if entry is None or entry.low is None or entry.high is None:
         return None
-    return _within(row, resolved, entry.value, (entry.low, entry.high), entry.status)
+    known = _within(row, resolved, entry.value, (entry.low, entry.high), entry.status)
+    before = _before(resolved.values[row.record[0]], row.record[1])
+    if known is None or before is None:
+        return known
+    return replace(known, before=(max(before[0], row.lower), min(before[1], row.upper)))
+
+
+def before_measuring(inputs: Sequence[UnmeasuredInput]) -> list[UnmeasuredInput]:
+    """The same inputs with the ranges they would have had without measurements; values outside go to the nearer end."""
+    return [
+        one
+        if one.before is None
+        else replace(one, low=min(one.before[0], one.value), high=max(one.before[1], one.value))
+        for one in inputs
+    ]
+
+
+def _before(record: Any, field: str) -> tuple[float, float] | None:
+    """The range of a measured value in the record its own is based on, where nobody had measured it there."""
+    entry = _entry(record, field)
+    if entry is None or entry.status != "measured" or record.based_on is None:
+        return None
+    earlier = record.based_on.entries.get(field)
+    if earlier is None or earlier.status == "measured" or earlier.low is None or earlier.high is None:
+        return None
+    return earlier.low, earlier.high
 
 
 def _of_table(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:

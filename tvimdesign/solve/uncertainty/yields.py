@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -29,6 +29,10 @@ class Drawn:
 
     limits: tuple[Constraint, ...]
     residuals: Array
+    inputs: tuple[str, ...] = ()
+    """What was drawn."""
+    columns: Array = field(default_factory=lambda: np.zeros((0, MODULES)))
+    """Its values [SI], a row an input, a column a module."""
 
     @property
     def shares(self) -> dict[str, float]:
@@ -38,13 +42,25 @@ class Drawn:
     @property
     def together(self) -> spread.Yield:
         """Modules that keep every limit."""
-        return spread.share_kept(np.all(self.residuals <= 0.0, axis=0))
+        return self.within(np.zeros(len(self.limits)))
 
-    def beyond(self, share: float) -> dict[str, float]:
-        """What so many modules' residuals stay below: above zero where fewer of them keep the limit."""
-        worst = np.nan_to_num(self.residuals, nan=np.inf)
-        at = np.quantile(worst, share, axis=1, method="inverted_cdf")
-        return {limit.name: float(value) for limit, value in zip(self.limits, at, strict=True)}
+    def within(self, shifts: Array) -> spread.Yield:
+        """Modules that would keep every limit if each limit's residuals fell by a shift."""
+        return spread.share_kept(np.all(self.residuals <= shifts[:, None], axis=0))
+
+    def carriers(self, limit: str) -> dict[str, float]:
+        """Inputs by their share of the variance of a limit's residual (squared rank correlation), the largest first."""
+        from scipy.stats import rankdata
+
+        row = self.residuals[[one.name for one in self.limits].index(limit)]
+        ranks = rankdata(np.nan_to_num(row, nan=np.inf))
+        if np.ptp(ranks) == 0.0:
+            return {}
+        found = {
+            name: float(np.corrcoef(rankdata(column), ranks)[0, 1] ** 2)
+            for name, column in zip(self.inputs, self.columns, strict=True)
+        }
+        return dict(sorted(found.items(), key=lambda item: -item[1]))
 
 
 class Yields:
@@ -70,8 +86,8 @@ class Yields:
         numbers = {name: float(values[name]) for name in self._model.names}
         return ResolvedModule(self._study, {**numbers, **self._model.words})
 
-    def at(self, inputs: Array) -> Drawn:
-        """Draw modules of the design with these inputs."""
+    def at(self, inputs: Array, seed: int | None = None) -> Drawn:
+        """Draw modules of the design with these inputs, from the study's seed unless another is given."""
         model = self._model
         contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
         if self._many is None or not contributors:  # nothing moves any limit
@@ -79,16 +95,20 @@ class Yields:
         places = [self._moving.index(contributor.name) for contributor in contributors]
         drawn = np.array([inputs[model.index[name]] for name in self._moving])
         many, pace = self._many, self._many.pace_at(inputs)
+        kept: list[Array] = []
 
         def outputs(columns: Array) -> Array:
             every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
             every[places] = columns
+            kept.append(columns)
             return many(every, pace=pace)
 
-        values = spread.monte_carlo(outputs, contributors, MODULES, self._study.solver.seed).values
+        seed = self._study.solver.seed if seed is None else seed
+        values = spread.monte_carlo(outputs, contributors, MODULES, seed).values
         with np.errstate(invalid="ignore"):
             residuals = [limit.residual(values[self._outputs.index(limit.output)]) for limit in self.limits]
-        return Drawn(self.limits, np.array(residuals))
+        names = tuple(contributor.name for contributor in contributors)
+        return Drawn(self.limits, np.array(residuals), names, np.concatenate(kept, axis=1))
 
 
 def yields_of(optimizer: Optimizer) -> Yields:

@@ -6,7 +6,6 @@ import re
 from collections.abc import Collection
 from functools import cache
 from importlib import resources
-from statistics import NormalDist
 from typing import Any, Literal
 
 import yaml
@@ -221,7 +220,7 @@ def _sigmas(reading: Reading, node: Node, path: str) -> float | None:
 def read_robust(
     reading: Reading, node: Node | None, tolerances: dict[str, Tolerance], *, searched: bool
 ) -> Robust | None:
-    """Return in how many of the modules each limit must hold; every problem is noted.
+    """Return how far within its limits a design must stay, or how many modules must keep all; every problem is noted.
 
     `searched` says whether the study varies anything, without which there is no optimum to be robust.
     """
@@ -249,4 +248,4 @@ def read_robust(
     if not 0.5 < share < 1.0 - 1e-9:
         reading.problems.add(parts["yield"], "robust.yield", f"{share:g} is out of range", "above 50 % and below 100 %")
         return None
-    return Robust(sigma=NormalDist().inv_cdf(share), share=share)
+    return Robust(share=share)

@@ -17,13 +17,15 @@ def test_every_kind_has_data_made_for_it() -> None:
     assert set(MADE) == set(kind_sheets())
 
 
-@pytest.mark.parametrize("kind", ["torque_angle", "pad"])
+@pytest.mark.parametrize("kind", ["torque_angle", "pad", "frozen_torque", "amplitude_sweep", "relaxation"])
 def test_few_intervals_of_95_percent_miss_the_truth(kind: str) -> None:
     # Parameters of one fit miss together: of ten seeds two or three may, four do in one of a thousand sets of them.
     assert share(kind, 10) > 0.65
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["release", "frequency_sweep", "dsc"])
+@pytest.mark.parametrize(
+    "kind", ["release", "sine", "frequency_sweep", "temperature_ramp", "creep", "melt", "dsc", "heating_log"]
+)
 def test_few_intervals_of_longer_fits_miss_the_truth(kind: str) -> None:
     assert share(kind, 10) > 0.65

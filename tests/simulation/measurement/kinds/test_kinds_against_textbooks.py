@@ -3,53 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from measured_files import csv, found, measured
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.simulation.measurement.fitting.fit import Estimate
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheet, kind_sheets
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement
-from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
-from tvimdesign.simulation.measurement.reading.data_file import read_data_file
+from tvimdesign.simulation.measurement.measure_files import measure_of
 from tvimdesign.simulation.measurement.reading.headings import known
 from tvimdesign.simulation.measurement.record_file import record_text
 
 CELSIUS = 273.15
 
 
-def csv(path: Path, **columns: Any) -> Path:
-    """A file of columns; `name__unit` is the heading `name [unit]`."""
-    heads = [name.replace("__", " [") + "]" for name in columns]
-    heads = [head.replace("_per_", "/").replace("_", " ") for head in heads]
-    rows = [";".join(f"{x:.12g}" for x in row) for row in zip(*columns.values(), strict=True)]
-    path.write_text("\n".join([";".join(heads), *rows]) + "\n")
-    return path
-
-
-def measured(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Measured:
-    return measure_files([paths] if isinstance(paths, Path) else paths, kind, settings)
-
-
-def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Measurement:
-    """The same, with intervals of the covariance: profiles take most of the time."""
-    files = [read_data_file(path) for path in ([paths] if isinstance(paths, Path) else paths)]
-    blocks = [block for file in files for block in file.blocks]
-    sheet = kind_sheet(kind) if kind else next(one for one in kind_sheets().values() if one.fits(blocks[0]))
-    measure = import_module(f"tvimdesign.simulation.measurement.kinds.{sheet.name}").measure
-    result: Measurement = measure(blocks, sheet.values(settings), profiles=False)
-    return result
-
-
 def test_every_kind_is_whole() -> None:
     for sheet in kind_sheets().values():
-        assert callable(import_module(f"tvimdesign.simulation.measurement.kinds.{sheet.name}").measure)
+        assert callable(measure_of(sheet))
         assert {name for need in sheet.needs for name in need} | set(sheet.takes) <= set(known()["quantities"])
         assert not sheet.category or sheet.category in CATEGORIES
         sheet.values({})

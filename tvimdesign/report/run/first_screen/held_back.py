@@ -1,12 +1,14 @@
-"""What holds a design back: the active constraints with the largest shadow prices; and the yield, in one figure."""
+"""What holds a design back: the active constraints with the largest shadow prices; the yield, and what it cost."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
+from tvimdesign.device import Table
 from tvimdesign.report.run.first_screen.layout import LABEL, block, columns
 from tvimdesign.report.run.why import binding
+from tvimdesign.report.run.yield_words import cost_of_margins, reached_in_words, yield_of
 from tvimdesign.solve.result import StudyResult
 
 _NAMED = 3
@@ -71,19 +73,20 @@ _GOOD = 0.9973
 
 
 def _to_raise(answer: StudyResult, data: Mapping[str, Any]) -> str:
-    """What to write in the study for a higher yield."""
+    """What to write in the study for a higher yield; nothing where one is asked for, which `margin_lines` tell of."""
+    robust = answer.design.study.get("robust")
     if answer.solution is None:
         return "which limit loses most: `tvimdesign tolerate`"
-    if answer.design.study.get("robust"):
-        return f"to raise it: `robust: {{yield: 99 %}}`; the study asks for {_robust(answer.design.study['robust'])}"
+    if robust and robust.get("share") is not None:
+        return ""
     tolerances = "" if data["tolerances"] == "study" else "`tolerances: standard` and "
-    return f"to raise it: {tolerances}`robust: {{yield: 99 %}}`"
+    return f"to raise it: {tolerances}`robust: {{yield: 95 %}}`"
 
 
-def _robust(robust: Mapping[str, Any]) -> str:
-    share = robust.get("share")
-    return (
-        f"{100.0 * share:.4g} % of each limit alone"
-        if share is not None
-        else f"{robust['sigma']:.3g} standard deviations"
-    )
+def margin_lines(answer: StudyResult, table: Table, width: int) -> list[str]:
+    """Where a yield is asked for: whether it is reached, and what the margins cost in what is minimised."""
+    reached = yield_of(answer)
+    if reached is None:
+        return []
+    cost = ", ".join(cost_of_margins(answer, reached, table))
+    return block("Margins", f"{reached_in_words(reached)}; the margins cost {cost}", width)

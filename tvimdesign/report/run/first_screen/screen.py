@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tvimdesign.device import Table
-from tvimdesign.report.run.first_screen.held_back import held_back_lines, yield_lines
+from tvimdesign.report.run.first_screen.held_back import held_back_lines, margin_lines, yield_lines
+from tvimdesign.report.run.first_screen.measured import measured_lines
 from tvimdesign.report.run.first_screen.qualifications import qualification_lines
 from tvimdesign.report.run.first_screen.requirements import Line, lines_of, screen_lines
 from tvimdesign.report.run.first_screen.verdict import chosen_lines, current_lines, header, module_lines, trade_lines
@@ -45,7 +46,8 @@ def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> l
         top += module_lines(answer, table, intervals, width)
         top += chosen_lines(answer, table, width) + current_lines(answer, width)
         top += trade_lines(told.front, table, width)
-        top += held_back_lines(answer, width)
+        top += measured_lines(told.uncertainty, width)
+        top += margin_lines(answer, table, width) + held_back_lines(answer, width)
     bottom = yield_lines(answer, told.uncertainty, width, timed=told.seconds is not None)
     left = LINES - AFTER - len(head) - len(top) - len(bottom)
     asked = _some(requirements, width, min(_REQUIREMENTS, left - 1))

@@ -82,19 +82,23 @@ class Uncertainty:
             "ranges_hold": _share(found.holds),
             "draws": draws,
             "held": found.held,
-            "intervals": {name: interval_entry(name, one, self.table) for name, one in found.intervals.items()},
+            "intervals": {
+                name: interval_entry(name, one, self.table, found.before.get(name))
+                for name, one in found.intervals.items()
+            },
             "unmeasured": [_unmeasured(one, self.table) for one in found.unmeasured],
         }
 
 
-def interval_entry(name: str, one: Interval, table: Table) -> IntervalEntry:
-    """An interval in the unit people read, and in SI."""
+def interval_entry(name: str, one: Interval, table: Table, before: tuple[float, float] | None = None) -> IntervalEntry:
+    """An interval in the unit people read, and in SI, with that of before the measurements, if there were any."""
     unit = table.unit(name)
     return {
         **number_entry(one.nominal, unit, (one.low, one.high)),
         "one_at_a_time": number_entry(one.nominal, unit, one.one_at_a_time),
         "shares": one.shares,
         "to_halve": list(one.to_halve),
+        "before": None if before is None else number_entry(one.nominal, unit, before),
     }
 
 

@@ -13,6 +13,8 @@ from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.first_screen.layout import block, joined
 from tvimdesign.report.run.first_screen.requirements import may_be
 from tvimdesign.report.run.first_screen.stalling import stalling_in_words
+from tvimdesign.report.run.yield_words import percent, yield_of
+from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3
@@ -45,8 +47,13 @@ def _of_evaluation(answer: StudyResult) -> str:
 
 
 def _of_optimum(answer: StudyResult) -> str:
-    """Optimal within the ratings, or beyond those that the study accepts; else the ratings that it does not."""
+    """Optimal within the ratings, or beyond those that the study accepts; else the ratings that it does not, or that
+    fewer modules than asked keep its limits.
+    """
     said = _of_ratings(answer)
+    reached = yield_of(answer)
+    if reached is not None and answer.design.status == BELOW_YIELD:
+        return f"YIELD {percent(reached.together)}, {percent(reached.asked)} ASKED{said and ', '}{said}"
     return said if answer.design.above_rating else f"OPTIMAL{said and ', '}{said}"
 
 
@@ -154,15 +161,18 @@ def trade_lines(front: Any, table: Table, width: int) -> list[str]:
 
 
 def chosen_lines(answer: StudyResult, table: Table, width: int) -> list[str]:
-    """What was chosen of what is listed, and by how much the next best is worse."""
+    """What was chosen of what is listed, and by how much the next two are worse, with what they have instead."""
     choosing = answer.solution.choosing if answer.solution else None
     if choosing is None or not choosing.best:
         return []
     best = choosing.best[0]
     words = [f"{name} {_choice(name, word, table)}" for name, word in best.choices.items()]
     others = [f"best of {choosing.combinations} combinations"]
-    if len(choosing.best) > 1:
-        others.append(f"the next is {100.0 * (choosing.best[1].objective / best.objective - 1.0):.2g} % worse")
+    for place, one in zip(("next", "third"), choosing.best[1:], strict=False):
+        worse = 100.0 * (one.objective / best.objective - 1.0)
+        instead = [f"{name} {_choice(name, word, table)}" for name, word in one.choices.items()
+                   if _choice(name, word, table) != _choice(name, best.choices[name], table)]  # fmt: skip
+        others.append(f"the {place} is {worse:.2g} % worse: {', '.join(instead)}")
     return joined("Chosen", [*words, *others], width)
 
 

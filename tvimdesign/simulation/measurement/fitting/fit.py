@@ -12,6 +12,9 @@ from tvimdesign.simulation.measurement.fitting.residuals import Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import RobustFit, robust_fit
 from tvimdesign.simulation.measurement.fitting.told_apart import correlation, in_words
 
+_UNKNOWN = float(np.log(1e6))
+"""Half the width of a logarithm's interval from which on the data say nothing of what follows."""
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -59,7 +62,7 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
     best = robust_fit(residuals, start)
     known = spread(residuals, best)
     free = {i for direction in known.free_directions for i in moved_by(direction)}
-    parameters, words = [], in_words(problem, known)
+    parameters, words = [], in_words(problem, known, best.inner)
     for i, one in enumerate(problem.parameters):
         ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
         if one.nuisance:
@@ -76,13 +79,20 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
 def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profiles: bool) -> tuple[float, float]:
     half = known.quantile * float(np.sqrt(known.covariance[at, at]))
     if not profiles or half == 0.0:
-        least = residuals.problem.parameters[at].bounds[0]
-        return max(best.inner[at] - half, least), best.inner[at] + half
+        return _within(residuals.problem.parameters[at], best.inner[at] - half, best.inner[at] + half)
     return profile_end(residuals, best, known, at, -1), profile_end(residuals, best, known, at, 1)
 
 
+def _within(one: Parameter, low: float, high: float) -> tuple[float, float]:
+    """An interval within a parameter's bounds; open where a positive one reaches them: the data do not end it."""
+    least, most = one.bounds
+    if not one.positive:
+        return max(low, least), min(high, most)
+    return low if low > least else -np.inf, high if high < most else np.inf
+
+
 def _estimate(one: Parameter, inner: float, ends: tuple[float | None, float | None]) -> Estimate:
-    low, high = (None if end is None or not np.isfinite(end) else float(one.outer(end)) for end in ends)
+    low, high = (None if end is None or not np.isfinite(end) else float(one.outer(float(end))) for end in ends)
     return Estimate(one.name, one.unit, one.meaning, float(one.outer(inner)), low, high)
 
 
@@ -98,6 +108,7 @@ def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Esti
     for one, middle, slope in zip(residuals.problem.derived, logarithms, slopes, strict=True):
         half = known.quantile * float(np.sqrt(max(slope @ known.covariance @ slope, 0.0)))
         open_ = any(abs(slope @ direction) > 1e-6 * np.max(np.abs(slope)) for direction in known.free_directions)
-        ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(min(middle + half, 700.0))))
+        open_ = open_ or half > _UNKNOWN
+        ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(middle + half)))
         found.append(Estimate(one.name, one.unit, one.meaning, float(np.exp(middle)), *ends))
     return tuple(found)

@@ -29,7 +29,9 @@ class Parameter:
     scale: float = 1.0
     """Size of a usual change [SI] of one that may be negative."""
     least: float = -np.inf
-    """Smallest value [SI] of one that is not fitted by its logarithm: 0 for a friction that may not be there."""
+    """Smallest value [SI]: 0 for a friction that may not be there."""
+    most: float = np.inf
+    """Largest value [SI]."""
     profiled: bool = True
     """Whether its interval is read off a profile of the likelihood; off the covariance otherwise."""
     nuisance: bool = False
@@ -48,8 +50,15 @@ class Parameter:
     @property
     def bounds(self) -> tuple[float, float]:
         """Of the solver's number."""
-        middle = self.inner(self.start)
-        return (middle - np.log(FAR), middle + np.log(FAR)) if self.positive else (self.least / self.scale, np.inf)
+        if not self.positive:
+            return self.least / self.scale, self.most / self.scale
+        least, most = max(self.least, self.start / FAR), min(self.most, self.start * FAR)
+        return float(np.log(least)), float(np.log(most))
+
+
+def from_zero(name: str, unit: str, meaning: str, start: float) -> Parameter:
+    """A parameter that may be zero, such as a friction that may not be there; `start` is a usual size too."""
+    return Parameter(name, unit, meaning, start, positive=False, scale=start, least=0.0)
 
 
 @dataclass(frozen=True)

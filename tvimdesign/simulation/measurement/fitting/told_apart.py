@@ -12,16 +12,22 @@ from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, 
 CLOSE = 0.95
 """Correlation from which on two parameters are named together."""
 _FOLLOW = 0.5
+_SAME = 0.05
+"""Share to which parameters must change alike for their ratios to be what is known."""
 
 
-def in_words(problem: Problem, known: Spread) -> list[str]:
-    """Sentences about free directions, close correlations, and residuals that follow one another."""
+def in_words(problem: Problem, known: Spread, inner: Array) -> list[str]:
+    """Sentences about free directions, close correlations, and residuals that follow one another.
+
+    `inner` are the solver's numbers of the best fit.
+    """
     undetermined: set[int] = set()
     said = []
     for direction in known.free_directions:
         moved = moved_by(direction)
         undetermined.update(moved)
-        said.append(_free(problem.parameters, direction, moved))
+        named = [i for i in moved if not problem.parameters[i].nuisance]
+        said += [_free(problem.parameters, direction, named, inner)] if named else []
     said += _correlated(problem.parameters, correlation(known.covariance), undetermined)
     following = [(rho, channel.name) for channel, rho in zip(problem.channels, known.autocorrelation, strict=True)]
     rho, name = max(following)
@@ -41,16 +47,13 @@ def correlation(covariance: Array) -> Array:
     return np.asarray(covariance / np.outer(deviation, deviation))
 
 
-def _free(parameters: Sequence[Parameter], direction: Array, moved: Sequence[int]) -> str:
+def _free(parameters: Sequence[Parameter], direction: Array, moved: Sequence[int], inner: Array) -> str:
     names = [parameters[i].name for i in moved]
     if len(moved) == 1:
         return f"The data say nothing of {names[0]}: no prediction depends on it. Its value is the start of the fit."
     together = "rise together" if len({np.sign(direction[i]) for i in moved}) == 1 else "make up for one another"
-    ratio = (
-        " Only their ratios are known."
-        if all(parameters[i].positive or parameters[i].least == 0.0 for i in moved)
-        else ""
-    )
+    shares = np.array([direction[i] if parameters[i].positive else direction[i] / (inner[i] or np.inf) for i in moved])
+    ratio = " Only their ratios are known." if np.ptp(shares) < _SAME * np.max(np.abs(shares)) else ""
     return (
         f"The data cannot tell {_listed(names)} apart: they {together} without changing any prediction.{ratio} "
         "Measure one of them otherwise and give it with --set."

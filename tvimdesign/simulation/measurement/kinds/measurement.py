@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 
-Settings = Mapping[str, float]
+Settings = Mapping[str, Any]
+"""By name: numbers in SI, texts as they are."""
 LEAST_ROWS = 3
 
 
@@ -34,8 +36,12 @@ class Measurement:
     record_conditions: Mapping[str, tuple[float, str]] = field(default_factory=dict)
     """Values of a record that were chosen, not measured, and go with the others: in SI, with the unit to write."""
 
+    def with_note(self, note: str) -> Measurement:
+        """The same with one more note, first."""
+        return replace(self, notes=(note, *self.notes))
 
-def required(settings: Settings, name: str, why: str) -> float:
+
+def required(settings: Settings, name: str, why: str) -> Any:
     """A setting that must be there. Raises InputError."""
     if name not in settings:
         raise InputError(f"--set {name}=...: needed, {why}")
@@ -55,3 +61,18 @@ def rows_of(block: Block, quantities: Sequence[str]) -> list[Array]:
     values = [block.values(quantity) for quantity in quantities]
     whole = np.all([np.isfinite(one) for one in values], axis=0)
     return [one[whole] for one in values]
+
+
+def series_of(block: Block, quantities: Sequence[str], most: int = 0) -> list[Array]:
+    """The same of a series in time, which stands first; of more than `most` rows every second, third, ... one.
+
+    Raises InputError where time does not rise.
+    """
+    import numpy as np
+
+    every = rows_of(block, quantities)
+    step = -(-len(every[0]) // most) if most else 1
+    taken = [one[::step] for one in every]
+    if np.any(np.diff(taken[0]) <= 0.0):
+        raise InputError(f"{block.file}:{block.lines[0]}: {quantities[0]} does not rise from row to row")
+    return taken

@@ -10,10 +10,11 @@ from typing import Any
 import yaml
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import pretty, si_unit
 from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, plain, unit_of
 from tvimdesign.simulation.measurement.reading.separated import DECIMALS, SEPARATORS
 
-_WORDS: dict[str, Mapping[str, str]] = {"separator": SEPARATORS, "decimal": DECIMALS}
+_WORDS: dict[str, Mapping[str, str]] = {"separator": SEPARATORS, "decimal": DECIMALS, "units": {"SI": ""}}
 _ENTRY = ("heading", "column", "unit")
 
 
@@ -24,6 +25,8 @@ class ColumnMap:
     columns: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     separator: str = ""
     decimal: str = ""
+    units: str = ""
+    """`SI`: what has no unit is in SI."""
 
     def applied(self, headings: list[Heading]) -> list[Heading]:
         """The headings with what the map says; a quantity it names is no longer found elsewhere."""
@@ -35,7 +38,12 @@ class ColumnMap:
                 )
                 if meant:
                     taken[i] = one._replace(quantity=quantity, unit=str(entry.get("unit", one.unit)))
-        return taken
+        return [_in_si(one) for one in taken] if self.units else taken
+
+
+def _in_si(one: Heading) -> Heading:
+    """A heading without a unit with that of SI."""
+    return one if one.unit or not one.quantity else one._replace(unit=pretty(si_unit(unit_of(one.quantity))))
 
 
 def read_column_map(path: Path) -> ColumnMap:
@@ -61,7 +69,7 @@ def column_map(tree: Any, file: str) -> ColumnMap:
         if key not in quantities:
             raise InputError(f"{file}: {str(key)[:40]} is no quantity; there are {', '.join(quantities)}")
         columns[key] = _entry(key, entry, file)
-    return ColumnMap(columns, str(tree.get("separator", "")), str(tree.get("decimal", "")))
+    return ColumnMap(columns, str(tree.get("separator", "")), str(tree.get("decimal", "")), str(tree.get("units", "")))
 
 
 def _entry(key: str, entry: Any, file: str) -> Mapping[str, Any]:

@@ -77,7 +77,7 @@ def _mass(block: Block, settings: Settings) -> float:
         raise InputError(
             f"{block.file}:{block.lines[0]}: the heat flow is not per mass; say --set sample_mass='5.2 mg'"
         )
-    return mass
+    return float(mass)
 
 
 def _exothermic(runs: Sequence[Run]) -> float:

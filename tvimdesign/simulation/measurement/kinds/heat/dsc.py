@@ -15,8 +15,8 @@ import numpy as np
 from tvimdesign.physics.polymers import crystallization, polymer
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.calorimeter_runs import Run, runs_of
-from tvimdesign.simulation.measurement.kinds.freezing_start import freezing_start
+from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run, runs_of
+from tvimdesign.simulation.measurement.kinds.heat.freezing_start import freezing_start
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings
 from tvimdesign.simulation.measurement.reading.data_file import Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca

@@ -20,6 +20,12 @@ from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 _COLUMNS = ("current", "voltage", "hot_temperature", "cold_temperature")
 _LEAST_DIFFERENCE = 5.0  # K
+_SPREAD = 0.2
+"""Range of the currents over the largest from which on they are several."""
+_ONE_CURRENT = (
+    "One current cannot tell Seebeck coefficient, resistance and conductance apart: many of them have this voltage and "
+    "these temperatures. Measure at several; no record is written."
+)
 
 
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
@@ -54,7 +60,16 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         profiles=profiles,
     )  # fmt: skip
     values = {name: found[name] for name in ("seebeck", "resistance", "conductance")}
-    return Measurement(found, tuple(_notes(settings, max(differences))), values)
+    notes = _notes(settings, max(differences))
+    if not _two_currents([rows_of(block, ["current"])[0] for block in blocks]):
+        return Measurement(found, (_ONE_CURRENT, *notes))
+    return Measurement(found, tuple(notes), values)
+
+
+def _two_currents(every: Sequence[Array]) -> bool:
+    """Whether the currents differ enough for three values to follow."""
+    current = np.concatenate(every)
+    return bool(np.ptp(current) > _SPREAD * np.max(np.abs(current)))
 
 
 def cold_temperature(module: peltier.PeltierModule, current: Any, hot: Any, heat: Any, leak: float, air: float) -> Any:

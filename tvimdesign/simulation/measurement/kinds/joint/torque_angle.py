@@ -14,7 +14,14 @@ import numpy as np
 
 from tvimdesign.physics.springs import spring
 from tvimdesign.simulation.measurement.fitting.fit import fitted
-from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
+from tvimdesign.simulation.measurement.fitting.problem import (
+    Channel,
+    Derived,
+    Parameter,
+    Problem,
+    Values,
+    from_zero,
+)
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -37,29 +44,9 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         Parameter("zero_angle", "deg", "Angle without a load", zero, positive=False, scale=float(np.ptp(angle)) or 1.0),
     ]
     if two_ways:
-        parameters.append(
-            Parameter(
-                "friction",
-                "N*m",
-                "Friction torque, which opposes the motion",
-                friction,
-                positive=False,
-                scale=friction,
-                least=0.0,
-            )
-        )
+        parameters.append(from_zero("friction", "N*m", "Friction torque, which opposes the motion", friction))
     if both_signs:
-        parameters.append(
-            Parameter(
-                "backlash",
-                "deg",
-                "Play between the two directions",
-                0.01 * turned,
-                positive=False,
-                scale=0.01 * turned,
-                least=0.0,
-            )
-        )
+        parameters.append(from_zero("backlash", "deg", "Play between the two directions", 0.01 * turned))
     channels = [
         Channel(f"angle of {block.file}", "deg", angles, _predicted(torques), torques, "torque", "N*m")
         for block, (torques, angles) in zip(blocks, series, strict=True)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tvimdesign.physics.polymers import crystallization
-from tvimdesign.simulation.measurement.kinds.calorimeter_runs import Run
+from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run
 from tvimdesign.simulation.measurement.kinds.measurement import Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array
 

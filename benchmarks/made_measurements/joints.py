@@ -1,0 +1,58 @@
+"""Data of joints and springs: the product's own equations with normal noise."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from made_measurements.made import Made, block, numbers
+from tvimdesign.physics.motions import motion
+from tvimdesign.simulation.measurement.kinds.joint import frozen_torque, swing, torque_angle
+
+
+def torque_angle_data(noise: np.random.Generator) -> Made:
+    """A joint loaded to 1 N.m both ways and back in steps of 0.1 N.m; angles read to 0.06 deg."""
+    truth = {"stiffness": 5.0, "friction": 0.05, "backlash": 0.01, "zero_angle": 0.02}
+    steps = np.linspace(0.1, 1.0, 10)
+    torque = np.concatenate([steps, steps[::-1], -steps, -steps[::-1], steps])
+    angle = torque_angle.angle_of(torque, truth) + noise.normal(0.0, 1e-3, len(torque))
+    return [block(torque=torque, angle=angle)], {}, truth
+
+
+def release_data(noise: np.random.Generator) -> Made:
+    """A joint of known inertia let go at 0.12 rad, sampled at 500 Hz for half a second; angles to 1 mrad."""
+    truth = {"stiffness": 5.0, "damping": 3e-3, "friction": 0.01, "zero_angle": 0.01}
+    moments = np.linspace(0.0, 0.5, 250)
+    known = {**truth, "inertia": 4e-4, "first_angle": 0.12, "first_speed": 0.0}
+    corner = 0.01 * 0.22 * np.pi / 0.0562
+    angle = numbers(swing.swing(moments, known, 6, corner)) + noise.normal(0.0, 1e-3, len(moments))
+    return [block(time=moments, angle=angle)], {"inertia": "4e-4 kg.m^2"}, truth
+
+
+def sine_data(noise: np.random.Generator) -> Made:
+    """A joint turned by 0.1 rad at 2 and 6 Hz for three periods; angles to 0.5 mrad, torques to 10 mN.m."""
+    truth = {"inertia": 2e-3, "stiffness": 5.0, "damping": 0.02, "friction": 0.05, "zero_angle": 0.01}
+    blocks = []
+    for hertz in (2.0, 6.0):
+        omega = 2.0 * np.pi * hertz
+        time = np.linspace(0.0, 3.0 / hertz, 150)
+        angle, speed = 0.1 * np.sin(omega * time), 0.1 * omega * np.cos(omega * time)
+        spring = motion.kelvin_voigt_torque(angle - truth["zero_angle"], speed, truth["damping"], truth["stiffness"])
+        torque = -truth["inertia"] * omega**2 * angle - spring
+        torque = torque + truth["friction"] * np.tanh(speed / (swing.CORNER * 0.1 * omega))
+        blocks.append(
+            block(time=time, angle=angle + noise.normal(0.0, 5e-4, 150), torque=torque + noise.normal(0.0, 0.01, 150))
+        )
+    return blocks, {}, truth
+
+
+def frozen_torque_data(noise: np.random.Generator) -> Made:
+    """Three joints turned by 80 mrad that give at 12 N.m, from zeros of their own; torques to 0.1 N.m."""
+    truth = {"stiffness": 250.0, "holding_torque": 12.0}
+    moment = 4.0 * np.radians(49.0) / 4.0 * (0.040**4 - 0.026**4)
+    blocks = []
+    for zero in (0.0, 0.005, -0.003):
+        angle = np.linspace(zero, zero + 0.08, 60)
+        torque = numbers(frozen_torque.torque_of(angle, {**truth, "zero_angle": zero}))
+        blocks.append(block(angle=angle, torque=torque + noise.normal(0.0, 0.1, 60)))
+    sizes = {"layer_inner_radius": "26 mm", "layer_outer_radius": "40 mm", "layer_span": "49 deg"}
+    return blocks, sizes, {**truth, "bond_strength": 12.0 * 0.040 / moment}

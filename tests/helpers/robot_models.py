@@ -1,0 +1,30 @@
+"""A module of either mode as models for simulators, on bodies that have its inertia and no mesh."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from support import ROOT
+
+from tvimdesign.robot.joint_model import JointModel, joint_model
+from tvimdesign.robot.rigid_bodies import RigidBody
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.study import read_study
+
+STUDY = {"shear": "paper_as_published", "compression": "paper_compression"}
+
+
+@cache
+def module_of(mode: str) -> ResolvedModule:
+    return resolve_study(read_study(ROOT / f"studies/{STUDY[mode]}.yaml"))
+
+
+@cache
+def model_of(mode: str, step: float | None = None) -> JointModel:
+    resolved = module_of(mode)
+    inertia = float(resolved.quantity("parts_inertia"))
+    base = RigidBody("base", 0.1, (0.0, 0.0, 0.0), ((1e-4, 0.0, 0.0), (0.0, 1e-4, 0.0), (0.0, 0.0, 1e-4)), "base.stl")
+    off = 0.004
+    about = inertia - 0.05 * off**2
+    tensor = ((0.6 * about, 1e-7, 2e-7), (1e-7, 0.7 * about, 3e-7), (2e-7, 3e-7, about))
+    return joint_model(resolved, base, RigidBody("moving", 0.05, (off, 0.0, 0.006), tensor, "moving.stl"), step)

@@ -1,0 +1,10 @@
+"""Both modes, which every model for simulators is written of."""
+
+from __future__ import annotations
+
+import pytest
+
+
+@pytest.fixture(params=["shear", "compression"])
+def mode(request: pytest.FixtureRequest) -> str:
+    return str(request.param)

@@ -1,0 +1,59 @@
+"""Sines against closed solutions of one degree of freedom: what a torque's cell sees of inertia, spring and losses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from measured_files import csv, found
+
+from tvimdesign.base.errors import InputError
+
+INERTIA, STIFFNESS, DAMPING = 3e-3, 8.0, 0.05
+
+
+def record(path: Path, hertz: float, seed: int, *, friction: float = 0.0) -> Path:
+    """Angle and torque of I theta'' + b theta' + K theta + T_f sgn theta' = T, written down with sines."""
+    omega, noise = 2.0 * np.pi * hertz, np.random.default_rng(seed)
+    time = np.linspace(0.0, 4.0 / hertz, 200)
+    angle = 0.08 * np.cos(omega * time + 0.3)
+    quarter = -np.sin(omega * time + 0.3)
+    torque = (STIFFNESS - INERTIA * omega**2) * angle + DAMPING * omega * 0.08 * quarter + friction * np.sign(quarter)
+    return csv(path, time__s=time, angle__rad=angle + noise.normal(0.0, 2e-4, 200),
+               torque__Nm=torque + noise.normal(0.0, 3e-3, 200))  # fmt: skip
+
+
+def test_two_frequencies_part_inertia_from_stiffness(tmp_path: Path) -> None:
+    fit = found([record(tmp_path / f"{hertz}.csv", hertz, seed) for seed, hertz in enumerate((1.0, 7.0))], "sine").fit
+    assert fit.value("inertia") == pytest.approx(INERTIA, rel=0.01)
+    assert fit.value("stiffness") == pytest.approx(STIFFNESS, rel=5e-3)
+    assert fit.value("damping") == pytest.approx(DAMPING, rel=0.03)
+
+
+def test_one_frequency_is_said_not_to_and_a_known_inertia_does(tmp_path: Path) -> None:
+    path = record(tmp_path / "one.csv", 3.0, 5)
+    alone = found(path, "sine")
+    omega = 6.0 * np.pi
+    assert alone.fit.value("dynamic_stiffness") == pytest.approx(STIFFNESS - INERTIA * omega**2, rel=5e-3)
+    assert "stiffness" not in {one.name for one in alone.fit.parameters}
+    assert "One frequency cannot tell inertia and stiffness apart" in " ".join(alone.notes)
+    known = found(path, "sine", inertia="3e-3 kg.m^2").fit
+    assert known.value("stiffness") == pytest.approx(STIFFNESS, rel=5e-3)
+
+
+def test_the_loop_that_no_speed_changes_is_friction(tmp_path: Path) -> None:
+    paths = [record(tmp_path / f"{hertz}.csv", hertz, seed, friction=0.06) for seed, hertz in enumerate((1.0, 7.0))]
+    fit = found(paths, "sine").fit
+    assert fit.value("friction") == pytest.approx(0.06, rel=0.05)
+    assert fit.value("damping") == pytest.approx(DAMPING, rel=0.05)
+    # Energy of a cycle at 1 Hz: pi b omega A^2 + 4 T_f A (Den Hartog), over pi A^2 the loss stiffness.
+    assert fit.value("loss") == pytest.approx(DAMPING * 2.0 * np.pi + 4.0 * 0.06 / (np.pi * 0.08), rel=0.02)
+
+
+def test_less_than_a_period_is_refused(tmp_path: Path) -> None:
+    time = np.linspace(0.0, 0.4, 60)
+    columns: dict[str, Any] = {"time__s": time, "angle__rad": 0.1 * np.sin(2.0 * np.pi * time), "torque__Nm": time}
+    with pytest.raises(InputError, match="less than one period"):
+        found(csv(tmp_path / "s.csv", **columns), "sine")

@@ -1,0 +1,125 @@
+"""Creep, relaxation and ramps of a melt against closed solutions and another integrator."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from measured_files import csv, found, measured
+from scipy.integrate import solve_ivp
+
+from tvimdesign.base.errors import InputError
+
+CELSIUS = 273.15
+MODES = ((0.8, 600.0), (0.03, 2.0e4))
+VISCOSITY = sum(tau * modulus for tau, modulus in MODES)
+
+
+def crept(time: Any, stress: float, release: float) -> Any:
+    """Strain of two Maxwell elements side by side under a stress taken off at `release`, by Radau's method.
+
+    Dashpots' strains q_i' = (gamma - q_i)/tau_i, and sum G_i (gamma - q_i) = sigma(t).
+    """
+    taus, moduli = np.array(MODES).T
+
+    def strain(t: float, q: Any) -> float:
+        return float(((stress if t < release else 0.0) + moduli @ q) / moduli.sum())
+
+    def rates(t: float, q: Any) -> Any:
+        return (strain(t, q) - q) / taus
+
+    found = []
+    start = np.zeros(2)
+    for part in (time[time < release], time[time >= release]):
+        begin = 0.0 if part[0] < release else release
+        done = solve_ivp(rates, (begin, max(part[-1], release) if begin == 0.0 else part[-1]), start, "Radau",
+                         dense_output=True, rtol=1e-9, atol=1e-14)  # fmt: skip
+        found += [strain(t, done.sol(t)) for t in part]
+        start = done.y[:, -1]
+    return np.array(found)
+
+
+def test_creep_and_recovery_of_another_integrator(tmp_path: Path) -> None:
+    time = np.concatenate([np.geomspace(1e-3, 7.9, 70), 8.0 + np.geomspace(1e-3, 8.0, 60)])
+    strain = crept(time, 40.0, 8.0)
+    noise = np.random.default_rng(1)
+    strain = strain * np.exp(noise.normal(0.0, 3e-3, 130))
+    path = csv(tmp_path / "c.csv", time__s=time, strain__1=strain, stress__Pa=np.where(time < 8.0, 40.0, 0.0),
+               temperature__degC=np.full(130, 90.0))  # fmt: skip
+    result = measured(path)
+    assert result.kind.name == "creep"
+    fit = result.measurement.fit
+    assert fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=5e-3)
+    assert sorted(fit.value(one.name) for one in fit.parameters if "time" in one.name) == pytest.approx(
+        [0.03, 0.8], rel=0.1
+    )
+    assert result.measurement.record_conditions["melt_reference_temperature"][0] == pytest.approx(90.0 + CELSIUS)
+
+
+@pytest.mark.parametrize("rise", [0.0, 0.02])
+def test_relaxation_after_a_step_and_after_a_ramp(tmp_path: Path, rise: float) -> None:
+    # After a ramp of length r each mode has had (1 - exp(-r/tau)) tau/r of its strain.
+    time = np.geomspace(rise + 1e-3, 4.0, 90)
+    whole = [(np.expm1(rise / tau) * tau / rise if rise else 1.0) for tau, _ in MODES]
+    stress = sum(
+        0.1 * modulus * np.exp(-time / tau) * share for (tau, modulus), share in zip(MODES, whole, strict=True)
+    )
+    noise = np.exp(np.random.default_rng(2).normal(0.0, 5e-3, 90))
+    path = csv(tmp_path / "r.csv", time__s=time, stress__Pa=stress * noise, strain__1=np.full(90, 0.1))
+    given = {"temperature": "90 degC"} | ({"rise_time": f"{rise} s"} if rise else {})
+    fit = found(path, "relaxation", **given).fit
+    assert fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)
+    assert fit.value("plateau_modulus") == pytest.approx(20600.0, rel=0.02)
+
+
+def test_a_ramp_has_the_energy_that_made_it_and_leaves_out_what_is_frozen(tmp_path: Path) -> None:
+    celsius = np.linspace(40.0, 170.0, 90)
+    x = 10.0 * np.exp(30e3 / 8.314462618 * (1.0 / (celsius + CELSIUS) - 1.0 / 373.15))
+    moduli = [sum(modulus * (x * tau) ** power / (1.0 + (x * tau) ** 2) for tau, modulus in MODES) for power in (2, 1)]
+    noise = np.random.default_rng(3)
+    storage, loss = (np.where(celsius < 62.0, 1e8, one) * np.exp(noise.normal(0.0, 0.01, 90)) for one in moduli)
+    path = csv(tmp_path / "t.csv", temperature__degC=celsius, angular_frequency__rad_per_s=np.full(90, 10.0),
+               **{"G'__Pa": storage, "G''__Pa": loss})  # fmt: skip
+    result = measured(path, reference_temperature="100 degC")
+    assert result.kind.name == "temperature_ramp"
+    fit = result.measurement.fit
+    assert fit.value("flow_activation_energy") == pytest.approx(30e3, rel=0.02)
+    assert fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.02)
+    with pytest.raises(InputError, match="0 rows of the melt, from 200 degC on"):
+        measured(path, least_temperature="200 degC")
+
+
+def test_amplitude_sweeps_find_the_strain_that_five_percent_are_gone_at(tmp_path: Path) -> None:
+    # G' = G0/(1 + (0.05/0.95) (gamma/0.4)^2) has lost 5 % at 0.4, whatever the frequency.
+    strain = np.geomspace(0.01, 4.0, 40)
+    left = 1.0 / (1.0 + 0.05 / 0.95 * (strain / 0.4) ** 2)
+    noise = np.random.default_rng(4)
+    storage, loss = (size * left * np.exp(noise.normal(0.0, 5e-3, 40)) for size in (3e3, 9e3))
+    columns = {"strain__%": 100.0 * strain, "G'__Pa": storage, "G''__Pa": loss}
+    hot = measured(csv(tmp_path / "a.csv", **columns, temperature__degC=np.full(40, 100.0)))
+    assert hot.kind.name == "amplitude_sweep"
+    assert hot.measurement.record_values["linear_strain_melt"].value == pytest.approx(0.4, rel=0.02)
+    between = found(csv(tmp_path / "b.csv", **columns, temperature__degC=np.full(40, 58.0)), "amplitude_sweep")
+    assert not between.record_values
+    short = found(csv(tmp_path / "s.csv", **{name: one[:15] for name, one in columns.items()}), "amplitude_sweep",
+                  temperature="100 degC")  # fmt: skip
+    assert any("hardly seen" in note for note in short.notes)
+
+
+def test_a_known_energy_is_not_fitted(tmp_path: Path) -> None:
+    omega = np.geomspace(0.1, 100.0, 20)
+    paths = []
+    for celsius in (90.0, 110.0):
+        x = omega * np.exp(30e3 / 8.314462618 * (1.0 / (celsius + CELSIUS) - 1.0 / 363.15))
+        storage, loss = (
+            sum(modulus * (x * tau) ** power / (1.0 + (x * tau) ** 2) for tau, modulus in MODES) for power in (2, 1)
+        )
+        noise = np.exp(np.random.default_rng(int(celsius)).normal(0.0, 0.01, 20))
+        paths.append(csv(tmp_path / f"{celsius:.0f}.csv", angular_frequency__rad_per_s=omega,
+                         **{"G'__Pa": storage * noise, "G''__Pa": loss * noise},
+                         temperature__degC=np.full(20, celsius)))  # fmt: skip
+    result = found(paths, flow_activation_energy="30 kJ/mol", reference_temperature="90 degC")
+    assert "flow_activation_energy" not in result.record_values
+    assert result.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)

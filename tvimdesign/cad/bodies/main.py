@@ -1,0 +1,73 @@
+"""The child process that makes the rigid bodies: `python -m tvimdesign.cad.bodies.main DESIGN OUT SECONDS`."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, TextIO
+
+from tvimdesign.base.whole_files import write_whole
+from tvimdesign.cad.build import main as build_main
+from tvimdesign.study.design import Design, read_design
+
+BODIES = "bodies.json"
+"""Mass properties of both bodies, in SI."""
+MESHES = "meshes"
+BASE, MOVING = "base", "moving"
+"""What stands with the housing, and what turns with the rotor."""
+
+
+def run(design_path: Path, out: Path, _timeout_s: float, lines: TextIO) -> None:
+    """Write mass properties and meshes of both bodies; tells `lines` each step, then what the checks found."""
+
+    def say(**message: Any) -> None:
+        lines.write(json.dumps(message) + "\n")
+        lines.flush()
+
+    started = time.perf_counter()
+    design = read_design(design_path)
+    say(progress="loading the CAD kernel")
+    from tvimdesign.cad.assembly.assembly import drawn_parts, place
+    from tvimdesign.cad.bodies.body_meshes import body_stl, coarse_meshes
+    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.inspection.size_checks import size_checks
+
+    dims = dimensions(design)
+    drawn = drawn_parts(dims, lambda part: say(progress=part))
+    placed = place(dims, drawn)
+    checks = [asdict(check) for check in size_checks(design, placed)]
+    say(progress="meshes")
+    meshes, bodies = coarse_meshes(dims, drawn), names_of_bodies(placed)
+    (out / MESHES).mkdir(exist_ok=True)
+    for body, names in bodies.items():
+        write_whole(out / MESHES / f"{body}.stl", body_stl(meshes, placed, names))
+    write_whole(out / BODIES, (json.dumps(_weighed(design, placed, bodies), indent=2) + "\n").encode())
+    files = [BODIES, *(f"{MESHES}/{body}.stl" for body in bodies)]
+    say(checks=checks, files=files, notes=[], reused=[], seconds=time.perf_counter() - started)
+
+
+def names_of_bodies(placed: Mapping[str, Any]) -> dict[str, list[str]]:
+    """Names of the placed parts of each body: springs, pads and PCL stand with the housing."""
+    from tvimdesign.cad.geometry.kinds import TURNING, kind_of
+
+    turning = [name for name in placed if kind_of(name) in TURNING]
+    return {BASE: [name for name in placed if name not in turning], MOVING: turning}
+
+
+def _weighed(design: Design, placed: Mapping[str, Any], bodies: Mapping[str, list[str]]) -> dict[str, Any]:
+    """Mass properties of each body as plain data."""
+    from tvimdesign.cad.bodies.mass_properties import of_solid, together
+    from tvimdesign.cad.geometry.kinds import KINDS, kind_of
+
+    return {
+        body: together(of_solid(placed[name], design.value(KINDS[kind_of(name)].density)) for name in names).plain()
+        for body, names in bodies.items()
+    }
+
+
+if __name__ == "__main__":
+    sys.exit(build_main.main(sys.argv[1:], run))

@@ -1,0 +1,102 @@
+"""A design's joint for robot simulators, from its file to a finished folder and what the terminal says."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as Grid
+
+from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.progress import Progress, progress_output, wide_console
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.tables import curves_csv, number
+from tvimdesign.report.run.parts_of_design import refuse_failed
+from tvimdesign.robot import state_tables
+from tvimdesign.robot.joint_model import JointModel, joint_model, refuse_step
+from tvimdesign.robot.mjcf import mjcf
+from tvimdesign.robot.rigid_bodies import make_bodies
+from tvimdesign.robot.urdf import urdf
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.study.design import Design, read_design, write_design
+
+
+def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, as_json: bool) -> None:
+    """Write the joint of a design.json, or of the folder of a run. Raises InputError, GeometryError."""
+    source = path / "design.json" if path.is_dir() else path
+    design = read_design(source)
+    with ResultsFolder(out, overwrite) as folder, progress_output() as progress:
+        model = write_models(design, folder, step, progress)
+        progress("")
+        folder.finish("written", {"design": source}, design.study)
+        if as_json:
+            print(json.dumps({**plain_model(model), "folder": str(out)}, indent=2, allow_nan=False))
+        else:
+            _print_model(model, out, wide_console())
+
+
+def write_models(design: Design, folder: ResultsFolder, step: float | None, progress: Progress) -> JointModel:
+    """Write bodies, models and tables into a folder. Raises InputError, GeometryError."""
+    refuse_step(step)
+    resolved = resolve_design(design)
+    kept = write_design(design, folder.path / "design.json")
+    base, moving, report = make_bodies(kept, folder.path, lambda text: progress(f"bodies: {text}"))
+    refuse_failed(report, folder.path)
+    progress("models")
+    model = joint_model(resolved, base, moving, step)
+    for state in model.states:
+        folder.write(f"joint_{state.point}.xml", mjcf(model, state))
+        folder.write(f"joint_{state.point}.urdf", urdf(model, state))
+    tables = {
+        "states": state_tables.states(model),
+        "elements": state_tables.elements(model),
+        "temperatures": state_tables.over_temperature(resolved, model),
+    }
+    for name, columns in tables.items():
+        units = {column: state_tables.unit_of(column) for column in columns}
+        folder.write(f"{name}.csv", curves_csv(columns, units, "1"))
+    folder.write_json("joint.json", plain_model(model))
+    return model
+
+
+def plain_model(model: JointModel) -> dict[str, Any]:
+    """What the models say, as plain data in SI."""
+    return {
+        **head(),
+        "name": model.name,
+        "time_step": model.step,
+        "stroke": model.stroke,
+        "holding_torque": model.holding_torque,
+        "load_inertia": model.load,
+        "masses": {body.name: body.mass for body in (model.base, model.moving)},
+        "states": {
+            state.point: {
+                "temperature": state.temperature,
+                "frequency": state.frequency,
+                "stiffness": state.stiffness,
+                "damping": state.damping,
+                "springs": state.springs,
+                "friction": state.friction,
+                "files": [f"joint_{state.point}.xml", f"joint_{state.point}.urdf"],
+            }
+            for state in model.states
+        },
+        "left_out": list(model.left_out),
+    }
+
+
+def _print_model(model: JointModel, out: Path, console: Console) -> None:
+    console.print(f"[bold]{escape(model.name)}[/bold]: joint for simulators, time step {number(1e3 * model.step)} ms")
+    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
+    for column in ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz"):
+        grid.add_column(column, justify="left" if column == "state" else "right")
+    for row, state in zip(zip(*state_tables.states(model).values(), strict=True), model.states, strict=True):
+        temperature, frequency, stiffness, damping = row[:4]
+        grid.add_row(state.point, number(temperature), number(stiffness), number(damping), number(frequency))
+    console.print(grid)
+    for sentence in model.left_out:
+        console.print(f"[dim]{escape(sentence)}[/dim]")
+    console.print(f"\nMJCF, URDF, meshes and tables are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)

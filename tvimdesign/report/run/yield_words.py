@@ -1,0 +1,68 @@
+"""A yield that was asked for, in words: what is reached, what the margins cost, and what stands in its way."""
+
+from __future__ import annotations
+
+import math
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.device import Table
+from tvimdesign.report.output.tables import number
+from tvimdesign.solve.nlp.solution import LostTo, YieldReached
+from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
+from tvimdesign.solve.result import StudyResult
+
+_DIGITS = 3
+_CARRIED = 0.05
+"""Share of a limit's variance from which a tolerance is named."""
+
+
+def yield_of(answer: StudyResult) -> YieldReached | None:
+    """The account of a yield that the study asks for; None without a design or without one asked for."""
+    return answer.solution.yield_reached if answer.solution and answer.found else None
+
+
+def reached_in_words(reached: YieldReached) -> str:
+    """How many modules keep all limits, of how many it was asked, and what it was without margins."""
+    return (
+        f"{percent(reached.together)} of {reached.modules} modules drawn keep every limit, where "
+        f"{percent(reached.asked)} are asked for and {percent(reached.nominal_together)} would without margins"
+    )
+
+
+def cost_of_margins(answer: StudyResult, reached: YieldReached, table: Table) -> list[str]:
+    """What each minimised output is without the margins, and with them."""
+    return [_change(name, reached.nominal[name], answer.design.values[name], table)
+            for name in answer.design.study["minimize"]]  # fmt: skip
+
+
+def below_yield(answer: StudyResult) -> str:
+    """What to say of a design that fewer modules keep than asked: which limits, by which tolerance; else empty."""
+    reached = yield_of(answer)
+    if reached is None or answer.design.status != BELOW_YIELD:
+        return ""
+    lines = [
+        f"{answer.design.name}: no design found that {percent(reached.asked)} of the modules keep; "
+        f"of the best {percent(reached.together)} do. Most is lost to"
+    ]
+    lines += [f"  {lost_in_words(one)}" for one in reached.lost_to]
+    lines.append("Ease these limits, widen a range under `vary`, tighten these tolerances, or ask `robust` for less.")
+    return "\n".join(lines)
+
+
+def lost_in_words(lost: LostTo) -> str:
+    """A limit that too many modules break, and the tolerances that carry its spread."""
+    named = [f"{name} {percent(share, 2)}" for name, share in lost.carriers.items() if share >= _CARRIED]
+    return f"{lost.text}, which {percent(lost.share)} keep{'; its spread is of ' if named else ''}{', '.join(named)}"
+
+
+def percent(share: float, digits: int = _DIGITS) -> str:
+    """A share for people."""
+    return f"{100.0 * share:.{digits}g} %"
+
+
+def _change(name: str, before: float, after: float, table: Table) -> str:
+    unit = table.unit(name)
+    said = f"{name} {number(from_si(before, unit), _DIGITS)} to {number(from_si(after, unit), _DIGITS)} {pretty(unit)}"
+    if not (math.isfinite(before) and math.isfinite(after) and before):
+        return said.rstrip()
+    return f"{said.rstrip()} ({100.0 * (after / before - 1.0):+.2g} %)"

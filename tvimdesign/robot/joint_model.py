@@ -1,0 +1,108 @@
+"""All that a model of the joint says, whatever its format, and what it leaves out, with the size of each."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from math import sqrt
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.device.core.motor_choice import WITHOUT
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.robot.joint_state import JointState, joint_states, usual_step
+from tvimdesign.robot.rigid_bodies import RigidBody
+from tvimdesign.simulation.joint_tests.release import ANGLE
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+
+@dataclass(frozen=True)
+class JointModel:
+    """A joint for simulators."""
+
+    name: str
+    base: RigidBody
+    moving: RigidBody
+    states: tuple[JointState, ...]
+    stroke: float
+    """To either side [rad]."""
+    holding_torque: float
+    """What the frozen joint bears [N*m]."""
+    step: float
+    """Time step [s]."""
+    left_out: tuple[str, ...]
+    """What no file has of the joint, a sentence each."""
+
+    @property
+    def slug(self) -> str:
+        """Its name for formats that take words: letters, digits and underscores."""
+        return re.sub(r"\W+", "_", self.name, flags=re.ASCII).strip("_").lower() or "joint"
+
+    @property
+    def released_from(self) -> float:
+        """Angle of the keyframe [rad]: the virtual test's, or the stroke where that is less."""
+        return min(ANGLE, self.stroke)
+
+    @property
+    def count(self) -> int:
+        """How many Maxwell elements every state has, idle ones counted."""
+        return max(len(state.modes) for state in self.states)
+
+    @property
+    def load(self) -> float:
+        """Inertia of the load on the bench about the axis [kg*m^2]: what moves, less the module's own parts."""
+        return self.states[0].inertia - self.moving.about_axis()
+
+    @property
+    def quickest(self) -> float:
+        """Largest speed of a release from the end of the stroke [rad/s]: w phi at the stiffest state."""
+        return self.stroke * max(sqrt(state.stiffest / state.inertia) for state in self.states)
+
+
+def joint_model(
+    resolved: ResolvedModule, base: RigidBody, moving: RigidBody, step: float | None = None
+) -> JointModel:  # fmt: skip
+    """Put the model of a module together; a time step [s] that suits the bench's load unless given."""
+    states = tuple(joint_states(resolved))
+    return JointModel(
+        name=resolved.study.name,
+        base=base,
+        moving=moving,
+        states=states,
+        stroke=float(resolved.quantity("stroke")),
+        holding_torque=float(resolved.quantity("holding_torque")),
+        step=step or usual_step(states),
+        left_out=_left_out(resolved),
+    )
+
+
+def refuse_step(step: float | None) -> None:
+    """Raise InputError for a time step [s] that is none."""
+    if step is not None and not 0.0 < step <= 0.1:
+        raise InputError(f"--timestep {step:g} s: must be above 0 and at most 0.1 s")
+
+
+def _left_out(resolved: ResolvedModule) -> tuple[str, ...]:
+    """What the models leave out, and how much that is."""
+    middle, end = (float(resolved.quantity(name)) for name in ("spring_stiffness", "spring_stiffness_full_stroke"))
+    holds = float(resolved.quantity("holding_torque"))
+    return (
+        "The springs are linear; drawn, their stiffness changes by "
+        f"{100.0 * (end / middle - 1.0):+.1f} % to the end of the stroke.",
+        f"The PCL neither yields nor slips: the joint bears {holds:.3g} N·m frozen, and the model bears any torque.",
+        "Temperatures do not change in a model: each state is one temperature, reached on heating. Going from one to "
+        "another takes the time that results.csv has as softening_time and stiffening_time.",
+        "The housing is rigid; what it gives is in the elements of the joint.",
+        *(("The motor stands still: it is part of the base.",) if resolved.values["motor"] != WITHOUT else ()),
+    )
+
+
+def header(model: JointModel, state: JointState) -> list[str]:
+    """What a file of a state says of itself, line by line."""
+    return [
+        f"{model.name}, {state.point}: {state.temperature - ZERO_CELSIUS:.4g} degC. Written by tvimdesign robot.",
+        "SI units: m, kg, s, rad, N. The joint's axis is z; a positive angle turns counter-clockwise seen from +z.",
+        f"At {state.frequency:g} Hz the joint has {state.stiffness:.5g} N.m/rad and {state.damping:.5g} N.m.s/rad; "
+        f"the springs alone have {state.springs:.5g} N.m/rad.",
+        "Left out:",
+        *(f"- {sentence}" for sentence in model.left_out),
+    ]

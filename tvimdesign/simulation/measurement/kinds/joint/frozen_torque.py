@@ -1,0 +1,152 @@
+"""Torque of a frozen joint that is turned slowly until it gives: its stiffness, the torque it holds, and the bond.
+
+T = K (theta - theta_0) up to the torque at which the layer gives, and that torque from there on, with a corner rounded
+over a fiftieth of it; what comes after a break is left out. Joints that break without bending give their largest
+torque each, three or more of them its middle. The bond's strength is the traction at the layer's outer
+rim, as the product has it (physics/layers/layer.py, `traction`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.polymers.polymer import ramp
+from tvimdesign.simulation.measurement.fitting.fit import fitted
+from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, required, rows_of
+from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+
+_SIZES = ("layer_inner_radius", "layer_outer_radius", "layer_span")
+_CORNER = 0.02
+_BROKEN = 0.7
+"""Share of the largest torque below which, after it, the joint is broken."""
+_BENDS = 0.9
+"""Share of the first stiffness below which, near the largest torque, the joint gives."""
+_LEAST_BREAKS = 3
+"""Joints that must break without bending for their torques to have an interval."""
+
+
+class Turned(NamedTuple):
+    """One joint that was turned: angle and torque up to the break, and how it ended."""
+
+    file: str
+    angle: Array
+    torque: Array
+    broke: bool
+    """Whether the torque fell after its largest value."""
+    end: str
+
+    @property
+    def line(self) -> tuple[float, float]:
+        """Stiffness and zero of the lower half."""
+        low = self.torque <= 0.5 * np.max(self.torque)
+        low = low if np.sum(low) > 2 else np.ones(len(self.torque), bool)
+        slope, offset = np.polyfit(self.angle[low], self.torque[low], 1)
+        slope = abs(float(slope)) or 1.0
+        return slope, -float(offset) / slope
+
+    @property
+    def bends(self) -> bool:
+        """Whether the torque falls behind the line of its lower half."""
+        stiffness, zero = self.line
+        return bool(np.max(self.torque) < _BENDS * stiffness * (np.max(self.angle) - zero))
+
+    @property
+    def most(self) -> float:
+        """Largest torque [N*m]."""
+        return float(np.max(self.torque))
+
+    def channel(self) -> Channel:
+        """Its torque, and what it should be."""
+        angle = ca.DM(self.angle)
+
+        def predicted(values: Values) -> Any:
+            return torque_of(angle, values, f"zero_angle{self.end}", bends=self.bends)
+
+        return Channel(f"torque of {self.file}", "N*m", self.torque, predicted, self.angle, "angle", "deg",
+                       noise_of="torque")  # fmt: skip
+
+
+def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
+    """Fit joints that were turned until they gave, together: one stiffness and torque. Raises InputError."""
+    ends = [""] if len(blocks) == 1 else [f"_{i}" for i in range(1, len(blocks) + 1)]
+    joints = [_turned(block, end) for block, end in zip(blocks, ends, strict=True)]
+    gave = [one for one in joints if one.bends]
+    broke = [one for one in joints if one.broke and not one.bends]
+    broke = broke if len(broke) >= _LEAST_BREAKS else []
+    parameters = [Parameter("stiffness", "N*m/rad", "Stiffness of the frozen joint", joints[0].line[0])]
+    if gave or broke:
+        most = float(np.median([one.most for one in (*gave, *broke)]))
+        parameters.append(Parameter("holding_torque", "N*m", "Torque at which it gives", most))
+    parameters += [
+        Parameter(f"zero_angle{one.end}", "deg", "Angle without torque", one.line[1], positive=False,
+                  scale=float(np.ptp(one.angle)))
+        for one in joints
+    ]  # fmt: skip
+    channels = [one.channel() for one in joints]
+    if broke:
+        torques = np.array([one.most for one in broke])
+        channels.append(
+            Channel("torque at the break", "N*m", torques,
+                    lambda values: values["holding_torque"] * ca.DM.ones(len(torques)),
+                    np.arange(1.0, len(torques) + 1.0), "joint", "1", relative=True)
+        )  # fmt: skip
+    with_bond = bool(gave or broke) and any(name in settings for name in _SIZES)
+    found = fitted(Problem(parameters, channels, _bond(settings) if with_bond else []), profiles=profiles)
+    record = {"bond_strength": found["bond_strength"]} if with_bond else {}
+    return Measurement(found, tuple(_notes(joints, bool(gave or broke), with_bond)), record)
+
+
+def torque_of(angle: Any, values: Values, zero: str = "zero_angle", *, bends: bool = True) -> Any:
+    """Torque [N*m] at each angle [rad]; of a joint that does not bend before it breaks, a straight line."""
+    straight = values["stiffness"] * (angle - values[zero])
+    if not bends:
+        return straight
+    most = values["holding_torque"]
+    return straight - ramp(straight - most, _CORNER * most)
+
+
+def _turned(block: Block, end: str) -> Turned:
+    """Angle and torque, above zero where the torque is largest, up to the break."""
+    angle, torque = rows_of(block, ["angle", "torque"])
+    sign = np.sign(torque[np.argmax(np.abs(torque))])
+    angle, torque = sign * angle, sign * torque
+    top = int(np.argmax(torque))
+    after = np.flatnonzero(torque[top:] < _BROKEN * torque[top])
+    last = top + int(after[0]) if len(after) else len(torque)
+    return Turned(block.file, angle[:last], torque[:last], bool(len(after)), end)
+
+
+def _bond(settings: Settings) -> list[Derived]:
+    inner, outer, span = (required(settings, name, "for the strength of the bond") for name in _SIZES)
+    moment = settings["layer_count"] * span / 4.0 * (outer**4 - inner**4)
+    return [
+        Derived("bond_strength", "MPa", "Traction at the layer's outer rim where it gives",
+                lambda values: layer.traction(values["holding_torque"], moment, outer))
+    ]  # fmt: skip
+
+
+def _notes(joints: Sequence[Turned], seen: bool, with_bond: bool) -> list[str]:
+    notes = ["The stiffness is that of all between the two places the angle is measured at: fixture and link too."]
+    if not seen:
+        most = max(one.most for one in joints)
+        notes.append(
+            f"The torque rises straight up to its largest value: the joint holds {most:.3g} N.m at least. Where it "
+            f"gives is not fitted; {_LEAST_BREAKS} joints that break give a torque with an interval."
+        )
+    elif with_bond:
+        notes.append(
+            "The bond is taken as what gives, and its traction as rising with the radius: a link that slips, or an "
+            "edge that bears more than its share, makes the bond look weaker than it is."
+        )
+    else:
+        notes.append(
+            "Without --set layer_inner_radius, layer_outer_radius and layer_span the bond's strength does not follow, "
+            "and no record is written."
+        )
+    return notes

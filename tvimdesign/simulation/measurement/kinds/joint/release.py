@@ -1,0 +1,120 @@
+"""The angle of a joint that is let go, in one record or several: stiffness, damping and friction (`swing`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tvimdesign.physics.motions import dynamics
+from tvimdesign.simulation.measurement.fitting.fit import fitted
+from tvimdesign.simulation.measurement.fitting.problem import (
+    Channel,
+    Derived,
+    Parameter,
+    Problem,
+    Values,
+    from_zero,
+)
+from tvimdesign.simulation.measurement.kinds.joint.swing import CORNER, period_and_decay, swing
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, series_of
+from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+
+_MOST_SAMPLES = 300
+_STEPS_A_PERIOD = 60
+_LEAST_STEPS, _MOST_STEPS = 1, 50
+_OWN = ("zero_angle", "first_angle", "first_speed")
+"""What each record has for itself."""
+
+
+class Record(NamedTuple):
+    """One record: samples, how often the period is gone through, and the end of the names of what is its own."""
+
+    file: str
+    time: Array
+    angle: Array
+    period: float
+    decay: float
+    end: str
+
+    @property
+    def size(self) -> float:
+        """Range of the angle [rad]."""
+        return float(np.ptp(self.angle))
+
+    @property
+    def corner(self) -> float:
+        """Speed at which the friction's corner is [rad/s]."""
+        return CORNER * self.size * np.pi / self.period
+
+    def own(self) -> list[Parameter]:
+        """Its parameters."""
+        rest = float(np.median(self.angle[-max(len(self.angle) // 10, 3) :]))
+        speed = (self.angle[1] - self.angle[0]) / (self.time[1] - self.time[0])
+        sizes = (self.size, self.size, self.size / self.period)
+        starts = (rest, float(self.angle[0]), float(speed))
+        units = ("deg", "deg", "rad/s")
+        meanings = ("Angle at rest", "Angle at the first sample", "Speed at the first sample")
+        return [
+            Parameter(name + self.end, unit, meaning, start, positive=False, scale=size)
+            for name, unit, meaning, start, size in zip(_OWN, units, meanings, starts, sizes, strict=True)
+        ]
+
+    def channel(self, known: Values) -> Channel:
+        """Its angle, and what it should be."""
+        steps = int(np.clip(_STEPS_A_PERIOD * np.max(np.diff(self.time)) / self.period, _LEAST_STEPS, _MOST_STEPS))
+
+        def predicted(values: Values) -> Any:
+            own = {name: values[name + self.end] for name in _OWN}
+            return swing(self.time, {**values, **known, **own}, steps, self.corner)
+
+        return Channel(f"angle of {self.file}", "deg", self.angle, predicted, self.time, "time", "s")
+
+
+def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
+    """Fit records of time and angle, together. Raises InputError for what lacks."""
+    ends = [""] if len(blocks) == 1 else [f"_{i}" for i in range(1, len(blocks) + 1)]
+    records = [_record(block, end) for block, end in zip(blocks, ends, strict=True)]
+    known = {"inertia": settings["inertia"]} if "inertia" in settings else {}
+    inertia = settings.get("inertia", 1e-3)
+    first = records[0]
+    stiffness = inertia * (2.0 * np.pi / first.period) ** 2
+    parameters = [
+        Parameter("stiffness", "N*m/rad", "Stiffness", stiffness),
+        from_zero("damping", "N*m*s/rad", "Viscous damping", 2.0 * inertia * first.decay),
+        from_zero("friction", "N*m", "Dry friction: the half-width of the loop at rest", 3e-3 * stiffness * first.size),
+    ]
+    if not known:
+        parameters.insert(0, Parameter("inertia", "kg*m^2", "Inertia of all that turns", inertia))
+    parameters += [one for record in records for one in record.own()]
+    found = fitted(Problem(parameters, [one.channel(known) for one in records], _derived(known)), profiles=profiles)
+    notes = [note for record, block in zip(records, blocks, strict=True) for note in _thinned_note(record, block)]
+    if not known:
+        notes.append(
+            "Without --set inertia=... a free swing gives ratios only: natural frequency and damping ratio are sure, "
+            "stiffness, damping and friction are not."
+        )
+    return Measurement(found, tuple(notes))
+
+
+def _record(block: Block, end: str) -> Record:
+    time, angle = series_of(block, ["time", "angle"], _MOST_SAMPLES)
+    return Record(block.file, time, angle, *period_and_decay(time, angle), end)
+
+
+def _derived(known: Values) -> list[Derived]:
+    def of(formula: Callable[[Any, Any, Any], Any]) -> Callable[[Values], Any]:
+        return lambda values: formula({**values, **known}["inertia"], values["damping"], values["stiffness"])
+
+    return [
+        Derived("natural_frequency", "Hz", "Undamped natural frequency",
+                of(lambda inertia, _, stiffness: dynamics.natural_frequency(stiffness, inertia))),
+        Derived("damping_ratio", "1", "Damping over the critical one",
+                of(lambda inertia, damping, stiffness: dynamics.damping_ratio(damping, stiffness, inertia))),
+    ]  # fmt: skip
+
+
+def _thinned_note(record: Record, block: Block) -> list[str]:
+    used, there = len(record.time), block.complete(["time", "angle"])
+    return [] if used == there else [f"{block.file}: every {-(-there // _MOST_SAMPLES)}th sample is used, {used}."]

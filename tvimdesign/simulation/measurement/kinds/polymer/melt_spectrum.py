@@ -1,0 +1,224 @@
+"""The relaxation spectrum of a melt from any of its tests, with as few modes as the data bear, and its shift.
+
+Modes (tau_i, G_i) are free in time and modulus. Each temperature but the reference shifts its rates by a factor a_T of
+its own, and by Arrhenius' law where that describes them all; a ramp has rows at all temperatures, and goes by the law
+from the start. How many modes: as long as one more betters Schwarz's criterion [Sch]. Sources: [BW] Baumgaertel and
+Winter, Rheol. Acta 28 (1989) 511 (free times and moduli, as few modes as the data bear); [Sch] Schwarz, Ann. Statist. 6
+(1978) 461.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.physics.polymers import polymer
+from tvimdesign.simulation.measurement.fitting.fit import Fit, fitted
+from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings
+from tvimdesign.simulation.measurement.kinds.polymer.melt_test import Curve, MeltTest
+from tvimdesign.simulation.measurement.kinds.polymer.shift_factors import arrhenius, shift_note
+from tvimdesign.simulation.measurement.kinds.polymer.spectrum_record import spectrum_record
+
+_TOGETHER = 1.0
+"""Tests within so many kelvin are of one temperature."""
+_BETTER = 6.0
+"""By how much Schwarz's criterion has to fall for one mode more: strong evidence (Kass and Raftery, 1995)."""
+_UNTOLD = (
+    "The files do not say their temperature: the spectrum is that of their temperature, whichever it was. No record "
+    "is written; --set temperature=... says it."
+)
+_USUAL_ENERGY = 40e3
+"""J/mol, to start from: in the middle of what polymers' melts have."""
+
+
+class Melt(NamedTuple):
+    """Tests of a melt with what they are fitted by."""
+
+    tests: Sequence[MeltTest]
+    temperatures: Sequence[float]
+    """Of the tests that have one each [K], those within a kelvin as one."""
+    reference: float
+    energy: float | None = None
+    """Start of the activation energy where the shift goes by Arrhenius' law; a factor each otherwise."""
+    known_energy: float | None = None
+    """The activation energy, where it is known."""
+
+    @property
+    def values(self) -> int:
+        """Values measured."""
+        return sum(len(curve.measured) for test in self.tests for curve in test.curves)
+
+    def factor(self, values: Values, test: MeltTest) -> Any:
+        """Shift of the rates of a test: one, or one for each row of a ramp."""
+        if self.energy is not None and (test.ramp is not None or self._near(test) != self.reference):
+            at = self._near(test) if test.ramp is None else test.ramp
+            return polymer.arrhenius_shift(at, self.reference, values.get("flow_activation_energy", self.energy))
+        if np.isnan(self.reference) or self._near(test) == self.reference:
+            return 1.0
+        return values[shift_name(self._near(test))]
+
+    def _near(self, test: MeltTest) -> float:
+        return min(self.temperatures, key=lambda one: abs(one - test.temperature))
+
+    @property
+    def shifted(self) -> list[float]:
+        """The temperatures whose tests are shifted."""
+        return [one for one in self.temperatures if one != self.reference and not np.isnan(one)]
+
+
+def measured(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
+    """The spectrum of tests, all together. Raises InputError for what lacks."""
+    least = settings.get("least_temperature", 0.0)
+    untold = [test for test in tests if np.isnan(test.temperature)]
+    if untold and len(untold) < len(tests):
+        raise InputError(
+            f"{untold[0].name}: the file does not say its temperature, as others do; --set temperature=..."
+        )
+    kept = list(tests) if untold else [test for test in tests if test.temperature >= least]
+    if not kept:
+        raise InputError("--set least_temperature leaves no test")
+    most = round(settings["largest_modes"])
+    melt = _melt(kept, settings)
+    count = _fewest_modes(melt, most)
+    best, notes = _best(melt, count, profiles=profiles)
+    notes = [*_notes(tests, melt, count, most), *notes]
+    if untold:
+        notes.append(_UNTOLD)
+        return Measurement(best, tuple(notes))
+    return spectrum_record(best, count, most, melt.reference, notes)
+
+
+def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
+    if np.isnan(tests[0].temperature):
+        return Melt(tests, [np.nan], np.nan)
+    temperatures: list[float] = []
+    for one in sorted(test.temperature for test in tests):
+        if not temperatures or one - temperatures[-1] > _TOGETHER:
+            temperatures.append(one)
+    wanted = settings.get("reference_temperature", temperatures[len(temperatures) // 2])
+    known = settings.get("flow_activation_energy")
+    ramps = any(test.ramp is not None for test in tests)
+    if known is None and not ramps:
+        return Melt(tests, temperatures, min(temperatures, key=lambda one: abs(one - wanted)))
+    return Melt(tests, temperatures, wanted, _USUAL_ENERGY if known is None else known, known)
+
+
+def _best(melt: Melt, count: int, *, profiles: bool) -> tuple[Fit, list[str]]:
+    """The fit with so many modes, by Arrhenius' law where that describes the shifts, and what is to be said of them."""
+    if melt.energy is not None or len(melt.temperatures) == 1:
+        return fitted(_problem(melt, count), profiles=profiles), []
+    free = fitted(_problem(melt, count), profiles=False)
+    shifts = {one: free[shift_name(one)] for one in melt.shifted}
+    activation = arrhenius(shifts, melt.reference)
+    note = shift_note(activation, shifts, melt.reference)
+    if activation.describes:
+        return fitted(_problem(melt._replace(energy=activation.energy), count), profiles=profiles), note
+    return (fitted(_problem(melt, count)) if profiles else free), note
+
+
+def shift_name(temperature: float) -> str:
+    """The name of a temperature's factor."""
+    return f"shift_{temperature - polymer.ZERO_CELSIUS:.0f}".replace("-", "minus_")
+
+
+def guessed_shift(temperature: Any, reference: float) -> Any:
+    """Shift factor to start from."""
+    return 1.0 if np.isnan(reference) else polymer.arrhenius_shift(temperature, reference, _USUAL_ENERGY)
+
+
+def _fewest_modes(melt: Melt, most: int) -> int:
+    """Modes up to which one more betters Schwarz's criterion, from one to `most`."""
+    chosen, last = 1, np.inf
+    for count in range(1, most + 1):
+        problem = _problem(melt, count)
+        free = len(problem.parameters)
+        if free >= melt.values:
+            break
+        found = fitted(problem, profiles=False)
+        criterion = _misfit(found) + free * np.log(melt.values)
+        if criterion > last - _BETTER:
+            break
+        chosen, last = count, criterion
+    return chosen
+
+
+def _misfit(found: Fit) -> float:
+    """Sum of n ln(mean square of the residuals) over what errs alike."""
+    squares: dict[str, list[Any]] = {}
+    for channel, predicted in zip(found.problem.channels, found.predicted, strict=True):
+        left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
+        squares.setdefault(channel.noise_of, []).append(left if channel.relative else left / np.ptp(channel.measured))
+    groups = [np.concatenate(group) for group in squares.values()]
+    return sum(len(group) * float(np.log(max(np.mean(group**2), 1e-14))) for group in groups)
+
+
+def _problem(melt: Melt, count: int) -> Problem:
+    """Spectrum of `count` modes and shifts."""
+    parameters = _modes(melt, count)
+    parameters += [curve.own for test in melt.tests for curve in test.curves if curve.own]
+    if melt.energy is None:
+        parameters += [
+            Parameter(shift_name(one), "1", "Shift of the rates to those of the reference",
+                      float(guessed_shift(one, melt.reference)))
+            for one in melt.shifted
+        ]  # fmt: skip
+    elif melt.known_energy is None:
+        parameters.append(Parameter("flow_activation_energy", "kJ/mol", "Of the shift with temperature", melt.energy))
+
+    def predicted(test: MeltTest, curve: Curve) -> Callable[[Values], Any]:
+        own = curve.own.name if curve.own else ""
+        return lambda values: curve.predicted(
+            modes_of(values, count), melt.factor(values, test), *([values[own]] if own else [])
+        )
+
+    channels = [
+        Channel(curve.name, curve.unit, curve.measured, predicted(test, curve), curve.at, curve.at_name, curve.at_unit,
+                relative=curve.relative, noise_of=curve.name.partition(" of ")[0])
+        for test in melt.tests
+        for curve in test.curves
+    ]  # fmt: skip
+    return Problem(parameters, channels, [
+        Derived("zero_shear_viscosity", "Pa*s", "Viscosity of slow flow: sum of modulus times time",
+                lambda values: sum(time * modulus for time, modulus in modes_of(values, count))),
+        Derived("plateau_modulus", "MPa", "Sum of the moduli: the modulus at the highest rates measured",
+                lambda values: sum(modulus for _, modulus in modes_of(values, count))),
+    ])  # fmt: skip
+
+
+def modes_of(values: Values, count: int) -> list[tuple[Any, Any]]:
+    """The spectrum (time [s], modulus [Pa]), slowest mode first."""
+    return [(values[f"time_{i}"], values[f"modulus_{i}"]) for i in range(1, count + 1)]
+
+
+def _modes(melt: Melt, count: int) -> list[Parameter]:
+    """Starts: times evenly over the range of the rates, moduli from those nearest to one over each."""
+    shifts = [guessed_shift(test.temperature, melt.reference) for test in melt.tests]
+    rates = np.concatenate([test.rates * shift for test, shift in zip(melt.tests, shifts, strict=True)])
+    size = np.concatenate([test.sizes for test in melt.tests])
+    order = np.argsort(rates)
+    logs = np.linspace(np.log(rates.min()), np.log(rates.max()), 2 * count + 1)[1::2]
+    parameters = []
+    for i, log in enumerate(logs, start=1):
+        modulus = float(np.exp(np.interp(log, np.log(rates[order]), np.log(size[order]))))
+        parameters.append(Parameter(f"time_{i}", "s", "Relaxation time of a mode", float(np.exp(-log)), profiled=False))
+        parameters.append(Parameter(f"modulus_{i}", "Pa", "Modulus of that mode", modulus, profiled=False))
+    return parameters
+
+
+def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list[str]:
+    at = "" if np.isnan(melt.reference) else f" at {melt.reference - polymer.ZERO_CELSIUS:.1f} degC"
+    notes = [
+        f"{count} {'mode' if count == 1 else 'modes'}{at}: one more would not better the fit by what it costs."
+        if count < most
+        else f"{count} modes, the most that were allowed; the data may bear more (--set largest_modes=...)."
+    ]
+    if len(melt.tests) < len(tests):
+        notes.append(f"{len(tests) - len(melt.tests)} of {len(tests)} tests lie below the least temperature: left out.")
+    rows = sum(len(test.rates) for test in melt.tests)
+    low = min(float(test.rates.min()) for test in melt.tests)
+    notes.append(f"{rows} rows from {low:.3g} rad/s on (one over the time, of tests in time); slower is not seen.")
+    return notes

@@ -1,0 +1,100 @@
+"""Combinations that a search among mixed records came to, each solved as the problem of its own records alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
+from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.nlp.solution import SolverEffort
+from tvimdesign.solve.nlp.solver_run import Array, Run, Trace
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+
+
+@dataclass
+class ExactCombinations:
+    """The problems of single combinations of records, each built once when first asked for."""
+
+    build: Callable[[Mapping[str, str]], Optimizer]
+    """The problem with some records chosen."""
+    sizes: Sizes
+    """The listed numbers."""
+    _built: dict[tuple[str, ...], Relaxation] = field(init=False, default_factory=dict)
+
+    def of(self, mixed: Relaxation, box: Box) -> Relaxation:
+        """The problem of the records of one combination; the tree's own where it mixes none."""
+        if not mixed.sizes.mixtures:
+            return mixed
+        records = {name: word for name, word in mixed.choices(box).items() if isinstance(word, str)}
+        key = tuple(records.values())
+        if key not in self._built:
+            self._built[key] = Relaxation(len(self._built), self.build(records), records, self.sizes, SolverEffort())
+        return self._built[key]
+
+    def solved(self, mixed: Relaxation, box: Box, run: Run) -> tuple[Relaxation, Run]:
+        """The best design of a combination from the run that found it: warm, cold, or as it is where time is over."""
+        exact = self.of(mixed, box)
+        if exact is mixed:
+            return mixed, run
+        ends = exact.sizes.ends(box[: len(exact.sizes.names)])
+        begin = _inputs(mixed.optimizer, exact.optimizer, run)
+        carried = _carried(mixed.optimizer, exact.optimizer, run, begin)
+        runs = []
+        if not exact.optimizer.deadline.passed:
+            runs.append(exact.optimizer.solve(ends, warm=carried, begin=begin))
+        if runs and not runs[0].start.converged:
+            runs.append(exact.optimizer.solve(ends, begin=begin))
+        found = min([*runs, carried], key=lambda one: not one.start.converged)
+        choices = exact.choices(box[: len(exact.sizes.names)])
+        found = replace(found, within=ends, start=replace(found.start, choices=choices, relaxed=False))
+        return exact, found
+
+    def closest(self, mixed: Relaxation, box: Box) -> tuple[Relaxation, Run]:
+        """Where the solver ends with one combination, whether there is a design or not."""
+        exact = self.of(mixed, box)
+        return exact, exact.closest(box[: len(exact.sizes.names)])
+
+    def between(self, exact: Relaxation, run: Run) -> Run | None:
+        """The best design with the same records and every size free, from the best with sizes; None where none is."""
+        if not exact.sizes.names:
+            return None
+        found = exact.optimizer.solve(warm=run)
+        if not found.start.converged:
+            found = exact.optimizer.solve(begin=run.inputs)
+        return found if found.start.converged else None
+
+
+def _inputs(mixed: Optimizer, exact: Optimizer, run: Run) -> Array:
+    """A mixed problem's end as inputs of the exact one, whose records' numbers are its own."""
+    inputs = exact.model.start.copy()
+    for free in exact.free:
+        inputs[exact.model.index[free.name]] = run.inputs[mixed.model.index[free.name]]
+    for current in exact.currents:
+        inputs[exact.model.index[current.row]] = run.inputs[mixed.model.index[current.row]]
+    return inputs
+
+
+def _carried(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Run:
+    """A mixed problem's end as a run of the exact one, which has no share: neither mixes records any more."""
+    trace = _trace(mixed, exact, run, begin)
+    start = replace(run.start, begin=exact.vector.free_values(begin), end=exact.vector.free_values(begin))
+    return replace(
+        run, start=start, inputs=begin, unknowns=trace.unknowns, multipliers=trace.multipliers,
+        bound_multipliers=trace.bound_multipliers, parameter_multipliers=np.zeros(len(exact.model.start)),
+    )  # fmt: skip
+
+
+def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
+    """A mixed problem's end as the exact one's: no shares, none of their equations, the limits that are left."""
+    kept = np.r_[0 : len(exact.free), len(mixed.free) : mixed.problem.unknown_count]
+    unknowns = run.unknowns[kept]
+    unknowns[: len(exact.free)] = [free.to_unknown(begin[exact.model.index[free.name]]) for free in exact.free]
+    first = mixed.problem.equation_count
+    places = {limit.name: first + i for i, limit in enumerate(mixed.problem.limits)}
+    limits = [places[limit.name] for limit in exact.problem.limits]
+    rest = range(first + len(mixed.problem.limits), len(run.multipliers))
+    rows = [*range(first - len(mixed.mixtures)), *limits, *rest]
+    return Trace(unknowns, run.multipliers[rows], run.bound_multipliers[kept])

@@ -1,0 +1,131 @@
+"""The records a study lists, as families that share one problem: in one they differ in numbers, not in structure."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from tvimdesign.device import Choice, Input, Output, Table
+from tvimdesign.device.table.quantity import FirstOscillation, Supplied
+from tvimdesign.solve.nlp.mixture import Mixture
+from tvimdesign.solve.optimizer.record_choices import discrete_records, listed_records, with_records
+from tvimdesign.study import Study, given
+
+Records = dict[str, str]
+
+
+@dataclass(frozen=True)
+class Family:
+    """Combinations of records: one of them, and the mixtures of which each has one record."""
+
+    records: Records
+    mixtures: tuple[Mixture, ...]
+
+    @property
+    def fixed(self) -> Records:
+        """The records that every combination has."""
+        mixed = {name for mixture in self.mixtures for name in mixture.records[0]}
+        return {name: record for name, record in self.records.items() if name not in mixed}
+
+    @property
+    def count(self) -> int:
+        """Combinations of records."""
+        return math.prod(len(mixture.records) for mixture in self.mixtures)
+
+
+def families_of(study: Study) -> list[Family]:
+    """Every combination of the records a study lists, once, in families. Raises InputError as `given` does.
+
+    Nothing is mixed where modules spread, as margins are those of a record's own numbers, or where a current follows a
+    profile, which is held against constant currents with the same records.
+    """
+    listed = listed_records(study, study.table)
+    if study.robust or study.profile.pieces():
+        return [Family(records, ()) for records in discrete_records(study, study.table)]
+    first = {name: values[0] for name, values in listed.items()}
+    classes = [_classes(study, first, names, listed) for names in _groups(study, first, listed)]
+    families = []
+    for chosen in itertools.product(*classes):
+        fixed: Records = {}
+        for mixture in chosen:
+            fixed |= mixture.records[0]
+        families.append(Family(fixed, tuple(mixture for mixture in chosen if len(mixture.records) > 1)))
+    return families
+
+
+def _groups(study: Study, first: Records, listed: Mapping[str, Sequence[str]]) -> list[tuple[str, ...]]:
+    """The listed choices, those together that change the same quantity or are read by the same output."""
+    groups: list[tuple[set[str], set[str]]] = []
+    for name, values in listed.items():
+        seen = [_facts(study, {**first, name: value}) for value in values]
+        changed = {one for one in seen[0] if any(other[one] != seen[0][one] for other in seen)}
+        changed |= {row.name for row in _readers(study.table, changed)}
+        names = {name}
+        for group in [one for one in groups if one[1] & changed]:
+            groups.remove(group)
+            names, changed = names | group[0], changed | group[1]
+        groups.append((names, changed))
+    return [tuple(name for name in listed if name in names) for names, _ in groups]
+
+
+def _classes(
+    study: Study, first: Records, names: Sequence[str], listed: Mapping[str, Sequence[str]]
+) -> list[Mixture]:  # fmt: skip
+    """The combinations of some choices, those in one mixture whose words make the same structure."""
+    combinations = [dict(zip(names, one, strict=True)) for one in itertools.product(*(listed[name] for name in names))]
+    facts = [_facts(study, {**first, **one}) for one in combinations]
+    mixed = {name for name in facts[0] if isinstance(facts[0][name], float) and name not in study.vary}
+    words = [name for name in facts[0] if name not in mixed and any(one[name] != facts[0][name] for one in facts)]
+    read = [name for name in words if any(_readers(study.table, [name]))]
+    structure = [name for name in read if not _blends(study.table, name)]
+    found: dict[tuple[Any, ...], list[int]] = {}
+    for place, one in enumerate(facts):
+        endless = tuple(name for name in mixed if not math.isfinite(float(one[name])))
+        found.setdefault((*(one[name] for name in structure), endless), []).append(place)
+    return [_mixture(study, [combinations[i] for i in one], [facts[i] for i in one], first) for one in found.values()]
+
+
+def _mixture(
+    study: Study, records: Sequence[Records], facts: Sequence[Mapping[str, Any]], first: Records
+) -> Mixture:  # fmt: skip
+    numbers = {
+        name: tuple(one[name] for one in facts)
+        for name, value in facts[0].items()
+        if isinstance(value, float) and name not in study.vary and any(one[name] != value for one in facts)
+    }
+    changed = [name for name, value in facts[0].items() if not isinstance(value, float)
+               and any(one[name] != value for one in facts)]  # fmt: skip
+    chosen = [given(with_records(study, {**first, **one})) for one in records]
+    words = tuple({name: one[name] for name in changed} for one in chosen)
+    readers = tuple(row.name for row in _readers(study.table, changed))
+    return Mixture(tuple(records), numbers, words, readers)
+
+
+def _facts(study: Study, records: Records) -> dict[str, float | str]:
+    """Every number and word of a module with some records chosen; a record by its name."""
+    found = given(with_records(study, records))
+    return {
+        name: float(value) if isinstance(value, int | float) else str(getattr(value, "name", value))
+        for name, value in found.items()
+    }
+
+
+def _readers(table: Table, names: Iterable[str]) -> list[Output]:
+    """The outputs that read some words."""
+    words = {row.name for row in table.choices} & set(names)
+    return [row for row in table.outputs if words & set(row.needs)]
+
+
+def _blends(table: Table, word: str) -> bool:
+    """Whether all that is read of a word comes to numbers, so that shares can be taken of them."""
+    rows: list[Output | Input | Choice] = [*table.outputs, *table.inputs, *table.choices]
+    decides = {feature.choice for row in rows for feature in row.requires}
+    decides |= {row.parts_differ_with.choice for row in table.outputs if row.parts_differ_with}
+    plain = not any(
+        row.hidden or row.instant or row.per_point or isinstance(row, (*Supplied, FirstOscillation))
+        for row in _readers(table, [word])
+    )
+    return word not in decides and plain

@@ -1,0 +1,102 @@
+"""Records to choose from as shares of a mixture: the hull of their numbers, and a device in which they are unknowns.
+
+Each record has a share between 0 and 1, and the shares add up to one. A number of the device is the sum of the records'
+numbers times their shares, and so is an output that reads a record's table. Where one share is one, the device is that
+of the record; no combination of records lies outside the hull, so what is best in it bounds them all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.device import Table
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Mixture:
+    """Records of one or a few choices that share numbers, of which a design has one."""
+
+    records: tuple[dict[str, str], ...]
+    """What is chosen by each of them, by the choices' names."""
+    numbers: Mapping[str, tuple[float, ...]]
+    """The inputs (SI) that differ among them, one value a record."""
+    words: tuple[Mapping[str, Any], ...]
+    """Their records and options as the table reads them."""
+    read_by: tuple[str, ...]
+    """The outputs that read these."""
+
+    @property
+    def name(self) -> str:
+        """The choices, which stand for all of their records."""
+        return ", ".join(self.records[0])
+
+    @cached_property
+    def shares(self) -> tuple[str, ...]:
+        """The names of the shares among the device's inputs."""
+        return tuple(f"share of {', '.join(one.values())}" for one in self.records)
+
+    def in_order(self, order: Sequence[int]) -> Mixture:
+        """The same records in another order."""
+        return Mixture(
+            tuple(self.records[i] for i in order),
+            {name: tuple(values[i] for i in order) for name, values in self.numbers.items()},
+            tuple(self.words[i] for i in order),
+            self.read_by,
+        )
+
+
+class MixedDevice(DeviceFunctions):
+    """A device whose records are mixed: their shares are inputs. It starts with the first record of each mixture."""
+
+    def __init__(
+        self, table: Table, given: Mapping[str, Any], points: Sequence[str], cells: int, mixtures: Sequence[Mixture]
+    ) -> None:
+        """Add the shares to the inputs."""
+        self.mixtures = tuple(mixtures)
+        shares = {name: float(place == 0) for one in mixtures for place, name in enumerate(one.shares)}
+        super().__init__(table, {**given, **shares}, points, cells)
+        self.start = self.mixed(self.start)
+
+    def mixed(self, inputs: Array) -> Array:
+        """Inputs with shares that add up to one, and the numbers that follow from these."""
+        found = inputs.copy()
+        for mixture in self.mixtures:
+            places = [self.index[name] for name in mixture.shares]
+            found[places] = shared(found[places])
+            for name, values in mixture.numbers.items():
+                found[self.index[name]] = found[places] @ np.array(values)
+        return found
+
+    @cached_property
+    def _symbols(self) -> tuple[Any, Any, dict[str, Any]]:
+        inputs, cycle, known = super()._symbols
+        for mixture in self.mixtures:
+            for name, values in mixture.numbers.items():
+                known[name] = _sum(mixture, known, values)
+        for reader, mixture in sorted(self._readers(), key=lambda one: len(self.table.ancestors(one[0]))):
+            read = [self.table.resolve({**known, **words}, [reader])[reader] for words in mixture.words]
+            known[reader] = _sum(mixture, known, read)
+        return inputs, cycle, known
+
+    def _readers(self) -> list[tuple[str, Mixture]]:
+        return [(reader, mixture) for mixture in self.mixtures for reader in mixture.read_by]
+
+
+def shared(shares: Array) -> Array:
+    """Numbers that are not negative as shares of their sum; alike where all are nothing."""
+    whole = np.sum(shares)
+    return shares / whole if whole > 0.0 else np.full(len(shares), 1.0 / len(shares))
+
+
+def _sum(mixture: Mixture, known: Mapping[str, Any], values: Sequence[Any]) -> Any:
+    """Values weighted by the records' shares."""
+    return sum(known[share] * value for share, value in zip(mixture.shares, values, strict=True))

@@ -1,0 +1,131 @@
+"""The best design of which so many modules keep every limit: margins from modules drawn at random, in rounds.
+
+At a design, modules are drawn from the tolerances. Each limit that holds the design, or that too many modules break,
+is tightened by one and the same quantile of its own residual, the least with which the share asked for would keep all
+limits together if residuals moved as a whole. The optimum is then sought again, warm, and modules are drawn anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.solution import same_optimum
+from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.uncertainty.yields import Drawn, yields_of
+
+ROUNDS = 8
+_SETTLED, _SHORT = 0.05, 0.005
+"""Change of a margin, in standard deviations of what it is for, below which it is settled: where the yield is reached,
+and where it is short of that.
+"""
+_MEDIAN, _DEVIATION = 0.5, 0.8413
+"""Shares of a normal distribution up to its middle, and up to one standard deviation beyond."""
+_PRESSING = 1e-6
+"""Multiplier from which on a limit holds the design, objectives a share of its scale."""
+_UNKNOWN = 0.1
+"""Step of a margin, as a share of its limit's scale, where too many modules never come to its output at all."""
+_HALVINGS = 3
+_AIM = 0.05
+"""Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield."""
+
+
+@dataclass(frozen=True)
+class Robust:
+    """A converged design, the margins it was found with, and the share of the modules drawn that keep every limit."""
+
+    run: Run
+    margins: dict[str, float]
+    """By limit [shares of its scale]."""
+    kept: float
+    reached: bool
+    """Whether that is as many as asked, to the lower end of its interval of 95 %."""
+
+
+def reach_yield(
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], share: float, objective: Objective | None = None
+) -> Robust:
+    """Seek the optimum `within` ends again from a converged run, until `share` of the modules keep every limit.
+
+    Returns the best design that reaches it, else the one that most modules keep; its margins stay with the optimizer.
+    """
+    found: list[Robust] = []
+    for _ in range(ROUNDS):
+        drawn, margins = yields_of(optimizer).at(run.inputs), dict(optimizer.margins)
+        found.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
+        moves = _moves(drawn, share + _AIM * (1.0 - share), margins, _pressing(optimizer, run))
+        if not moves or _no_better(found):
+            break
+        optimizer.progress(f"{drawn.together.share:.1%} of the modules keep every limit: moving the margins")
+        following = _tightened(optimizer, run, within, objective, margins, moves)
+        if following is None:
+            break
+        run = following
+    best = min(found, key=lambda one: (not one.reached, one.run.start.objective if one.reached else -one.kept))
+    optimizer.margins = best.margins
+    return best
+
+
+def _no_better(found: Sequence[Robust]) -> bool:
+    """Whether the last two rounds reached the yield at the same objective."""
+    last = found[-2:]
+    return len(last) > 1 and all(one.reached for one in last) and same_optimum(last[0].run.start, last[1].run.start)
+
+
+def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: Collection[str]) -> dict[str, float]:
+    """By how much to move the margin of each limit; empty where all are settled.
+
+    A limit that holds the design, or has a margin, gives back what it has too much; no margin falls below zero.
+    """
+    ordered = np.sort(np.nan_to_num(drawn.residuals, nan=np.inf), axis=1)
+    before = np.array([margins.get(limit.name, 0.0) for limit in drawn.limits])
+    may_give = np.array([limit.name in pressing for limit in drawn.limits]) | (before > 0.0)
+    first, last = 0, drawn.residuals.shape[1] - 1
+    while first < last:
+        middle = (first + last) // 2
+        if drawn.within(_shifts(ordered, middle, may_give)).low >= share:
+            last = middle
+        else:
+            first = middle + 1
+    shifts = np.where(np.isinf(shifts := _shifts(ordered, last, may_give)), _UNKNOWN, shifts)
+    moved = np.maximum(before + shifts, 0.0) - before
+    middle, beyond = (ordered[:, int(share_of * (ordered.shape[1] - 1))] for share_of in (_MEDIAN, _DEVIATION))
+    settled = _SETTLED if drawn.together.low >= share else _SHORT
+    unsettled = np.abs(moved) > settled * np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
+    return {drawn.limits[i].name: float(moved[i]) for i in np.flatnonzero(unsettled)}
+
+
+def _shifts(ordered: Array, place: int, may_give: NDArray[np.bool_]) -> Array:
+    """What each limit's residual must fall by for so many modules to keep it; it may rise where the limit may give."""
+    beyond = ordered[:, place]
+    return np.where(may_give, beyond, np.maximum(beyond, 0.0))
+
+
+def _tightened(
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None,
+    margins: Mapping[str, float], moves: Mapping[str, float],
+) -> Run | None:  # fmt: skip
+    """The optimum with moved margins; where there is none, with half of the move, and half of that."""
+    for halving in range(_HALVINGS):
+        step = 0.5**halving
+        optimizer.margins = {
+            name: margins.get(name, 0.0) + step * moves.get(name, 0.0) for name in {**margins, **moves}
+        }
+        found = optimizer.solve(within, warm=run, objective=objective)
+        if not found.start.converged:
+            found = optimizer.solve(within, begin=run.inputs, objective=objective)
+        if found.start.converged or optimizer.deadline.passed:
+            break
+    return found if found.start.converged else None
+
+
+def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
+    """The limits that hold a design."""
+    first, limits = optimizer.problem.equation_count, optimizer.problem.limits
+    of_limits = run.multipliers[first : first + len(limits)]
+    return {limit.name for limit, multiplier in zip(limits, of_limits, strict=True) if multiplier > _PRESSING}
