@@ -1,7 +1,8 @@
 """Compare every case of validation/cases with what the product says, and write the page of the results.
 
 `python validation/run.py` compares all cases, writes docs/validation.md with its figures, and ends with 1 where one is
-outside its band; with names of cases it compares those and writes nothing.
+outside its band or cannot be compared, which leaves the page as it was. With names of cases it compares those and
+writes nothing.
 """
 
 from __future__ import annotations
@@ -31,16 +32,22 @@ def main(arguments: list[str] | None = None) -> int:
     unknown = set(given.cases) - {case.name for case in cases}
     if unknown:
         parser.error(f"no case is named {', '.join(sorted(unknown))}; the cases are in {given.folder}")
-    outcomes = worst_first(outcome(case) for case in cases if not given.cases or case.name in given.cases)
-    for one in outcomes:
-        print(_line(one))
-    if not given.cases:
+    outcomes, broken = [], []
+    for case in (case for case in cases if not given.cases or case.name in given.cases):
+        try:
+            outcomes.append(outcome(case))
+        except Exception as error:
+            broken.append(f"cannot be compared: {case.name}: {type(error).__name__}: {error}")
+    outcomes = worst_first(outcomes)
+    for line in (*broken, *map(_line, outcomes)):
+        print(line)
+    if not given.cases and not broken:
         write_figures(outcomes, given.docs / "pictures/validation")
         (given.docs / "validation.md").write_text(page(outcomes), encoding="utf-8")
     counts = {verdict: sum(one.verdict == verdict for one in outcomes) for verdict in (INSIDE, KNOWN, OUTSIDE, OPEN)}
     print(", ".join(f"{count} {verdict}" for verdict, count in counts.items()), end="")
     print(f"; {time.perf_counter() - begin:.0f} s")
-    return 1 if counts[OUTSIDE] else 0
+    return 1 if counts[OUTSIDE] or broken else 0
 
 
 def _line(one: Outcome) -> str:

@@ -45,11 +45,10 @@ def test_the_page_has_every_case_its_verdict_and_its_figure() -> None:
     for case in ALL:
         assert f"{{#{case.name}}}" in text, case.name
         assert (ROOT / f"docs/pictures/validation/{case.name}.svg").exists() is not bool(case.open)
-    assert "| OUTSIDE |" not in text
-    verdicts = re.findall(r"\| ([a-z ]+) \|$", text.partition("\n## ")[0], re.MULTILINE)
-    # The worst first: what is known to differ, then what is inside, then what is open.
+    verdicts = re.findall(r"\| ([A-Za-z ]+) \|$", text.partition("\n## ")[0], re.MULTILINE)
+    # The worst first: what is outside, what is known to differ, what is inside, what is open.
     order = [verdict for verdict in verdicts if verdict != "verdict"]
-    assert order == sorted(order, key=[KNOWN, INSIDE, "open"].index)
+    assert order == sorted(order, key=[OUTSIDE, KNOWN, INSIDE, "open"].index)
     assert len(order) == len(ALL)
 
 
@@ -85,6 +84,18 @@ def test_a_product_that_is_off_fails_the_run(monkeypatch: pytest.MonkeyPatch, tm
     right = spring.rate
     monkeypatch.setattr(spring, "rate", lambda *size: 1.002 * right(*size))
     assert run.main(["--folder", str(tmp_path), "spring_rate_smi_example"]) == 1
+
+
+def test_a_case_that_cannot_be_compared_fails_the_run_and_leaves_the_page(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copied("part_fits_iso_286", tmp_path / "cases", ("[H7, 3]", "[Q7, 3]"))
+    copied("part_bearing", tmp_path / "cases")
+    assert run.main(["--folder", str(tmp_path / "cases"), "--docs", str(tmp_path / "docs")]) == 1
+    told = capsys.readouterr().out
+    assert "cannot be compared: part_fits_iso_286: GeometryError: tolerance class 'Q7'" in told
+    assert f"{INSIDE:<17}part_bearing" in told
+    assert not (tmp_path / "docs").exists()
 
 
 def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path) -> None:

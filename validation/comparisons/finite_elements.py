@@ -30,13 +30,16 @@ def springs(_: Found) -> Found:
     found: dict[str, list[float]] = {"rate": [], "fibre": [], "bend": [], "coil": []}
     for case in told["springs"].values():
         wire, coil, pitch, arm = (1e-3 * case[name] for name in ("wire_diameter", "coil_diameter", "pitch", "arm"))
-        shape = drawn_spring.DrawnSpring(wire, coil, 2.0 * np.pi * case["turns"], pitch, arm)
+        shape = drawn_spring.DrawnSpring(
+            wire, coil, 2.0 * np.pi * case["turns"], pitch, arm, (case["bend_ratio"] + 0.5) * wire
+        )
         coils = drawn_spring.active_coils(shape, told["poissons_ratio"])
         straight = spring.bending_stress(1.0, wire, 1.0) * 1e-6
         factor = spring.inner_fibre_factor(coil / wire)
         found["rate"].append(spring.rate(case["modulus"] * 1e9, wire, coil, coils))
         found["fibre"].append(straight * factor * (1.0 + 0.5 * coil / arm))
-        found["bend"].append(straight * drawn_spring.bend_stress_factor(shape))
+        if case["bend_ratio"] >= 1.0:
+            found["bend"].append(straight * drawn_spring.bend_stress_factor(shape))
         if "coil" in case:
             found["coil"].append(straight * drawn_spring.coil_stress_factor(shape, factor))
     return found

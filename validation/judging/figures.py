@@ -17,6 +17,8 @@ from tvimdesign.report.figures.theme.style import BAND, COLOURS, LIMIT, MARKERS,
 _WIDTH, _HEIGHT = 3.4, 2.1
 _WIDE = 30.0
 """An axis whose ends are so many times apart is logarithmic."""
+_FURTHEST = 30.0
+"""A value further from its band is drawn so many half bands away, an infinite one too."""
 _LONGEST = 26
 """Letters of a label."""
 
@@ -86,7 +88,7 @@ def _scale(axes: Axes, curves: list[Compared]) -> None:
 def _draw_bands(axes: Axes, one: Outcome) -> None:
     """Each value's place in its band, which reaches from -1 to 1."""
     told = [(part, row) for part in one.quantities for row in part.rows]
-    shares = [row.of_band for _, row in told]
+    shares = [max(-_FURTHEST, min(row.of_band, _FURTHEST)) for _, row in told]
     names = [f"{part.quantity.name} {row.label}".strip().replace("_", " ") for part, row in told]
     axes.axvspan(-1.0, 1.0, **BAND)
     axes.axvline(0.0, **LIMIT)

@@ -107,11 +107,7 @@ def _called(room: str, case: Case, name: str) -> Mapping[str, Any]:
         call = getattr(import_module(f"{room}.{module}"), function)
     except (ImportError, AttributeError) as error:
         raise CaseError(f"{case.name}: {room} has no {name}: {error}") from error
-    try:
-        told: Mapping[str, Any] = call(case.inputs)
-    except Exception as error:
-        error.add_note(f"in the case {case.name}, {room}/{name}")
-        raise
+    told: Mapping[str, Any] = call(case.inputs)
     return told
 
 

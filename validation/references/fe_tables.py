@@ -14,10 +14,14 @@ VALIDATION = Path(__file__).resolve().parents[1]
 
 
 def springs(_: Told) -> Told:
-    """Rate and stresses of the drawn springs; the whole coil was looked at in some."""
+    """Rate and stresses of the drawn springs; the whole coil was looked at in some.
+
+    Bends count that the product draws: an inside radius of a wire's diameter or more.
+    """
     told = yaml.safe_load((VALIDATION / "fe_spring/results.yaml").read_text(encoding="utf-8"))["springs"]
     names = ("rate", "fibre", "bend", "coil")
     labels = {name: [spring for spring, case in told.items() if name in case] for name in names}
+    labels["bend"] = [spring for spring in labels["bend"] if told[spring]["bend_ratio"] >= 1.0]
     return {**{name: [told[spring][name] for spring in labels[name]] for name in names}, "labels": labels}
 
 
