@@ -93,7 +93,7 @@ def test_no_neighbor_is_tried_twice() -> None:
 
     coils = Input(name="coil_count", unit="1", description="", group="", period=1.0)
     optimizer: Any = SimpleNamespace(
-        free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(quantity=lambda _: coils), solve=solve,
+        free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(by_name={"coil_count": coils}), solve=solve,
         model=SimpleNamespace(index={"coil_count": 0}), vector=SimpleNamespace(places_of_currents=list),
         deadline=Deadline(),
     )  # fmt: skip
