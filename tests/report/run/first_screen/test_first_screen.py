@@ -26,7 +26,7 @@ from tvimdesign.study import Study, drawn, read_study, read_study_text
 from tvimdesign.study.record_checks import record_checks
 
 LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 3 mm}"
-CHOICES = COARSE.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}")
+CHOICES = COARSE.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}").replace("5 N.m/rad", "4.5 N.m/rad")
 MANY = """mode: shear
 require:
   joint_stiffness@hot: [">= 1 N.m/rad", "<= 900 N.m/rad"]
