@@ -21,7 +21,7 @@ E_WIRE, NU_WIRE, RHO_WIRE, STRENGTH, STRENGTH_POWER = 196.5e9, 0.292, 7850.0, 22
 YIELD_RATIO, FATIGUE_RATIO = 0.78, 0.5
 PRELOAD, STROKE, COIL_GAP, LEG_OVERHANG = 0.15, 0.104, 0.1e-3, 4e-3
 TANG_CLEARANCE, TANG_END_GAP = 0.25e-3, 0.5e-3
-BEND_ACROSS, BEND_IN_PLANE = 1.3, (4.0 * 2.0**2 - 2.0 - 1.0) / (4.0 * 2.0 * (2.0 - 1.0))
+BEND, BEND_ACROSS, BEND_IN_PLANE = 2.0, 1.1, (4.0 * 4.0**2 - 4.0 - 1.0) / (4.0 * 4.0 * (4.0 - 1.0))  # radius in wires
 # Structure: printed PETG
 E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
@@ -170,7 +170,8 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     d, coil, n, r, outer, span, t = x[0], x[1], x[2], x[3], x[4], x[5], x[6]
     # where things are
     pin_at = PIN_RATIO * r
-    reach = math.sqrt(0.25 * coil**2 + d**2) + 0.5 * d
+    curve = BEND * d
+    reach = math.sqrt(0.25 * coil**2 + curve**2) + 0.5 * d
     offset = 0.5 * (coil + d + PIN)
     arm = math.sqrt((r - pin_at) ** 2 - offset**2)
     leg = arm + LEG_OVERHANG
@@ -180,7 +181,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     pitch = d + COIL_GAP
     slope = pitch / (PI * coil)
     rise = math.sqrt(1.0 + slope**2)
-    end = d / rise + pitch * (n + PRELOAD / (2.0 * PI))
+    end = curve / rise + pitch * (n + PRELOAD / (2.0 * PI))
     pin_top = end + slope * leg + 0.5 * d + AXIAL
     link_bottom = pin_top + AXIAL
     plate_top = t + ROTOR
@@ -202,21 +203,28 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     tilted = (1.0 + 0.5 * NU_WIRE) * (high**3 - low**3) / (3.0 * climb)
     tilted += 0.5 * NU_WIRE * ((0.5 * high**2 - 0.25 * climb**2) * twice + 0.5 * climb * (high * twice_cosine - low))
     lever = arm + radius * sine
-    bent = 0.25 * PI * (2.0 + NU_WIRE) * (lever**2 + (high * cosine) ** 2) + 0.5 * PI * (high * sine) ** 2
-    rate = PI * E_WIRE * d**4 / 64.0 / ((radius * (about + tilted) + d * bent) / arm**2 + arm / 3.0)
+    aside, low_end = curve * cosine, high + curve
+    bent = 0.5 * PI * lever**2 + 2.0 * lever * aside + 0.25 * PI * aside**2
+    bent += 0.5 * PI * high**2 + (PI - 2.0) * high * curve + (0.75 * PI - 2.0) * curve**2
+    twisted = 0.25 * PI * ((cosine * low_end) ** 2 + lever**2) + 0.5 * PI * aside**2
+    twisted -= 2.0 * cosine**2 * curve * low_end + cosine * lever * (low_end - 2.0 * curve)
+    wound_up = (radius * (about + tilted) + curve * (bent + NU_WIRE * twisted)) / arm**2 + arm / 3.0
+    rate = PI * E_WIRE * d**4 / 64.0 / wound_up
     # the pin bends, shears and rocks, the tang twists the floor: both in series with the spring
     height, half_pin = max(end + slope * arm - plate_top, 0.5 * d), 0.5 * PIN
     give = height**3 / (0.75 * PI * E_PETG * half_pin**4) + height / (0.9 * G_PETG * PI * half_pin**2)
     give += 0.75 * height**2 * (1.0 - NU_PETG**2) / (E_PETG * half_pin**3)
     tang = PI * G_PETG * d**2 * (FLOOR - TANG_END_GAP)
-    give = give / arm**2 + (1.0 + math.sqrt(0.25 * coil**2 + d**2) / arm) ** 2 / tang
+    give = give / arm**2 + (1.0 + math.sqrt(0.25 * coil**2 + curve**2) / arm) ** 2 / tang
     rate /= 1.0 + rate * give
     index = coil / d
     inner_fibre = (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
     straight = 32.0 * rate / (PI * d**3)
     in_coil = straight * inner_fibre * math.sqrt((1.0 + radius / arm) ** 2 + (high / arm) ** 2)
-    across, in_plane, twist = BEND_ACROSS * lever, BEND_IN_PLANE * high * sine, BEND_ACROSS * high * cosine
-    in_bend = straight * math.sqrt(across**2 + in_plane**2 + 0.75 * twist**2) / arm
+    at_coil = (BEND_IN_PLANE * high * sine) ** 2 + BEND_ACROSS**2 * (lever**2 + 0.75 * (high * cosine) ** 2)
+    at_floor = (BEND_IN_PLANE * low_end * sine) ** 2
+    at_floor += BEND_ACROSS**2 * ((low_end * cosine) ** 2 + 0.75 * (lever + aside) ** 2)
+    in_bend = straight * (at_coil**6 + at_floor**6) ** (1.0 / 12.0) / arm
     strength = STRENGTH * (1e3 * d) ** -STRENGTH_POWER
     most = PRELOAD + STROKE
     pin_stress = 32.0 * rate * most / arm * height / (PI * PIN**3)
@@ -289,7 +297,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     screws = shanks * (0.125 * LINK_PILOT**2 + BOLT_CIRCLE**2) + heads * (0.125 * LINK_HEAD**2 + BOLT_CIRCLE**2)
     screws += 0.125 * (shank * LAST_PILOT**2 + head * LAST_HEAD**2)
     inertia += RHO_STEEL * (screws + dowel_polar * DOWEL_LONG)
-    wire = leg * rise + n * math.sqrt((PI * coil) ** 2 + pitch**2) + d * (0.5 * PI - math.atan(slope))
+    wire = leg * rise + n * math.sqrt((PI * coil) ** 2 + pitch**2) + curve * (0.5 * PI - math.atan(slope))
     wire += FLOOR - TANG_END_GAP
     mass = RHO_PETG * (housing + turning + link + retainer) + RHO_PCL * area * t + PAD_MASS / (PAD_AREA * PAD) * pads
     mass += RHO_WIRE * SPRINGS * 0.25 * PI * d**2 * wire + RHO_STEEL * (

@@ -155,7 +155,8 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
 def test_conflicting_requirements_end_in_exit_code_3_and_keep_the_results(process: Command, tmp_path: Path) -> None:
     file = tmp_path / "impossible.yaml"
     file.write_text(
-        "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], coil_count: [3, 8]}\n"
+        "mode: shear\nmodule: {placement_radius: 62 mm, pin_diameter: 6 mm}\n"
+        "vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], coil_count: [3, 8]}\n"
         'require: {spring_stiffness: ">= 20 N.m/rad", spring_fatigue_safety: ">= 3"}\nminimize: module_mass\n'
         "solver: {starts: 1, max_iterations: 60}\n"
     )

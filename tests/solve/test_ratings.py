@@ -24,7 +24,7 @@ TABLE = table_for("shear")
 # PETG, rated for 60 degC, holds pads that take the far face of the layer to 100 degC.
 SEARCHED = """
 mode: shear
-vary: {wire_diameter: [1.5 mm, 3.2 mm]}
+vary: {wire_diameter: [1.5 mm, 3.2 mm], placement_radius: [57 mm, 60 mm]}
 require: {spring_stiffness: ">= 4 N.m/rad"}
 minimize: module_mass
 solver: {starts: 1, cells: 8}

@@ -20,6 +20,7 @@ mode: shear
 module: {{response_criterion: {criterion}}}
 vary:
   wire_diameter: [1.5 mm, 3 mm]
+  placement_radius: [57 mm, 60 mm]
   current: [0.5 A, 1.5 A]
   pcl_thickness: [0.6 mm, 2 mm]
 require: {{spring_stiffness: ">= 4 N.m/rad"{more}}}

@@ -93,7 +93,7 @@ def test_no_neighbor_is_tried_twice() -> None:
 
     coils = Input(name="coil_count", unit="1", description="", group="", period=1.0)
     optimizer: Any = SimpleNamespace(
-        free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(quantity=lambda _: coils), solve=solve,
+        free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(by_name={"coil_count": coils}), solve=solve,
         model=SimpleNamespace(index={"coil_count": 0}), vector=SimpleNamespace(places_of_currents=list),
         deadline=Deadline(),
     )  # fmt: skip
@@ -109,8 +109,8 @@ def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> Non
     optimizer = Optimizer(study.model_copy(update={"vary": fixed}))
     whole = optimizer.solve()
     halves = [
-        optimizer.solve({"wire_diameter": (2.5e-3, 3.2e-3)}),
-        optimizer.solve({"pcl_outer_radius": (33e-3, 48e-3)}),
+        optimizer.solve({"wire_diameter": (2.8e-3, 3.2e-3)}),
+        optimizer.solve({"pcl_outer_radius": (36e-3, 48e-3)}),
     ]
     assert all(run.start.converged for run in (whole, *halves))
     assert min(half.start.objective for half in halves) > 1.01 * whole.start.objective

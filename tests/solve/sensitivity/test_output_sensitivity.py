@@ -126,10 +126,11 @@ def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -
 def test_the_compression_module_is_differentiated_alike() -> None:
     # The far face is never at 100 degC: too much goes from the vanes into the housing.
     resolved = _rig("mode: compression\nmodule: {response_criterion: softening, current: 2 A}\n")
-    # Three elements are 2 % off, six 1 %, twelve 0.1 %.
-    found = output_sensitivities(resolved, ELEMENTS, CELLS, ["response_time", "module_mass", "block_strain"])
+    # Six elements are 1.9 % off, twelve 1.2 %, 24 0.1 %: the joint is soft while cells melt one after the other.
+    found = output_sensitivities(resolved, 2 * ELEMENTS, CELLS, ["response_time", "module_mass", "block_strain"])
     by = _logarithmic(found, resolved)
-    shown = _simulated(resolved, CELLS, "block_depth", ["response_time"])
+    # Differences go 0.9142, 0.9092, 0.9078, 0.9074 as the step is halved from 0.8 %.
+    shown = _simulated(resolved, CELLS, "block_depth", ["response_time"], STEP / 4)
     assert by["block_strain", "block_depth"] == pytest.approx(-1.0, rel=1e-9)
     assert by["response_time", "block_depth"] == pytest.approx(shown["response_time"], rel=3e-3)
 

@@ -25,7 +25,7 @@ from tvimdesign.study import read_study_text
 
 ALGEBRAIC = """
 mode: shear
-module: {transmission: unity}
+module: {transmission: unity, placement_radius: 60 mm, pin_diameter: 6 mm}
 vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
 require: {spring_stiffness: ">= 5 N.m/rad"}
 accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]

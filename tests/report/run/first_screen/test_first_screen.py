@@ -26,7 +26,7 @@ from tvimdesign.study import Study, drawn, read_study, read_study_text
 from tvimdesign.study.record_checks import record_checks
 
 LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 3 mm}"
-CHOICES = COARSE.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}")
+CHOICES = COARSE.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}").replace("5 N.m/rad", "4.5 N.m/rad")
 MANY = """mode: shear
 require:
   joint_stiffness@hot: [">= 1 N.m/rad", "<= 900 N.m/rad"]
@@ -176,7 +176,8 @@ def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
     assert solution is not None
     ends = [start.objective for start in solution.starts if start.converged]
     same = sum(end == pytest.approx(solution.objective, rel=1e-4) for end in ends)
-    agree = f"{same} of 3 starts agree" if same > 1 else "found by 1 of 3 starts"
+    tried = len(ends)
+    agree = f"{same} of {tried} starts agree" if same > 1 else f"found by 1 of {tried} starts"
     assert re.search(rf" · shear · OPTIMAL, {accepted}( ·)? {agree} · 12 s", first)
     # PETG and pads are hotter than they are rated for, as its study accepts.
     assert re.search(r" · shear( ·)? EVALUATED, ACCEPTING: [\w, ]+_margin( ·)? 12 s", second)
