@@ -101,7 +101,7 @@ class Compared(NamedTuple):
     @property
     def difference(self) -> float:
         """Of the product's time [%]."""
-        return 100.0 * (self.product / self.plane - 1.0)
+        return 0.0 if self.product == self.plane else 100.0 * (self.product / self.plane - 1.0)
 
 
 class Judge:
@@ -190,10 +190,19 @@ def product_times(model: DeviceFunctions) -> dict[str, float]:
     return {name: values[name] for name in TIMES if np.isfinite(values[name])}
 
 
+def never(judge: Judge, steps: int) -> Compared:
+    """A joint the product does not soften within the simulation's horizon: no difference where the plane does not."""
+    plane = judge.time("softening_time", judge.heated(judge.known["horizon"], steps))
+    return Compared(np.inf, plane, np.nan, np.inf)
+
+
 def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> dict[str, Compared]:
     """Each time by the product and by the plane."""
     ours = product_times(model)
-    judge, longest = Judge(model, plane_of(model, fine)), max(ours.values())
+    judge = Judge(model, plane_of(model, fine))
+    if not ours:
+        return {"softening_time": never(judge, steps)}
+    longest = max(ours.values())
     switch = judge.heated(LONGER[0] * longest, steps)
     if not np.isfinite(judge.time("softening_time", switch)):
         switch = judge.heated(LONGER[1] * longest, steps)
