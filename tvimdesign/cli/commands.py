@@ -11,7 +11,7 @@ import typer
 from tvimdesign.base.errors import InputError, RenamedWarning
 from tvimdesign.cli import completions
 from tvimdesign.cli.folders import default_folder, name_of
-from tvimdesign.cli.options import AsJson, Out, Overwrite, Settings, StudyFile, StudyOrDesign
+from tvimdesign.cli.options import AsJson, Out, Overwrite, ResultOfRun, Settings, StudyFile, StudyOrDesign
 from tvimdesign.report.virtual_tests import TESTS
 
 app = typer.Typer(
@@ -146,12 +146,7 @@ def cad(
 
 @app.command()
 def robot(
-    result: Annotated[
-        Path,
-        typer.Argument(
-            metavar="RESULT", help="design.json or folder of a run.", autocompletion=completions.designs_and_studies
-        ),
-    ],
+    result: ResultOfRun,
     timestep: Annotated[
         str,
         typer.Option(
@@ -207,12 +202,7 @@ def tolerate(
 
 @app.command()
 def verify(
-    design: Annotated[
-        Path,
-        typer.Argument(
-            metavar="RESULT", help="Folder or design.json of a run.", autocompletion=completions.designs_and_studies
-        ),
-    ],
+    result: ResultOfRun,
     fe_python: Annotated[
         str,
         typer.Option(
@@ -227,8 +217,8 @@ def verify(
     """Hold a design's model against finite elements on its exported parts, into results/<name>-verified."""
     from tvimdesign.report.verify.verify_design import verify_design
 
-    folder = out or Path("results") / f"{name_of(design)}-verified"
-    verify_design(design, folder, fe_python, overwrite=overwrite, pictures=pictures, as_json=json)
+    folder = out or Path("results") / f"{name_of(result)}-verified"
+    verify_design(result, folder, fe_python, overwrite=overwrite, pictures=pictures, as_json=json)
 
 
 @app.command()

@@ -20,6 +20,12 @@ StudyOrDesign = Annotated[
         autocompletion=completions.designs_and_studies,
     ),
 ]
+ResultOfRun = Annotated[
+    Path,
+    typer.Argument(
+        metavar="RESULT", help="Folder or design.json of a run.", autocompletion=completions.designs_and_studies
+    ),
+]
 Settings = Annotated[
     list[str] | None,
     typer.Option(
