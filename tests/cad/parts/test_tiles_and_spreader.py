@@ -7,6 +7,7 @@ from math import pi
 import cadquery as cq
 import pytest
 from cad_designs import TILES, broken_rules, design_of
+from placed_solids import placed_solids
 
 from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.assembly.assembly_note import steps_of
@@ -32,9 +33,7 @@ def dims(design: Design) -> Dimensions:
 
 @pytest.fixture(scope="module")
 def placed(dims: Dimensions) -> dict[str, cq.Solid]:
-    drawn = {kind: drawn_part(dims, kind) for kind in KINDS}
-    standing = {name: shape.Solids()[0] for name, shape in shear_parts.stand(dims, drawn, 0.0).items()}
-    return {"housing": drawn["housing"], **standing}
+    return placed_solids(dims, KINDS)
 
 
 def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
