@@ -18,8 +18,8 @@ class Cell:
     sort: float | None = None
     tone: Tone = ""
     code: bool = False
-    link: str = ""
-    """Address relative to the page."""
+    links: Sequence[tuple[str, str]] = ()
+    """Texts with addresses relative to the page, which stand instead of the text."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,15 @@ class Points:
     macro: ClassVar[str] = "points"
     lines: Sequence[str]
     numbered: bool = False
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Steps in order, each with a picture that the figure of that name takes of it."""
+
+    macro: ClassVar[str] = "steps"
+    lines: Sequence[str]
+    figure: str
 
 
 @dataclass(frozen=True)
@@ -120,7 +129,7 @@ class Folded:
     blocks: Sequence[Block]
 
 
-Block = Grid | Facts | Words | Points | Warned | Listing | Picture | Drawn | Folded
+Block = Grid | Facts | Words | Points | Steps | Warned | Listing | Picture | Drawn | Folded
 
 
 @dataclass(frozen=True)

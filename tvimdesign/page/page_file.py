@@ -17,7 +17,7 @@ FILE = "report.html"
 MOST = 8_000_000
 """Bytes that a page may have, so that a mail takes it."""
 _STYLES = ("theme.css", "page.css", "figures.css", "print.css")
-_ALWAYS = ("main.js", "tables.js", "data.js")
+_ALWAYS = ("main.js", "tables.js", "data.js", "figures.js")
 """Code of every page; a figure brings its own."""
 
 

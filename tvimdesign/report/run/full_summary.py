@@ -9,15 +9,14 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
-from rich.text import Text
 
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Input, Table, table_for
 from tvimdesign.report.output.choices_tables import best_rows, price_in_words, tally_in_words
+from tvimdesign.report.output.summary_table import print_table
 from tvimdesign.report.output.tables import current_rows, headline_rows, number, point_rows, variable_rows
 from tvimdesign.report.output.thresholds import meaning
 from tvimdesign.report.run.summary_tables import (
-    SummaryTable,
     assumptions_table,
     checks_table,
     intervals_table,
@@ -59,8 +58,8 @@ def print_full_summary(
         grid.add_row(name, value, unit, description)
     console.print(grid)
     _print_checks(answer, table, console)
-    _print_table(intervals_table((uncertainty or {}).get("intervals", {})), console)
-    _print_table(assumptions_table((uncertainty or {}).get("assumptions", {})), console)
+    print_table(intervals_table((uncertainty or {}).get("intervals", {})), console)
+    print_table(assumptions_table((uncertainty or {}).get("assumptions", {})), console)
     _print_prices(answer, table, console)
 
 
@@ -203,7 +202,7 @@ def _verdict(answer: StudyResult) -> str:
 def _print_checks(answer: StudyResult, table: Table, console: Console) -> None:
     """Requirements always; the machine's own rules only where they bind or break."""
     found, hidden = checks_table(answer, table)
-    _print_table(found, console)
+    print_table(found, console, _STYLES)
     if hidden:
         console.print(f"[dim]{hidden} rules of the machine hold with a margin.[/dim]")
 
@@ -212,18 +211,9 @@ _STYLES = {"broken": "red", "binds": "yellow", "open": "yellow"}
 """Of a word that says how a limit stands."""
 
 
-def _print_table(found: SummaryTable, console: Console) -> None:
-    """Print a table, where it has rows."""
-    grid = _grid(found.title, tuple(found.heads), right=tuple(found.right))
-    for row in found.rows:
-        grid.add_row(*(Text(cell, style=_STYLES.get(cell, "")) for cell in row))
-    if grid.row_count:
-        console.print(grid)
-
-
 def _print_prices(answer: StudyResult, table: Table, console: Console) -> None:
     """What binds, with its cost in the objective and in each output; the costliest in sentences; what is slack."""
-    _print_table(prices_table(answer), console)
+    print_table(prices_table(answer), console)
     for sentence in sentences(answer)[:_SENTENCES_SHOWN]:
         console.print(escape(sentence))
     slack = slack_in_words(answer, table)

@@ -3,27 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
+from tvimdesign.report.output.summary_table import SummaryTable
 from tvimdesign.report.output.tables import NOTHING, margin_text, number, value_text
 from tvimdesign.report.run.first_screen.measured import ends_in_words
 from tvimdesign.report.run.why import binding
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 _ROUND = 1e-5  # of any unit a limit is written in
-
-
-@dataclass(frozen=True)
-class SummaryTable:
-    """A table as text: its title, the heads of its columns, its rows, and which columns are numbers."""
-
-    title: str
-    heads: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    right: Sequence[int] = ()
 
 
 def checks_table(answer: StudyResult, table: Table) -> tuple[SummaryTable, int]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tvimdesign.page.blocks import Block, Facts, Folded, Grid, Points, Section, Warned
-from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.page_sections import grid, grid_of
 from tvimdesign.report.output.tables import headline_rows, point_rows, variable_rows
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.first_screen.held_back import held_back_lines, margin_lines, yield_lines
@@ -23,7 +23,7 @@ from tvimdesign.report.run.first_screen.verdict import (
 )
 from tvimdesign.report.run.first_screen.warnings import warnings_of
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.run.summary_tables import SummaryTable, checks_table
+from tvimdesign.report.run.summary_tables import checks_table
 
 _WIDE = 1 << 20
 """Columns of a screen on which every block is one line."""
@@ -109,10 +109,3 @@ def _values(answered: AnsweredStudy) -> Grid:
     ]  # fmt: skip
     heads = ("name", "group", "value", "unit", "status", "meaning", "source")
     return grid("Inputs and outputs", heads, rows, right=(2,))
-
-
-def grid_of(
-    table: SummaryTable, *, toned: Sequence[int] = (), code: Sequence[int] = (0,), note: str = ""
-) -> Grid:  # fmt: skip
-    """A table of the summary as a grid."""
-    return grid(table.title, table.heads, table.rows, right=table.right, toned=toned, code=code, note=note)

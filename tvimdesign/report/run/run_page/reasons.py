@@ -6,11 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from tvimdesign.page.blocks import Block, Points, Section, Words
-from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.page_sections import grid, grid_of
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.first_screen.requirements import may_be
-from tvimdesign.report.run.run_page.glance import grid_of
 from tvimdesign.report.run.summary_tables import assumptions_table, intervals_table, prices_table
 from tvimdesign.report.run.why import sentences, slack_in_words
 

@@ -1,0 +1,36 @@
+// A picture of the module after each step of its assembly, where the step brings a part into its place.
+import { draw } from "page/figures.js";
+import { dataOf } from "page/data.js";
+import { button, make } from "page/dom.js";
+
+const [WIDE, HIGH] = [360, 270];
+
+/** Add pictures to the steps once they come near the screen, or go to paper. */
+export function addPictures(list) {
+  const figure = document.getElementById(`figure-${list.dataset.figure}`);
+  if (!figure) return;
+  let begun = null;
+  const begin = () => { begun ??= take(list, figure); return begun; };
+  new IntersectionObserver((entries, seen) => {
+    if (entries.some(({ isIntersecting }) => isIntersecting)) { seen.disconnect(); begin(); }
+  }, { rootMargin: "300px" }).observe(list);
+}
+
+async function take(list, figure) {
+  const viewer = await draw(figure);
+  if (!viewer) return;
+  const steps = dataOf(list.dataset.figure).steps;
+  for (const [i, item] of [...list.children].entries()) {
+    if (!steps[i].parts.length) continue;
+    viewer.showStep(i + 1);
+    const names = steps[i].parts.join(", ").replaceAll("_", " ");
+    item.append(make("img", { src: viewer.stage.picture(WIDE, HIGH), width: WIDE, height: HIGH, alt: `The module after this step, which places ${names}` }));
+    item.firstElementChild.append(button("Show in 3-D", () => {
+      viewer.showStep(i + 1);
+      figure.scrollIntoView();
+    }));
+    await new Promise(requestAnimationFrame);
+  }
+  viewer.showStep(steps.length);
+  list.dataset.state = "drawn";
+}
