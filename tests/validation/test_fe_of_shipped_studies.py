@@ -35,8 +35,9 @@ STUDIES = sorted({row["study"] for row in ROWS})
 named = pytest.mark.parametrize("study", STUDIES)
 
 
-def design_of(study: str) -> dict[str, float]:
-    return {row["quantity"]: float(row["model"]) for row in ROWS if row["study"] == study and row["unit"] == "SI"}
+def design_of(study: str) -> dict[str, Any]:
+    rows = [row for row in ROWS if row["study"] == study and row["unit"] in MODELS.DESIGN]
+    return {row["quantity"]: MODELS.designed(row["model"], row["unit"]) for row in rows}
 
 
 def looked_at(study: str) -> dict[str, dict[str, str]]:
@@ -72,7 +73,7 @@ def test_today_s_optimum_is_the_design_that_fe_looked_at(study: str) -> None:
     if not read.vary:
         return
     best: Any = optimize(read, lambda _: None)
-    inputs = {name: float(best.inputs[index]) for name, index in best.model.index.items()}
+    inputs = {**{name: float(best.inputs[index]) for name, index in best.model.index.items()}, **best.choices}
     then = MODELS.model_values(study, design_of(study))
     now = MODELS.model_values(study, {name: inputs[name] for name in read.vary})
     for name in ("spring_rate", "hub"):
