@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import yaml
-from fe_structure.models import model_values
+from fe_structure.models import DESIGN, designed, model_values
 
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.springs import drawn_spring, spring

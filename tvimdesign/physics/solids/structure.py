@@ -133,7 +133,7 @@ def covered_ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, oute
     return ring_stiffness(modulus, thickness, inner_radius, outer_radius) * np.sqrt(covered)
 
 
-FOOT_TILT = 1.48
+FOOT_TILT = 1.4
 """Rise of a foot's compliance as the floor above lets it turn: 1 built in, 4 free to; calibrated to
 validation/fe_structure."""
 
@@ -149,11 +149,12 @@ def foot_stiffness(youngs_modulus: Any, shear_modulus: Any, radius: Any, bore_ra
 
 
 def spot_stiffness(modulus: Any, poissons_ratio: Any, thickness: Any, radius: Any, reach: Any) -> Any:
-    """Sheet pushed in its plane on a round spot, against a circle around it [N/m]: 8 pi G h/((3 - nu) ln(l/r)).
+    """Sheet pushed in its plane on a round spot at its edge [N/m]: 4 pi G h/((3 - nu) ln(l/r)).
 
-    A force in a wide sheet moves what is near by (3 - nu) F ln(l/r)/(8 pi G h) against what lies at the `reach` l [T].
+    A force within a wide sheet moves what is near by (3 - nu) F ln(l/r)/(8 pi G h) against what lies at the `reach` l
+    [T]; at a free edge, where half of the sheet is missing, it counts twice.
     """
-    return 8.0 * np.pi * modulus * thickness / ((3.0 - poissons_ratio) * np.log(reach / radius))
+    return 4.0 * np.pi * modulus * thickness / ((3.0 - poissons_ratio) * np.log(reach / radius))
 
 
 def ring_under_arcs_stiffness(ring: Any, covered: Any, lag: Any) -> Any:
@@ -166,10 +167,11 @@ def ring_under_arcs_stiffness(ring: Any, covered: Any, lag: Any) -> Any:
 
 
 def footed_floor_stiffness(ring: Any, spot: Any, foot: Any, count: Any, foot_radius: Any) -> Any:
-    """Floor with feet on a circle [N*m/rad]: 1/K = 1/K_ring + (1/k_spot + 1.48/k)/(n r^2).
+    """Floor with feet on a circle [N*m/rad]: 1/K = 1/K_ring + (1/k_spot + 1.4/k)/(n r^2).
 
     `ring` is the floor's stiffness from the PCL's rim to the feet, `spot` that of the floor around a foot in its plane,
-    `foot` that of a foot sideways [N/m]. With `ring_under_arcs_stiffness` in series, FE of 30 floors: within 5 %.
+    `foot` that of a foot sideways [N/m]. With `ring_under_arcs_stiffness` in series, FE of 32 floors, 2.5 to 4 mm thick:
+    within 8 %.
     """
     return 1.0 / (1.0 / ring + (1.0 / spot + FOOT_TILT / foot) / (count * foot_radius**2))
 
