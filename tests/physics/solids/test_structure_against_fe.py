@@ -213,3 +213,18 @@ def test_a_foot_between_two_floors_moves_as_timoshenkos_beam() -> None:
     # Steel pin of 10 mm, 300 mm long, both ends built in: 12 E I/h^3 = 4.494e4 N/m; the shear adds under 1 %.
     found = structure.foot_stiffness(206e9, 79e9, 5e-3, 0.0, 300e-3)
     assert found == pytest.approx(12.0 * 206e9 * 4.9087e-10 / 27e-3, rel=0.01)
+
+
+def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> None:
+    # Flamant, along the edge: u = 2 F ln(l/r)/(pi E h) but for what does not grow with l; the closed form is 14 % stiffer
+    # at nu 0.3, and half of what a force within a sheet meets, (3 - nu)(1 + nu) F ln(l/r)/(4 pi E h).
+    youngs, nu, h, spot, reach = 2.1e9, 0.3, 4e-3, 3.5e-3, 30e-3
+    found = structure.spot_stiffness(structure.shear_modulus(youngs, nu), nu, h, spot, reach)
+    assert found == pytest.approx(np.pi * youngs * h / (2.0 * np.log(reach / spot)), rel=0.15)
+    whole = 4.0 * np.pi * youngs * h / ((3.0 - nu) * (1.0 + nu) * np.log(reach / spot))
+    assert found == pytest.approx(0.5 * whole, rel=1e-9)
+
+
+def test_a_ring_below_stiff_sheets_is_the_ring_s_share_and_below_soft_ones_stiffer() -> None:
+    assert structure.ring_under_arcs_stiffness(1000.0, 0.6, 1e-4) == pytest.approx(600.0, rel=1e-6)
+    assert structure.ring_under_arcs_stiffness(1000.0, 0.6, 3.0) == pytest.approx(1800.0, rel=0.01)

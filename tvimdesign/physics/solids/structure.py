@@ -170,8 +170,8 @@ def footed_floor_stiffness(ring: Any, spot: Any, foot: Any, count: Any, foot_rad
     """Floor with feet on a circle [N*m/rad]: 1/K = 1/K_ring + (1/k_spot + 1.4/k)/(n r^2).
 
     `ring` is the floor's stiffness from the PCL's rim to the feet, `spot` that of the floor around a foot in its plane,
-    `foot` that of a foot sideways [N/m]. With `ring_under_arcs_stiffness` in series, FE of 32 floors, 2.5 to 4 mm thick:
-    within 8 %.
+    `foot` that of a foot sideways [N/m]. With `ring_under_arcs_stiffness` in series, FE of 32 floors, 2.5 to 4 mm
+    thick: within 8 %.
     """
     return 1.0 / (1.0 / ring + (1.0 / spot + FOOT_TILT / foot) / (count * foot_radius**2))
 
