@@ -216,8 +216,8 @@ def test_a_foot_between_two_floors_moves_as_timoshenkos_beam() -> None:
 
 
 def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> None:
-    # Flamant, along the edge: u = 2 F ln(l/r)/(pi E h) but for what does not grow with l; the closed form is 14 % stiffer
-    # at nu 0.3, and half of what a force within a sheet meets, (3 - nu)(1 + nu) F ln(l/r)/(4 pi E h).
+    # Flamant, along the edge: u = 2 F ln(l/r)/(pi E h) but for what does not grow with l. The closed form is 14 %
+    # stiffer at nu 0.3, and half as stiff as what a force within a sheet meets, (3 - nu)(1 + nu) F ln(l/r)/(4 pi E h).
     youngs, nu, h, spot, reach = 2.1e9, 0.3, 4e-3, 3.5e-3, 30e-3
     found = structure.spot_stiffness(structure.shear_modulus(youngs, nu), nu, h, spot, reach)
     assert found == pytest.approx(np.pi * youngs * h / (2.0 * np.log(reach / spot)), rel=0.15)

@@ -35,7 +35,7 @@ def on_plate(thickness: Any, strip: Any) -> Footing:
 
 def on_floor(thickness: Any, strip: Any) -> Footing:
     """A vane that stands on the floor, slotted, its pad beside it; with the floor, FE of 15 modules within 6.5 %."""
-    return Footing(thickness, strip, 0.53, 0.14, 1.62)
+    return Footing(thickness, strip, 0.535, 0.14, 1.64)
 
 
 def strip_beside(radius: Any, count: Any, thickness: Any) -> Any:
