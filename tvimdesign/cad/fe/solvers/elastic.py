@@ -66,8 +66,8 @@ def write_field(path: Path, mesh: Any, field: Any, moved: Any) -> None:
     np.savez_compressed(path, points=points, triangles=triangles, values=values, ways=ways)
 
 
-ONE = {"segmentsperedge": 1.0}
-FINER = ({}, ONE, {**ONE, "curvaturesafety": 2.0}, {**ONE, "grading": 0.3})
+ONE: dict[str, float] = {"segmentsperedge": 1.0}
+FINER: tuple[dict[str, float], ...] = ({}, ONE, {**ONE, "curvaturesafety": 2.0}, {**ONE, "grading": 0.3})
 """What is asked of the mesher besides, one after the other, until it finds a mesh of all faces."""
 
 
