@@ -56,7 +56,6 @@ LEFT_OUT = {
     "ankle",
     "elbow_machined",
     "elbow_printed",
-    "finger_stock",
     "finger",
 }
 """Shipped studies without FE: it has no modules below a spreader yet, no design whose spring is a record, and finds no
