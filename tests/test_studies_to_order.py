@@ -83,6 +83,8 @@ def test_both_modes_of_a_pair_are_asked_the_same(names: tuple[str, str]) -> None
 def test_a_study_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path: Path) -> None:
     found = shipped_answer(path.stem)
     assert found.design.status == "optimal"
+    assert found.design.accepting == ()
+    assert found.feasible
     assert found.solution is not None
     assert found.solution.yield_reached is not None
     assert found.solution.yield_reached.together >= 0.95
