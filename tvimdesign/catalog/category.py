@@ -66,7 +66,7 @@ class Category:
     instead: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
     follows: Mapping[str, PowerLaw] = field(default_factory=dict)
     values_of: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    rising_of: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    rising_of: Mapping[str, tuple[tuple[str, ...], ...]] = field(default_factory=dict)
     usual_words: Mapping[str, str] = field(default_factory=dict)
     may_have: Mapping[str, str] = field(default_factory=dict)
     laws: Mapping[str, tuple[str, ...]] = field(default_factory=dict)

@@ -79,10 +79,14 @@ POLYMERS = Category(
     rising=(
         ("density_melt", "density_solid"),
         ("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),
-        ("glass_transition", "crystallization_reference", "equilibrium_melting_temperature"),
-        ("melting_start", "equilibrium_melting_temperature"),
     ),
-    rising_of={"glass": ("melting_start", "glass_transition", "melting_end")},
+    rising_of={
+        "kinetics": (
+            ("glass_transition", "crystallization_reference", "equilibrium_melting_temperature"),
+            ("melting_start", "equilibrium_melting_temperature"),
+        ),
+        "glass": (("melting_start", "glass_transition", "melting_end"),),
+    },
     laws={
         "kinetics of freezing": ("crystallization_half_time", "nucleation_constant", "avrami_exponent"),
         "viscosity of the melt": ("zero_shear_viscosity", "known_viscosity", "molar_mass", "melt_spectrum"),

@@ -256,7 +256,8 @@ class _Check:
                     close = get_close_matches(name, set(present) - set(names), n=1)
                     hint = f"; is {close[0]} meant to be it?" if close else ""
                     self.no(f"{section}.{name}", f"missing; expected {expected}{hint}")
-        for order in (*self.category.rising, *(self.category.rising_of.get(word, ()) for word in said.values())):
+        of_word = [order for word in said.values() for order in self.category.rising_of.get(word, ())]
+        for order in (*self.category.rising, *of_word):
             found = [(name, entries[name].value) for name in order if name in entries]
             for (one, low), (other, high) in pairwise(found):
                 if low >= high:
