@@ -27,13 +27,19 @@ def test_both_modes_take_them_and_leave_cooling_to_the_air(mode: str) -> None:
 @pytest.mark.parametrize(
     "asked",
     ["module: {%s, cooling_current: 0.3 A}",
-     "module: {%s}\nvary: {cooling_current: [0 A, 0.3 A]}\nminimize: {module_mass: 1}"],
+     "module: {%s}\nvary: {cooling_current: [0.3 A, 0.5 A]}\nminimize: {module_mass: 1}"],
 )  # fmt: skip
 def test_a_study_cannot_ask_a_foil_to_cool(asked: str) -> None:
     study = read_study_text(f"mode: shear\n{asked % 'peltier_module: silicone_9ar_04_12v'}\n", "a test")
-    said = "cooling_current of up to 0.3 A and peltier_module silicone_9ar_04_12v cannot stand together"
+    said = "cooling_current of 0.3 A and peltier_module silicone_9ar_04_12v cannot stand together"
     with pytest.raises(InputError, match=said):
         given(study)
+
+
+def test_a_current_that_may_be_zero_is_left_to_the_search() -> None:
+    text = "module: {peltier_module: silicone_9ar_04_12v}\nvary: {cooling_current: [0 A, 0.5 A]}\n"
+    study = read_study_text(f"mode: shear\n{text}minimize: {{module_mass: 1}}\n", "a test")
+    assert given(study)["peltier_seebeck"] == 0.0
 
 
 def test_a_foil_whose_record_names_no_cooling_current_is_told(tmp_path: Path) -> None:

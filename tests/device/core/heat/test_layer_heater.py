@@ -40,7 +40,7 @@ def test_pads_that_heat_have_no_layer_in_their_circuit() -> None:
         ("heat_source: layer", "electrode_gap has no value, needed as heat_source is layer .*flexible_1600"),
         (
             f"{COMB}, cooling_current: 1 A",
-            "cooling_current of up to 1 A and peltier_module comb_electrodes",
+            "cooling_current of 1 A and peltier_module comb_electrodes",
         ),
     ],
 )
