@@ -283,8 +283,9 @@ def main() -> None:
 
 
 def _put(study: str, rows: list[list[str]]) -> None:
-    """Write a study's rows in place of those it had."""
+    """Write a study's rows in place of those it had; those of studies that are no more go."""
     before = list(csv.reader(RESULTS.open()))[1:] if RESULTS.exists() else []
+    before = [row for row in before if (STUDIES / f"{row[0]}.yaml").exists()]
     with RESULTS.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(HEADER)
