@@ -119,11 +119,13 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         structure_conductivity=v["structure_conductivity"],
         structure_heat_capacity=v["structure_density"] * v["structure_specific_heat"],
         pad_conductivity=v["pad_conductivity"], pad_edge_contact=v["pad_edge_contact"],
-        pad_heat_capacity=found["peltier_mass"] * v["peltier_specific_heat"] / found["heated_area"], hot_contact=v["hot_contact"],
-        rotor_contact=v["rotor_contact"], seebeck=v["peltier_seebeck"] / v["peltier_area"],
+        pad_heat_capacity=found["peltier_mass"] * v["peltier_specific_heat"] / found["heated_area"],
+        hot_contact=v["hot_contact"], rotor_contact=v["rotor_contact"],
+        seebeck=v["peltier_seebeck"] / v["peltier_area"],
         resistance=v["peltier_resistance"] / v["peltier_area"],
         conductance=v["peltier_conductance"] / v["peltier_area"], tile_share=found["heated_area"] / area,
-        window_share=found["cold_area"] / area, current=v["current"] / found["heater_strings"], ambient=v["ambient_temperature"] - 273.15, cold_coefficient=v["cold_side_coefficient"],
+        window_share=found["cold_area"] / area, current=v["current"] / found["heater_strings"],
+        ambient=v["ambient_temperature"] - 273.15, cold_coefficient=v["cold_side_coefficient"],
         rotor_coefficient=v["rotor_coefficient"], floor_coefficient=v["housing_coefficient"],
         emissivity=v["surface_emissivity"], air_conductivity=v["air_conductivity"],
         ledge=v["window_ledge"], core_conductance=core.conductance / edge,
@@ -149,11 +151,11 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
             return "slot" if b > cold and a < w + slot else "floor"
         if b < cold:
             return "ledge" if a > inside else None
-        if b > hot:
-            return "spreader"
-        if a > tile:
-            return "beside tiles"
-        return "hot" if b > hot - film else "legs" if b > cold + film else "cold"
+        return "beside tiles" if a > tile and b < hot else upright(b)
+
+    def upright(b: float) -> str:
+        heights = ((hot, "spreader"), (hot - film, "hot"), (cold + film, "legs"))
+        return next((name for low, name in heights if b > low), "cold")
 
     contacts = {
         frozenset(("hot", "layer")): c.hot_contact, frozenset(("layer", "plate")): c.rotor_contact,
