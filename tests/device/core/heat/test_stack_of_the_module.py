@@ -64,8 +64,8 @@ def test_plate_beside_the_arcs_is_a_strip_heated_at_its_edge(stack: heat.Stack) 
     bodies = stack.beside[:-1]
     assert sum(lump.capacity for lump in bodies) == pytest.approx(1270.0 * 1200.0 * 4e-3 * REST, rel=1e-9)
     assert sum(lump.surface.area for lump in bodies) == pytest.approx(REST, rel=1e-9)
-    # From the middle of the first to the mean of the last, in which heat ends: a third of its width behind its edge.
-    middles = REST / EDGE * (0.5 * FIRST + SECOND + LAST / 3.0)
+    # Not on the way are half of the first and two thirds of the last, where heat ends.
+    middles = REST / EDGE * (1.0 - 0.5 * FIRST - 2.0 / 3.0 * LAST)
     along = sum(1.0 / lump.conductance for lump in bodies[1:])
     assert 1.0 / along == pytest.approx(0.24 * 4e-3 * EDGE / middles, rel=1e-9)
     half_of_first = 0.5 * FIRST * REST / EDGE
@@ -82,24 +82,30 @@ def test_floor_beside_the_pockets_is_two_strips_one_above_the_other(stack: heat.
     assert volumes == pytest.approx(upper + lower, rel=1e-9)
     assert sum(body.surface.area for body in bodies[3:6]) == pytest.approx(REST, rel=1e-9)
     # A side of the pads conducts with 6 W/m K in its plane; its edge of 0.75 mm touches the wall with 150 W/m2 K, and
-    # behind that is half of the first body of the floor. Half of what it loses comes from the legs.
+    # behind that is half of the first body of the floor.
     edge = TO_EDGE / (6.0 * 0.75e-3) + 1.0 / (150.0 * 0.75e-3) + 0.5 * FIRST * REST / EDGE / (0.24 * 0.75e-3)
+    # Half of that comes from the side itself, half from the mean of the legs between the sides.
     for side, place in (("hot", 7), ("cold", 0)):
-        for half in ((side, 0), ("legs", 0)):
-            conductance = between(stack, half, ("around", place)).conductance
-            assert conductance == pytest.approx(0.5 * EDGE / edge, rel=1e-9)
+        for first in (side, "legs"):
+            found = between(stack, (first, 0), ("around", place)).conductance
+            assert found == pytest.approx(0.5 * EDGE / edge, rel=1e-9)
     down = 0.24 * LAST * REST / (0.5 * PAD + WEB / 3.0)
     assert between(stack, ("around", 2), ("around", 5)).conductance == pytest.approx(down, rel=1e-9)
 
 
-def test_cold_sides_lie_on_ledges_that_are_warmer_above_than_at_their_root(stack: heat.Stack) -> None:
+def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.Stack) -> None:
     ledges = AREA - stack.cold_surface.area
     assert stack.around[6].capacity == pytest.approx(1270.0 * 1200.0 * ledges * WEB, rel=1e-9)
-    # Heated evenly from above as far as r heights, it passes all on at its root (Carslaw and Jaeger, ch. V).
-    r, n = ledges / EDGE / WEB, np.pi * np.arange(1, 40001)
-    onto = np.sum(2.0 / (r * n**2) - (1.0 - np.exp(-2.0 * n * r)) / (n**3 * r**2))
-    found = between(stack, ("cold", 0), ("around", 6)).conductance
-    assert found == pytest.approx(0.24 * EDGE / onto, rel=1e-4)
+    # Carslaw and Jaeger, ch. V: a strip heated over its upper face up to its root, beyond which it goes on.
+    width = ledges / EDGE
+    waves = np.arange(1, 4001) * np.pi
+    reach = waves * width / WEB
+    above_mean = np.sum(2.0 / waves**2 * (1.0 - (1.0 - np.exp(-2.0 * reach)) / (2.0 * reach)))
+    onto = between(stack, ("cold", 0), ("around", 6)).conductance
+    assert 0.24 * ledges / WEB / onto == pytest.approx(above_mean, rel=1e-3)
+    to_root = between(stack, ("around", 6), ("around", 3)).conductance
+    beyond = 0.5 * FIRST * REST / EDGE
+    assert to_root == pytest.approx(0.24 * WEB * EDGE / (width / 3.0 + beyond), rel=1e-9)
 
 
 def test_air_in_the_gap_conducts_and_its_walls_radiate(known: dict[str, Any]) -> None:
@@ -121,7 +127,7 @@ def test_core_and_link_hang_on_a_ring_and_hold_the_rest_of_what_turns(known: dic
     core = stack.beside[-1]
     radii = np.linspace(10e-3, INNER, 20001)
     ring = np.trapezoid(1.0 / (2.0 * np.pi * radii * 4e-3 * 0.24), radii)
-    # It begins two thirds of the last body's width behind that one's mean.
+    # The plate's last body has its mean two thirds of its width before its end.
     strip = 2.0 / 3.0 * LAST * REST / EDGE / (0.24 * 4e-3 * EDGE)
     assert core.conductance == pytest.approx(1.0 / (ring + strip))
     masses = TABLE.evaluate(known, ["rotor_mass", "link_mass", "retainer_mass"]).values()
