@@ -27,7 +27,9 @@ def solved(lap: annular_lap.AnnularLap) -> tuple[float, float, float]:
 @pytest.mark.parametrize("rest", [0.0, 0.16, 0.5, 0.9])
 @pytest.mark.parametrize("reach", [0.5, 1.5, 3.4, 5.0])
 @pytest.mark.parametrize("inner", [15e-3, 21e-3])
-def test_edges_and_sheet_of_a_lap_in_the_round_are_as_its_equation_says(rest: float, reach: float, inner: float) -> None:
+def test_edges_and_sheet_of_a_lap_in_the_round_are_as_its_equation_says(
+    rest: float, reach: float, inner: float
+) -> None:
     outer = 27.5e-3
     lap = annular_lap.AnnularLap(reach / (outer - inner), rest, inner, outer)
     at_inner, at_outer, share = solved(lap)
