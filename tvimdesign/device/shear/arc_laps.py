@@ -91,7 +91,7 @@ def over_arcs_compliance(
     pcl_outer_radius: Scalar,
     driven_share: Scalar,
 ) -> Scalar:
-    """What the rotor plate gives above the arcs [rad/(N*m)]: to their middle, or as a spreader takes the torque over."""
+    """What the rotor plate gives above the arcs [rad/(N*m)]: to their middle, or as a spreader takes it over."""
     sheet = structure_shear_modulus, rotor_thickness, pcl_inner_radius
     if lap_on_spreader is None:
         return 1.0 / structure.covered_ring_stiffness(*sheet, pcl_mean_radius, driven_share)

@@ -1,9 +1,9 @@
-"""A bonded ring between two sheets that a torque enters by the inner edge of one: shear lag of a lap joint in the round.
+"""A bonded ring between two sheets, of which a torque enters one at the inner edge: a lap joint in the round.
 
 With M the torque of the upper sheet, T all of it, and the sheets' compliances a_1, a_2,
 M'' - 3 M'/r = k (a_1 + a_2) (M - n T), M = T at the inner edge and 0 at the outer, n = a_2/(a_1 + a_2).
 Sources: Volkersen, Luftfahrtforschung 15 (1938) 41-47, the same of a straight lap. M - n T is r^2 times the modified
-Bessel functions of order 2, here by the first term of their uniform expansion, e^(+-p)/sqrt(q) with q^2 = 4 + l^2 r^2 and
+Bessel functions of order 2, here by the first term of their uniform expansion, e^(+-p)/sqrt(q), q^2 = 4 + l^2 r^2,
 p' = q/r (NIST Digital Library of Mathematical Functions, 10.41), which is exact for stiff sheets.
 """
 
