@@ -52,7 +52,7 @@ class Row(NamedTuple):
 
 
 LEFT_OUT = {"rigid_modules_compression", "driven_joint"}
-"""Shipped studies not in the table: rigid modules in a vane, and one whose floor misses the tenth; README.md has more."""
+"""Shipped studies not in the table: rigid modules in a vane, and a floor that misses the tenth; README.md has more."""
 DESIGN = ("SI", "record")
 """Units of a table's rows that tell the design."""
 
