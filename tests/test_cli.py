@@ -223,8 +223,8 @@ def test_a_module_that_never_stiffens_is_said_so_and_leaves_a_whole_folder(tvimd
     summary = (tmp_path / "out/summary.txt").read_text()
     assert re.search(r"stiffening_time\W+never", summary)
     assert re.search(r"cycle_time\W+never", summary)
-    # As without that current: 239 s, which the slow tests hold against another integration.
-    assert re.search(r"response_time\W+2[34]\d", summary)
+    # As without that current: 227 s, which the slow tests hold against another integration.
+    assert re.search(r"response_time\W+22\d", summary)
     reported = json.loads((tmp_path / "out/results.json").read_text())["values"]
     assert reported["stiffening_time"]["value"] is None
     assert reported["response_time"]["value"] > 0.0
