@@ -66,7 +66,7 @@ bench-random-choices: $(STAMP)  ## 200 random choices of heater, process, spring
 fuzz: $(STAMP)  ## mutated studies, settings, records and designs: each is read or refused in words (minutes)
 	$(BIN)/python campaigns/fuzz.py
 
-kills: $(STAMP)  ## end runs, fronts and the making of parts at random moments, and look at what is left (Linux; minutes)
+kills: $(STAMP)  ## end runs, fronts, sweeps and the making of parts at random moments, and look at what is left (minutes)
 	$(BIN)/python campaigns/kills.py
 
 random-studies: $(STAMP)  ## whole searches of random studies, each answer attacked by random search and evolution (minutes)

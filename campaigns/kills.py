@@ -3,7 +3,7 @@
     python campaigns/kills.py [--tries 20] [--seed 1] [--commands run front parts] [--json FILE]
 
 After each: no process left two seconds later, no temporary folder, every file whole, the manifest says what happened,
-and a run with a front that is resumed ends in the same bytes as one that ran through. Linux alone.
+and a run with a front that is resumed ends in the same bytes as one that ran through.
 """
 
 from __future__ import annotations
@@ -18,8 +18,11 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+
+import psutil
 
 ROOT = Path(__file__).resolve().parents[1]
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
@@ -64,16 +67,13 @@ def start(words: list[str], own: Path) -> subprocess.Popen[bytes]:
         )  # fmt: skip
 
 
-def at_work(own: Path) -> list[int]:
+def at_work(own: Path) -> list[psutil.Process]:
     """Processes with the mark that have not ended."""
-    mark, found = f"{MARK}={own}".encode(), []
-    for process in Path("/proc").glob("[0-9]*"):
-        try:
-            stopped = (process / "stat").read_text().rpartition(")")[2].split()[0] in "ZX"
-            if not stopped and mark in (process / "environ").read_bytes().split(b"\0"):
-                found.append(int(process.name))
-        except OSError:
-            continue
+    found = []
+    for process in psutil.process_iter():
+        with suppress(psutil.Error):  # it ended meanwhile, or is another user's
+            if process.environ().get(MARK) == str(own) and process.status() != psutil.STATUS_ZOMBIE:
+                found.append(process)
     return found
 
 
@@ -95,8 +95,8 @@ def faults_after(one: Try, own: Path) -> list[str]:
         time.sleep(0.05)
     if left := at_work(own):
         found.append(f"{len(left)} processes left after 2 s")
-        for number in left:
-            os.kill(number, signal.SIGKILL)
+        for one_left in left:
+            one_left.kill()
     if list((own / "tmp").iterdir()):
         found.append(f"left in the temporary folder: {', '.join(path.name for path in (own / 'tmp').iterdir())}")
     expected = {signal.SIGKILL: -signal.SIGKILL}.get(one.number, 128 + one.number)

@@ -3,7 +3,6 @@
 import json
 import random
 import signal
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -47,10 +46,6 @@ def test_mutations_change_a_text_and_data() -> None:
     assert plain == {"a": [1, {"b": 2}]}
 
 
-needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="finds processes under /proc")
-
-
-@needs_proc
 @pytest.mark.parametrize(
     ("command", "number", "after"),
     [

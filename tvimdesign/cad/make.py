@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
 import queue
 import shutil
-import signal
 import subprocess
 import tempfile
 import threading
@@ -18,6 +15,7 @@ from typing import IO, Any
 
 from tvimdesign.base.child_process import start_child
 from tvimdesign.base.errors import GeometryError, InputError
+from tvimdesign.base.process_tree import end_process_tree
 from tvimdesign.base.whole_files import make_folder
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
@@ -71,12 +69,9 @@ def make_cad(
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    """End the process with its children: they are one group."""
-    with contextlib.suppress(ProcessLookupError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
+    """End the process with its children."""
+    if process.poll() is None:
+        end_process_tree(process.pid)
     process.wait()
 
 
