@@ -1,4 +1,4 @@
-"""Ends a process with all that it has started, on every system: psutil knows the tree where there is no process group."""
+"""Ends a process with all that it has started: psutil knows the tree on systems without process groups, too."""
 
 from __future__ import annotations
 

@@ -7,13 +7,12 @@ import queue
 import shutil
 import subprocess
 import tempfile
-import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO, Any
 
-from tvimdesign.base.child_process import start_child
+from tvimdesign.base.child_process import hear, start_child
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.base.process_tree import end_process_tree
 from tvimdesign.base.whole_files import make_folder
@@ -78,15 +77,7 @@ def _end(process: subprocess.Popen[str]) -> None:
 def _messages(process: subprocess.Popen[str], deadline: float) -> Iterator[dict[str, Any]]:
     """What the child says, until it ends; raises TimeoutError at the deadline."""
     said: queue.Queue[str | None] = queue.Queue()
-
-    def listen() -> None:
-        assert process.stdout is not None
-        with process.stdout:
-            for line in process.stdout:
-                said.put(line)
-        said.put(None)
-
-    threading.Thread(target=listen, daemon=True).start()
+    hear(process, said.put)
     while True:
         try:
             line = said.get(timeout=max(0.0, deadline - time.monotonic()))
