@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 Told = list[tuple[str, CellAnswer, float]]
 AT_ONCE = 3
 """Chunks for each thread of the cluster: one is worked at, the others wait beside it."""
-LOOK = 0.5
+LOOK = 0.05
 """Seconds between two looks at what is done."""
+AGAIN = 1.0
+"""Seconds between two tries to find a scheduler."""
 CONNECT = 10.0
 """Seconds to wait for the scheduler at first."""
 GONE = 300.0
@@ -88,7 +90,7 @@ class Cluster:
                 return self._distributed.Client(self._address, timeout=min(seconds, CONNECT), set_as_default=False)
             except (OSError, ValueError) as error:
                 if time.monotonic() < end and not isinstance(error, ValueError):
-                    time.sleep(LOOK)
+                    time.sleep(AGAIN)
                     continue
                 after = "is gone; what is done is kept: --resume goes on" if seconds > CONNECT else "does not answer"
                 kind = TvimError if seconds > CONNECT else InputError
@@ -114,13 +116,10 @@ class Cluster:
                 self._take(future, chunk, left, spent, shard)
                 heard(spent)
 
-    def _ended(self, futures: list[Future]) -> list[Future]:
-        try:
-            self._distributed.wait(futures, timeout=LOOK, return_when="FIRST_COMPLETED")
-        except (TimeoutError, self._distributed.TimeoutError):
-            pass
-        except (OSError, self._distributed.CancelledError):
-            time.sleep(LOOK)
+    @staticmethod
+    def _ended(futures: list[Future]) -> list[Future]:
+        """Those that have ended, however; a moment is waited for the first."""
+        time.sleep(LOOK)
         return [future for future in futures if future.status not in {"pending", "processing"}]
 
     def _take(self, future: Future, chunk: list[Cell], left: CellQueue, spent: Spent, shard: ShardWriter) -> None:

@@ -41,12 +41,15 @@ class CellKeys:
 
     def key(self, texts: Texts) -> str:
         """The key of the cell that these values make."""
-        changed: Leaves = {}
-        for place, text in enumerate(texts):
-            changed |= self._change(place, text)
-        leaves = self._leaves | changed
-        said = {"study": _plain(leaves), "records": self._records_of(texts), **self._from}
+        said = {"study": _plain(self.leaves(texts)), "records": self._records_of(texts), **self._from}
         return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:_LENGTH]
+
+    def leaves(self, texts: Texts) -> Leaves:
+        """The resolved study of a cell as its single values, without reading it."""
+        leaves = dict(self._leaves)
+        for place, text in enumerate(texts):
+            leaves |= self._change(place, text)
+        return leaves
 
     def _change(self, place: int, text: str) -> Leaves:
         """What a value changes in the resolved study of the first cell."""

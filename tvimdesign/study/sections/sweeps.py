@@ -34,10 +34,10 @@ from tvimdesign.study.text.values import (
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 
 _KEYS = ["method", "over", "cells", "task", "count", "seed", "outputs", "most"]
-_SETTINGS = ("require", "operating_points", "profile", "solver", "minimize", "robust")
+SWEPT_SECTIONS = ("require", "operating_points", "profile", "solver", "minimize", "robust")
 """Sections in which what stands at a path can be swept."""
 _RANGE_KEYS = ["from", "to", "count", "step", "spacing"]
-_SPACINGS = ("linear", "logarithmic")
+SPACINGS = ("linear", "logarithmic")
 _MOST_SEED = 2**32 - 1
 _EXAMPLE = "'over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 20}}'"
 
@@ -175,8 +175,8 @@ def _axis(reading: Reading, key: Text, path: str, name: str, points: Collection[
     section, _, rest = name.partition(".")
     if not rest:
         return _of_module(reading, key, path, name)
-    if section not in _SETTINGS:
-        reading.problems.unknown(key, path, f"section to sweep in: {quoted(section)}", section, _SETTINGS)
+    if section not in SWEPT_SECTIONS:
+        reading.problems.unknown(key, path, f"section to sweep in: {quoted(section)}", section, SWEPT_SECTIONS)
         return None
     if section == "require":
         row = named_output(reading, key, path, rest, points)
@@ -225,7 +225,7 @@ def _range(reading: Reading, node: Mapping, path: str, axis: SweptAxis, method: 
     if ends is None:
         return None
     (lower, sense), (upper, other) = ends
-    logarithmic = _word(reading, parts.get("spacing"), f"{path}.spacing", _SPACINGS) == "logarithmic"
+    logarithmic = _word(reading, parts.get("spacing"), f"{path}.spacing", SPACINGS) == "logarithmic"
     if sense != other:
         reading.problems.add(node, path, f"begins with {sense} and ends with {other}", "the same sense at both ends")
     elif not below(lower, upper):
