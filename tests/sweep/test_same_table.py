@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import json
 import random
+import resource
+import shutil
 import signal
 import sqlite3
 import subprocess
@@ -61,7 +63,8 @@ def test_the_data_base_has_the_table_with_units_and_meanings(one_process: Path) 
 
 
 def test_parquet_has_the_same_numbers(one_process: Path, tmp_path: Path) -> None:
-    write_parquet(plan(one_process / "study.yaml"), one_process / "cells.csv", tmp_path / "cells.parquet")
+    shutil.copy(one_process / "cells.csv", tmp_path)
+    write_parquet(plan(one_process / "study.yaml"), tmp_path)
     kept = pd.read_parquet(tmp_path / "cells.parquet")
     expected = pd.read_csv(one_process / "cells.csv", encoding="utf-8-sig")
     expected["reason"] = expected["reason"].fillna("")
@@ -193,6 +196,23 @@ def test_a_sweep_that_is_killed_again_and_again_ends_in_the_same_bytes(
         process.send_signal(signal.SIGKILL)
         process.wait()
     subprocess.run([*command, "--resume"], env=environment(), cwd=ROOT, check=True)
+    assert tables(out) == tables(one_process)
+
+
+@pytest.mark.slow
+def test_a_disk_that_fills_once_costs_no_cell(study_file: Path, one_process: Path, tmp_path: Path) -> None:
+    out, room = tmp_path / "out", 800
+    words = ["sweep", str(study_file), "--out", str(out), "--no-plots", "--workers", "1"]
+    full = subprocess.run(
+        [sys.executable, "-m", "tvimdesign", *words], env=environment(), cwd=ROOT, capture_output=True, text=True, check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)),
+    )  # fmt: skip
+    assert full.returncode == 4, full.stderr
+    assert "the cells before are kept: make room, then the same command with --resume goes on" in full.stderr
+    assert "Traceback" not in full.stderr
+    kept = len(Shards(out, plan(study_file).columns))
+    assert 0 < kept < 6
+    assert swept(study_file, out, resume=True, workers=1)["reused"] == kept
     assert tables(out) == tables(one_process)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import resource
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -78,13 +77,9 @@ with ShardWriter(Path(sys.argv[1]), ("a", "b", "c")) as shard:
 
 
 def test_a_disk_that_is_full_keeps_the_cells_before(tmp_path: Path) -> None:
-    def with_little_room() -> None:
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
-
     done = subprocess.run(
         [sys.executable, "-c", FILLS_ITS_DISK, str(tmp_path)], capture_output=True, text=True, check=True,
-        preexec_fn=with_little_room,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300)),
     )  # fmt: skip
     assert "File too large; the cells before are kept: make room, then the same command with --resume" in done.stdout
     (path,) = (tmp_path / "shards").iterdir()

@@ -5,14 +5,13 @@ from __future__ import annotations
 import contextlib
 import csv
 import sqlite3
-import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple, TextIO
+from typing import Any, NamedTuple
 
-from tvimdesign.base.errors import InputError
+from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.units import from_si
-from tvimdesign.base.whole_files import TABLE_ENCODING
+from tvimdesign.base.whole_files import TABLE_ENCODING, whole_file
 from tvimdesign.study.sections.sweep_block import SweptAxis
 from tvimdesign.sweep.plan import SweepPlan
 from tvimdesign.sweep.points import is_words, rounded, senses
@@ -84,24 +83,29 @@ def _in_unit(value: float | str | None, unit: str) -> Value:
 # --- files ---
 
 
-def write_csv(plan: SweepPlan, every: Iterable[list[Value]], stream: TextIO) -> None:
-    """The table as text; a number that there is none of is empty, what never happens `inf`."""
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([column.name for column in columns(plan)])
-    writer.writerows(every)
+def write_tables(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) -> None:
+    """Write cells.csv and cells.sqlite in one go through the cells. Raises OutputError.
+
+    In text a number that there is none of is empty, and what never happens `inf`.
+    """
+    try:
+        _write_tables(plan, every, folder)
+    except sqlite3.OperationalError as error:
+        raise OutputError(f"{folder / 'cells.sqlite'}: cannot be written: {error}; the cells are kept") from error
 
 
-def table_bytes(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) -> dict[str, bytes]:
-    """CSV and SQLite by file name, made in one go through the cells beside where they will stand."""
-    with tempfile.TemporaryDirectory(prefix="tvimdesign-", dir=folder) as beside:
-        text, base = Path(beside) / "cells.csv", Path(beside) / "cells.sqlite"
-        with (
-            text.open("w", encoding=TABLE_ENCODING, newline="") as stream,
-            contextlib.closing(sqlite3.connect(base)) as connection,
-        ):
-            write_csv(plan, _into(connection, plan, every), stream)
-            connection.commit()
-        return {path.name: path.read_bytes() for path in (text, base)}
+def _write_tables(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) -> None:
+    with (
+        whole_file(folder / "cells.csv") as text,
+        whole_file(folder / "cells.sqlite") as base,
+        text.open("w", encoding=TABLE_ENCODING, newline="") as stream,
+        contextlib.closing(sqlite3.connect(base)) as connection,
+    ):
+        connection.execute("PRAGMA journal_mode = OFF")  # it appears whole or not at all
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow([column.name for column in columns(plan)])
+        writer.writerows(_into(connection, plan, every))
+        connection.commit()
 
 
 def _into(connection: sqlite3.Connection, plan: SweepPlan, every: Iterable[list[Value]]) -> Iterator[list[Value]]:
@@ -122,8 +126,8 @@ def _is_text(column: Column) -> bool:
     return not column.unit
 
 
-def write_parquet(plan: SweepPlan, csv_file: Path, parquet: Path) -> None:
-    """The table as Parquet, units and meanings with its columns. Raises InputError without pyarrow."""
+def write_parquet(plan: SweepPlan, folder: Path) -> None:
+    """Write cells.parquet from cells.csv, units and meanings with its columns. Raises InputError without pyarrow."""
     pyarrow = parquet_library()
     named = columns(plan)
     types = {c.name: pyarrow.string() if _is_text(c) else pyarrow.float64() for c in named}
@@ -131,9 +135,10 @@ def write_parquet(plan: SweepPlan, csv_file: Path, parquet: Path) -> None:
     from pyarrow import parquet as pyarrow_parquet
 
     options = pyarrow_csv.ConvertOptions(column_types=types, null_values=[""])
-    table = pyarrow_csv.read_csv(csv_file, convert_options=options)
+    table = pyarrow_csv.read_csv(folder / "cells.csv", convert_options=options)
     fields = [table.schema.field(c.name).with_metadata({"unit": c.unit, "meaning": c.meaning}) for c in named]
-    pyarrow_parquet.write_table(table.cast(pyarrow.schema(fields)), parquet)
+    with whole_file(folder / "cells.parquet") as beside:
+        pyarrow_parquet.write_table(table.cast(pyarrow.schema(fields)), beside)
 
 
 def parquet_library() -> Any:

@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from tvimdesign.base.child_process import hear, start_child
 from tvimdesign.base.errors import OutputError, TvimError
@@ -52,7 +52,6 @@ class Spent:
 class _Worker:
     number: int
     process: subprocess.Popen[str]
-    errors: Path
     chunk: list[Cell] = field(default_factory=list)
     error: str = ""
 
@@ -67,12 +66,12 @@ class Pool:
         self._workers: dict[int, _Worker] = {}
         self._started = 0
         self._deaths: Counter[str] = Counter()
-        self._errors = Path()
+        self._errors: IO[bytes]
+        """What all of them write to standard error."""
 
     def answer(self, cells: Sequence[Cell], heard: Heard) -> Spent:
         """Answer every cell; `heard` is told after each chunk. Raises OutputError, TvimError for workers that fail."""
-        with tempfile.TemporaryDirectory(prefix="tvimdesign-") as folder:
-            self._errors = Path(folder)
+        with tempfile.TemporaryFile() as self._errors:
             return self._answer(CellQueue(cells, self._job, self._count), min(self._count, len(cells)), heard)
 
     def _answer(self, left: CellQueue, processes: int, heard: Heard) -> Spent:
@@ -102,14 +101,13 @@ class Pool:
 
     def _start(self, left: CellQueue) -> None:
         self._started += 1
-        number, errors = self._started, self._errors / f"{self._started}.txt"
-        with errors.open("wb") as stream:
-            process = start_child(
-                "tvimdesign.sweep.worker", stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=stream, text=True,
-                encoding="utf-8",
-            )  # fmt: skip
+        number = self._started
+        process = start_child(
+            "tvimdesign.sweep.worker", stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True,
+            encoding="utf-8",
+        )  # fmt: skip
         hear(process, lambda line: self._said.put((number, line)))
-        worker = self._workers[number] = _Worker(number, process, errors)
+        worker = self._workers[number] = _Worker(number, process)
         self._tell(worker, packed(self._job, self._folder))
         self._feed(worker, left)
 
@@ -133,7 +131,7 @@ class Pool:
         """Take a worker that has ended from the list; where it had cells, another one tries them again, one by one."""
         code = worker.process.wait()
         del self._workers[worker.number]
-        complaint = _tail(worker.errors)
+        complaint = _tail(self._errors)
         if worker.error:
             raise (OutputError if code == OutputError.exit_code else TvimError)(worker.error)
         if worker.process.stdin:
@@ -168,5 +166,6 @@ class Pool:
             shard.append([(cell.key, CellAnswer("crashed", reason, None, None, nothing), 0.0)])
 
 
-def _tail(errors: Path) -> str:
-    return " ".join(errors.read_text(errors="replace").strip().splitlines()[-1:])
+def _tail(errors: IO[bytes]) -> str:
+    errors.seek(0)
+    return " ".join(errors.read().decode(errors="replace").strip().splitlines()[-1:])

@@ -21,7 +21,7 @@ from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.report.sweep.sweep_plot_data import figure_data
 from tvimdesign.report.sweep.sweep_screen import print_part, print_sweep
 from tvimdesign.study.tree import study_file, tree_of_file
-from tvimdesign.sweep.gather import columns, parquet_library, rows, table_bytes, write_parquet
+from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
 from tvimdesign.sweep.plan import SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import SweepDone, Where, run_sweep
 from tvimdesign.sweep.shards import SHARDS, Shards
@@ -101,10 +101,9 @@ def _gathered(
     progress("gathering the cells")
     seen = CellTable(plan)
     every = seen.seeing(rows(plan, done.keys, Shards(folder.path, plan.columns)))
-    for name, data in table_bytes(plan, every, folder.path).items():
-        folder.write(name, data)
+    write_tables(plan, every, folder.path)
     if parquet:
-        write_parquet(plan, folder.path / "cells.csv", folder.path / "cells.parquet")
+        write_parquet(plan, folder.path)
     found = {
         **head(), "study": plan.study.name, "task": plan.task, "method": plan.block.method, "seed": plan.block.seed,
         "cells": done.cells, "statuses": seen.statuses, "best": seen.best,
