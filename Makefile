@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -53,6 +53,11 @@ bench-shelf: $(STAMP)  ## the best three of some 50,000 combinations of heater, 
 bench-sweep: $(STAMP)  ## designs a second through compiled equations, and through what else there is
 	$(BENCH) benchmarks/sweep.py
 	$(BENCH) benchmarks/sweep.py --study benchmarks/reference.yaml
+
+bench-cells: $(STAMP)  ## what a sweep of 2,000 cells costs beside its cells: processes, scaling, a resume, bytes a cell
+	$(BENCH) benchmarks/sweep_cells.py
+	$(BENCH) benchmarks/sweep_cells.py --cells 200 --task optimize
+	$(BENCH) benchmarks/sweep_cells.py --cells 20 --task cold
 
 bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hypervolume
 	$(BENCH) benchmarks/front.py

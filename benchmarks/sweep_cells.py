@@ -1,6 +1,6 @@
 """What a sweep costs beside its cells: processor time of every process of it, scaling, a resume, bytes a cell.
 
-    python benchmarks/sweep_cells.py [--cells 2000] [--workers 2] [--task evaluate|optimize]
+    python benchmarks/sweep_cells.py [--cells 2000] [--workers 2] [--task evaluate|optimize|cold]
 
 Times of the processor mean something on a busy machine, times by the clock only on a quiet one: both are printed.
 """
@@ -19,16 +19,20 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 MOST_ACROSS = 50
+_INERTIA = "{{from: <= 90 kg.mm^2, to: <= 100 kg.mm^2, count: {}}}"
+"""A limit, whose cells are searched from every start."""
 
 
 def study_of(task: str, cells: int) -> str:
     """A study with a grid of so many cells, or a few more."""
+    text = (ROOT / "studies/paper_shear.yaml").read_text()
+    if task == "cold":
+        return f"{text}\nsweep: {{over: {{require.parts_inertia: {_INERTIA.format(cells)}}}}}\n"
     across = min(MOST_ACROSS, cells)
     up = -(-cells // across)
     hot = "operating_points.hot.temperature"
     other = f", {hot}: {{from: 98 degC, to: 102 degC, count: {up}}}" if up > 1 else ""
     over = f"pcl_thickness: {{from: 0.6 mm, to: 1.2 mm, count: {across}}}{other}"
-    text = (ROOT / "studies/paper_shear.yaml").read_text()
     return f"{text}\nsweep: {{task: {task}, over: {{{over}}}}}\n"
 
 
@@ -80,7 +84,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cells", type=int, default=2000)
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--task", choices=("evaluate", "optimize"), default="evaluate")
+    parser.add_argument("--task", choices=("evaluate", "optimize", "cold"), default="evaluate")
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="sweep-cells-") as folder:
         told(asked.cells, asked.workers, asked.task, Path(folder))

@@ -204,7 +204,8 @@ def test_a_disk_that_fills_once_costs_no_cell(study_file: Path, one_process: Pat
     out, room = tmp_path / "out", 800
     words = ["sweep", str(study_file), "--out", str(out), "--no-plots", "--workers", "1"]
     full = subprocess.run(
-        [sys.executable, "-m", "tvimdesign", *words], env=environment(), cwd=ROOT, capture_output=True, text=True, check=False,
+        [sys.executable, "-m", "tvimdesign", *words], env=environment(), cwd=ROOT, capture_output=True,
+        text=True, check=False,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)),
     )  # fmt: skip
     assert full.returncode == 4, full.stderr

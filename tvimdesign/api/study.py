@@ -191,6 +191,7 @@ class Study:
         count: int | None = None,
         seed: int | None = None,
         task: str | None = None,
+        cells: Sequence[Values] | None = None,
         outputs: Sequence[str] | str | None = None,
         out: str | os.PathLike[str] | None = None,
         workers: int = 0,
@@ -203,8 +204,9 @@ class Study:
 
         An axis is a list of values, or a range `{"from": "0.6 mm", "to": "2 mm", "count": 20}`. Without axes the
         study's own `sweep` section says them. `method` is `grid`, `latin_hypercube` or `sobol`, these with a `count`
-        of cells and a `seed`; `task="evaluate"` optimises nothing. What else may change is optimised in each cell, from
-        the study's own optimum where that can be done. A cell without a design is a row with its reason.
+        of cells and a `seed`; `cells` names each cell instead. `task="evaluate"` optimises nothing. What else may
+        change is optimised in each cell, from the study's own optimum where that can be done. A cell without a design
+        is a row with its reason.
 
         Cells are answered in this process and nothing is written, unless `out` names a folder: then `workers` processes
         (as many as processors unless given), or the cluster of a dask `scheduler`, keep them there, and cells that are
@@ -217,9 +219,9 @@ class Study:
         if out is None and (workers or scheduler or overwrite):
             raise InputError("sweep: workers keep their cells in a folder; name it with out=")
         section = {"over": {**(axes or {}), **more} or None, "method": method, "count": count, "seed": seed,
-                   "task": task, "outputs": outputs or ("all" if out is None else None)}  # fmt: skip
+                   "task": task, "cells": cells, "outputs": outputs or ("all" if out is None else None)}  # fmt: skip
         given = {name: value for name, value in section.items() if value is not None}
-        if "over" in given:
+        if "over" in given or cells is not None:
             tree = self._changed("sweep", "", {"sweep": given})._tree
         else:
             tree = self._changed("sweep", "sweep.", given)._tree if self._tree.section("sweep") else self._tree
