@@ -1,6 +1,6 @@
 """What a sweep costs beside its cells: processor time of every process of it, scaling, a resume, bytes a cell.
 
-    python benchmarks/sweep_cells.py [--cells 2000] [--workers 2] [--task evaluate|optimize|cold]
+    python benchmarks/sweep_cells.py [--cells 2000] [--workers 2] [--task evaluate|optimize|cold] [--set NAME=VALUE]
 
 Times of the processor mean something on a busy machine, times by the clock only on a quiet one: both are printed.
 """
@@ -51,12 +51,12 @@ def sweep(study: Path, out: Path, *words: str) -> tuple[dict[str, float], float,
     return found, time.perf_counter() - began, processor() - before
 
 
-def told(cells: int, workers: int, task: str, folder: Path) -> None:
+def told(cells: int, workers: int, task: str, more: list[str], folder: Path) -> None:
     """Run the sweep and resume it, and print every row."""
     study, out = folder / "study.yaml", folder / "out"
     study.write_text(study_of(task, cells))
     print(f"load of the machine before: {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors")
-    run, clock, cpu = sweep(study, out, "--workers", str(workers), "--no-plots")
+    run, clock, cpu = sweep(study, out, "--workers", str(workers), "--no-plots", *more)
     count = int(run["computed"])
     own = run["cells_s"]
     shards = sorted((out / "shards").iterdir())
@@ -73,9 +73,9 @@ def told(cells: int, workers: int, task: str, folder: Path) -> None:
     tables = {name: (out / name).stat().st_size / count for name in ("cells.csv", "cells.sqlite")}
     print(f"  bytes a cell                     {size / count:9.0f} in shards, "
           + ", ".join(f"{value:.0f} in {name}" for name, value in tables.items()))  # fmt: skip
-    _, clock, cpu = sweep(study, out, "--resume")
+    _, clock, cpu = sweep(study, out, "--resume", *more)
     print(f"resumed with its figure: {clock:.2f} s by the clock, {cpu:.2f} s of the processor")
-    _, clock, cpu = sweep(study, out, "--resume", "--no-plots")
+    _, clock, cpu = sweep(study, out, "--resume", "--no-plots", *more)
     print(f"resumed without it: {clock:.2f} s by the clock, {cpu:.2f} s of the processor")
 
 
@@ -85,9 +85,11 @@ def main() -> None:
     parser.add_argument("--cells", type=int, default=2000)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--task", choices=("evaluate", "optimize", "cold"), default="evaluate")
+    parser.add_argument("--set", action="append", default=[], help="of the study, as for the command")
     asked = parser.parse_args()
+    more = [word for setting in asked.set for word in ("--set", setting)]
     with tempfile.TemporaryDirectory(prefix="sweep-cells-") as folder:
-        told(asked.cells, asked.workers, asked.task, Path(folder))
+        told(asked.cells, asked.workers, asked.task, more, Path(folder))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import Input, Table
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.nlp.deadline import Deadline
@@ -81,7 +81,7 @@ class AnchoredSearch:
 
         try:
             optimize(self._anchor_study, reference=self._reference, keep=remember)
-        except InfeasibleError:
+        except (InfeasibleError, InputError):
             return None
         return kept[0] if kept else None
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tvimdesign import __version__
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.sweep.chunks import CellQueue, ChunkAnswers
 from tvimdesign.sweep.job import Cell, CellAnswer, Job
@@ -36,8 +37,13 @@ _known: dict[str, ChunkAnswers] = {}
 """What this process of the cluster has compiled, by job: one job at a time is kept."""
 
 
-def answer_chunk(job: bytes, cells: Sequence[Cell]) -> dict[str, Any]:
-    """Answer a chunk on a worker of the cluster. Threads take turns: CasADi's objects are not to be shared."""
+def answer_chunk(job: bytes, cells: Sequence[Cell], version: str) -> dict[str, Any]:
+    """Answer a chunk on a worker of the cluster. Threads take turns: CasADi's objects are not to be shared.
+
+    Raises InputError where the worker has another version than who asks.
+    """
+    if version != __version__:
+        raise InputError(f"it has tvimdesign {__version__}, the sweep is by {version}: install that on the workers")
     name = hashlib.sha256(job).hexdigest()
     with _lock:
         if name not in _known:
@@ -101,19 +107,29 @@ class Cluster:
 
     def _work(self, client: Client, left: CellQueue, spent: Spent, shard: ShardWriter, heard: Heard) -> None:
         """Ask for chunks until all are answered, or the scheduler is gone: what it had is left again then."""
-        job, asked = pickle.dumps(self._job), dict[Any, list[Cell]]()
-        threads = 1
-        while len(left) or asked:
-            if client.status != "running":
-                self._take_back(list(asked.values()), left)
-                return
-            threads = sum(client.nthreads().values()) if not spent.cells or spent.cells % 50 == 0 else threads
-            while len(left) and len(asked) < AT_ONCE * max(threads, 1):
-                chunk = left.next(len(asked) % max(threads, 1))
-                asked[client.submit(answer_chunk, job, chunk, pure=False)] = chunk
+        asked: dict[Any, list[Cell]] = {}
+        try:
+            self._ask_and_take(client, asked, left, (spent, shard, heard))
+        except (OSError, TimeoutError, self._distributed.CancelledError):
+            pass  # the scheduler has gone while it was asked
+        finally:
+            for chunk in asked.values():
+                left.put_back(chunk)
+
+    def _ask_and_take(
+        self, client: Client, asked: dict[Any, list[Cell]], left: CellQueue, into: tuple[Spent, ShardWriter, Heard]
+    ) -> None:
+        spent, shard, heard = into
+        job, threads, looked = pickle.dumps(self._job), 1, 0.0
+        while (len(left) or asked) and client.status == "running":
+            if time.monotonic() > looked + AGAIN:  # machines come and go
+                threads, looked = max(sum(client.nthreads().values()), 1), time.monotonic()
+            while len(left) and len(asked) < AT_ONCE * threads:
+                chunk = left.next(len(asked) % threads)
+                asked[client.submit(answer_chunk, job, chunk, __version__, pure=False)] = chunk
             for future in self._ended(list(asked)):
                 chunk = asked.pop(future)
-                self._take(future, chunk, left, spent, shard)
+                self._take(future, chunk, left, (spent, shard))
                 heard(spent)
 
     @staticmethod
@@ -122,8 +138,9 @@ class Cluster:
         time.sleep(LOOK)
         return [future for future in futures if future.status not in {"pending", "processing"}]
 
-    def _take(self, future: Future, chunk: list[Cell], left: CellQueue, spent: Spent, shard: ShardWriter) -> None:
+    def _take(self, future: Future, chunk: list[Cell], left: CellQueue, into: tuple[Spent, ShardWriter]) -> None:
         """Keep what a chunk came to; one that was lost with its worker or its scheduler is left again."""
+        spent, shard = into
         if future.status == "finished":
             try:
                 said = future.result(timeout=CONNECT)
@@ -143,8 +160,3 @@ class Cluster:
             spent.cells += 1
         else:
             raise TvimError(f"--scheduler {self._address}: a worker of the cluster failed: {error}")
-
-    @staticmethod
-    def _take_back(chunks: list[list[Cell]], left: CellQueue) -> None:
-        for chunk in chunks:
-            left.put_back(chunk)

@@ -122,6 +122,11 @@ def plan_of(tree: StudyTree) -> SweepPlan:
     return plan
 
 
+def swept_cells(tree: StudyTree) -> int:
+    """How many cells a study asks to be swept; 0 where none. Raises as `plan_of` does."""
+    return plan_of(tree).count if read_swept(tree)[1] else 0
+
+
 def _refuse_wrong_values(plan: SweepPlan) -> None:
     """Read the study once with each listed value, the other axes as in the first cell."""
     start, problems = plan.points.texts(0), []

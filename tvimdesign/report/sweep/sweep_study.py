@@ -75,8 +75,12 @@ def _part(
         if not done.whole:
             _say_part(done, where, out, as_json=as_json)
             return
+        try:
+            folder = stack.enter_context(ResultsFolder(out, resume=True, progress=SHARDS))
+        except InputError:  # another part, which ended at the same time, gathers them
+            _say_part(done, where, out, as_json=as_json)
+            return
         drawing = stack.enter_context(PlotProcess()) if plots and plan.study.write.plots else None
-        folder = stack.enter_context(ResultsFolder(out, resume=True, progress=SHARDS))
         told = _gathered(plan, folder, done, progress, drawing, parquet=parquet, began=began)
     _say(told, plan, out, as_json=as_json)
 
