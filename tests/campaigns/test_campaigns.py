@@ -55,6 +55,7 @@ def test_mutations_change_a_text_and_data() -> None:
             for number in kills.SIGNALS
             for after in (2.5, 4.0)
         ),
+        *(pytest.param("sweep", number, 5.0, marks=pytest.mark.slow) for number in kills.SIGNALS),
         *(pytest.param("parts", number, 6.0, marks=pytest.mark.slow) for number in kills.SIGNALS),
     ],
 )

@@ -131,6 +131,23 @@ def test_what_cannot_be_done_is_said_in_a_line(
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("library", "words", "said"),
+    [
+        ("distributed", ["--scheduler", "tcp://127.0.0.1:1"], "pip install 'tvimdesign[cluster]'"),
+        ("pyarrow", ["--parquet"], "pip install 'tvimdesign[parquet]'"),
+    ],
+)
+def test_an_extra_that_is_missing_is_named(
+    tvimdesign: Command, study_file: Path, tmp_path: Path, library: str, words: list[str], said: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.setitem(sys.modules, library, None)
+    done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", *words)
+    assert done.returncode == 2, done.stderr
+    assert said in done.stderr
+
+
 def test_a_folder_of_results_is_not_written_over(tvimdesign: Command, study_file: Path, one_process: Path) -> None:
     done = tvimdesign("sweep", study_file, "--out", one_process)
     assert done.returncode == 2
