@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 import subprocess
 import sys
+import time
 from pathlib import Path
 from types import TracebackType
 
@@ -27,8 +28,15 @@ class LocalCluster:
         self.workers: list[subprocess.Popen[bytes]] = []
 
     def start_scheduler(self) -> None:
-        """Start the scheduler, or start it again."""
+        """Start the scheduler, or start it again, and wait until it listens."""
         self.scheduler = self._start("scheduler", "--host", "127.0.0.1", "--port", str(self.port), "--no-dashboard")
+        end = time.monotonic() + 60.0
+        while time.monotonic() < end and self.scheduler.poll() is None:
+            with socket.socket() as client:
+                if client.connect_ex(("127.0.0.1", self.port)) == 0:
+                    return
+            time.sleep(0.1)
+        raise AssertionError((self._folder / "said.txt").read_text())
 
     def start_worker(self) -> None:
         """Start a worker, which waits for the scheduler."""

@@ -27,7 +27,7 @@ LOOK = 0.05
 """Seconds between two looks at what is done."""
 AGAIN = 1.0
 """Seconds between two tries to find a scheduler."""
-CONNECT = 10.0
+CONNECT = 30.0
 """Seconds to wait for the scheduler at first."""
 GONE = 300.0
 """Seconds to wait for a scheduler that was there and is not any more."""
