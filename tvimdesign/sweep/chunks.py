@@ -22,12 +22,12 @@ class ChunkAnswers:
         """Nothing is compiled yet."""
         self._answers = CellAnswers(job)
 
-    def answer(self, chunk: Sequence[Sequence[object]]) -> list[tuple[str, CellAnswer, float]]:
+    def answer(self, chunk: Sequence[tuple[str, Sequence[str]]]) -> list[tuple[str, CellAnswer, float]]:
         """Each cell's key, answer, and seconds of the processor; a cell comes as a pair, as JSON has it."""
         told = []
         for key, texts in chunk:
             began = time.process_time()
-            cell = Cell(str(key), tuple(texts))  # type: ignore[arg-type]
+            cell = Cell(key, tuple(texts))
             told.append((cell.key, self._answers.answer(cell), time.process_time() - began))
         return told
 

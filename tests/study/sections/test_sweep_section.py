@@ -1,6 +1,7 @@
 """The section `sweep`: axes, ranges, lists and samples, good and bad."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -12,13 +13,13 @@ from tvimdesign.study.tree import tree_of_values
 Refuse = Callable[..., list[str]]
 
 
-def block(tmp_path: object, **sweep: object) -> SweepBlock:
-    found = read_swept(tree_of_values({"mode": "shear", "sweep": sweep}, "study", tmp_path))[1]  # type: ignore[arg-type]
+def block(tmp_path: Path, **sweep: object) -> SweepBlock:
+    found = read_swept(tree_of_values({"mode": "shear", "sweep": sweep}, "study", tmp_path))[1]
     assert found is not None
     return found
 
 
-def test_a_grid_has_lists_and_ranges(tmp_path: object) -> None:
+def test_a_grid_has_lists_and_ranges(tmp_path: Path) -> None:
     over = {
         "pcl_thickness": {"from": "0.6 mm", "to": "2 mm", "count": 8},
         "arc_count": {"from": 3, "to": 5},
@@ -37,7 +38,7 @@ def test_a_grid_has_lists_and_ranges(tmp_path: object) -> None:
     assert (found.method, found.task, found.seed) == ("grid", "", 1)
 
 
-def test_a_sample_and_a_list(tmp_path: object) -> None:
+def test_a_sample_and_a_list(tmp_path: Path) -> None:
     drawn = block(
         tmp_path, method="sobol", count=64, seed=7, task="evaluate", outputs=["module_mass", "joint_stiffness@hot"],
         over={"coil_count": {"from": 3, "to": 8, "spacing": "logarithmic"}},
