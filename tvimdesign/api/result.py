@@ -214,16 +214,21 @@ class Result:
         """Write what `tvimdesign run --no-cad` writes; returns the folder. Raises InputError where it is in use."""
         from tvimdesign.report.figures.plot_process import PlotProcess
         from tvimdesign.report.run.first_screen.run_screen import write_summary
+        from tvimdesign.report.run.first_screen.screen import Told
+        from tvimdesign.report.run.run_page.run_page import write_run_page
         from tvimdesign.report.run.write_answer import finish, write_answer
 
         with ResultsFolder(Path(folder), overwrite) as written:
             write_answer(written, self._answered)
-            write_summary(self._answered, written, dict(self.data.get("uncertainty", {})))
+            uncertainty = dict(self.data.get("uncertainty", {}))
+            write_summary(self._answered, written, uncertainty)
             asked = drawings(self._answered) if plots else []
             if asked:
                 with PlotProcess() as drawing:
                     drawing.begin(written.path / "plots", asked, self.name)
                     drawing.finish()
+            told = Told(None, uncertainty, self.data.get("doubts", []), self._answered.front.front)
+            write_run_page(written, self._answered, told)
             finish(written, self._answered)
         return Path(folder)
 

@@ -12,16 +12,18 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table as Grid
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.number_entry import finite
 from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import curves_csv, number
+from tvimdesign.report.trial_page import trial_page
 from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
@@ -57,6 +59,9 @@ def simulate_study(
         if drawing:
             progress("drawing the figure")
             drawing.finish()
+        text = tested.decode() if isinstance(tested, bytes) else tested
+        page = trial_page(folder, study.name, trial, findings_table(trial), figure_data(trial), text)
+        write_page(folder, page)
         progress("")
         folder.finish("tested", {"tested": source, **_records(resolved)}, study.model_dump(mode="json"))
         if as_json:
@@ -170,14 +175,15 @@ def _line(line: PlottedLine, sheet: CurveTable) -> dict[str, Any]:
 def _print_trial(trial: Trial, console: Console) -> None:
     """Print what was read off for people: an interval, and no one number, where history decides."""
     console.print(f"[bold]{escape(trial.title)}[/bold]")
-    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
-    for name in ("finding", "value", "unit", "meaning"):
-        grid.add_column(name, justify="right" if name == "value" else "left", overflow="fold")
-    for found in trial.findings:
-        grid.add_row(found.name, _value(found), pretty(found.unit), found.meaning)
-    console.print(grid)
+    print_table(findings_table(trial), console)
     for note in trial.notes:
         console.print(f"[dim]{escape(note)}[/dim]")
+
+
+def findings_table(trial: Trial) -> SummaryTable:
+    """What was read off, a row for each finding."""
+    rows = [(found.name, _value(found), pretty(found.unit), found.meaning) for found in trial.findings]
+    return SummaryTable("", ("finding", "value", "unit", "meaning"), rows, (1,))
 
 
 def _value(found: Finding) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from math import degrees
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
@@ -40,7 +40,7 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     lines += [f"Beside them: {_words(one.kind)}, {one.title}{_about(one.mass)}." for one in extra]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
-    lines += [f"{number}. {text}" for number, text in enumerate(_steps(design, dims, items), start=1)]
+    lines += [f"{number}. {step.text}" for number, step in enumerate(written_steps(design, dims, items), start=1)]
     lines += ["", f"![Cut through the axis]({file_names.SECTION})", ""]
     return "\n".join(lines).encode()
 
@@ -78,15 +78,24 @@ def _printing(kind: str) -> str:
     return f"- {_words(kind)}: {lying}; {PRODUCTION[kind].why}."
 
 
-def _steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[str]:
+class WrittenStep(NamedTuple):
+    """One step of a module's note."""
+
+    text: str
+    place: Sequence[Mapping[str, str]] = ()
+    """What comes into its place: `part`, a kind or one part of a kind, and the side it comes `from`."""
+
+
+def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[WrittenStep]:
     """Steps for the kinds this module has, and one for each kind that no step takes."""
     counts: dict[str, object] = {f"number_of_{one.kind}": one.quantity for one in items}
     counts |= {f"grams_of_{one.kind}": f"{one.mass:.2f}" for one in items}
     wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, dims)]
     known = _Figures(design, dims, counts)
-    texts = [str(step["text"]).format_map(known) for step in wanted]
+    steps = [WrittenStep(str(step["text"]).format_map(known), step.get("place", ())) for step in wanted]
     taken = {kind for step in wanted for kind in step["kinds"]}
-    return texts + [f"Fit the {_words(one.kind)} ({one.quantity})." for one in items if one.kind not in taken]
+    left = [one for one in items if one.kind not in taken]
+    return steps + [WrittenStep(f"Fit the {_words(one.kind)} ({one.quantity}).") for one in left]
 
 
 def _is_for(step: Mapping[str, Any], dims: Dimensions) -> bool:

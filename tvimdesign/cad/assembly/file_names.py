@@ -4,6 +4,7 @@ from __future__ import annotations
 
 ASSEMBLY_STEP = "assembly.step"
 ASSEMBLY_GLB = "assembly.glb"
+ASSEMBLY_DATA = "assembly.json"
 ASSEMBLY_NOTE = "assembly.md"
 BILL_OF_MATERIALS = "bom.csv"
 PREVIEW = "preview.png"

@@ -13,6 +13,7 @@ from OCP.TopoDS import TopoDS_Shape
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.assembly import drawn_part, free_spring, one_solid, place
+from tvimdesign.cad.assembly.assembly_data import assembly_data
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
 from tvimdesign.cad.assembly.module_parts import MODULES
@@ -163,12 +164,15 @@ def _inspect_module(job: Job) -> list[SolidCheck]:
 
 
 def _assembly(job: Job) -> list[SolidCheck]:
-    """The module at rest as STEP and GLB."""
+    """The module at rest as STEP and GLB, and what programs that show it need to know of its parts."""
     drawn = _solids(job.needs)
     placed = place(job.dims, drawn)
     products = {name: product(job.design, kind_of(name)) for name in placed}
     write_assembly(job.folder / "out" / file_names.ASSEMBLY_STEP, job.design.name, placed, products)
-    _write(job.folder, file_names.ASSEMBLY_GLB, glb_bytes(instances(job.dims, drawn, placed)))
+    meshed = instances(job.dims, drawn, placed)
+    _write(job.folder, file_names.ASSEMBLY_GLB, glb_bytes(meshed))
+    items = bill(job.design, job.titles, placed)
+    _write(job.folder, file_names.ASSEMBLY_DATA, assembly_data(job.design, job.dims, items, meshed))
     return []
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import ceil, pi
+from math import ceil, pi, sqrt
 
 import cadquery as cq
 import numpy as np
@@ -21,7 +21,7 @@ CHORD = 0.05
 """Largest distance of a mesh from its part [mm]."""
 TURN = 0.15
 """Largest angle between neighbouring triangles of a curved face [rad]."""
-_RING = 24
+RING = 24
 """Points around the wire, as far out as gives their polygon the area of the wire's section."""
 Array = NDArray[np.float64]
 
@@ -83,12 +83,12 @@ def _patch(face: cq.Face) -> Mesh:
     return Mesh(vertices, corners[:, ::-1] if inside_out else corners)
 
 
-def spring_mesh(coil: Coil, points: int = _RING) -> Mesh:
+def spring_mesh(coil: Coil, points: int = RING) -> Mesh:
     """Tube around the wire's centre, of so many points around it.
 
     OCC takes seconds for a swept helix, and the file is ten times as large.
     """
-    centre, normal, tangent = _wire_centre(coil)
+    centre, normal, tangent = wire_centre(coil)
     binormal = np.cross(tangent, normal)
     angle = np.arange(points) * 2.0 * pi / points
     ring = np.cos(angle)[:, None] * normal[:, None, :] + np.sin(angle)[:, None] * binormal[:, None, :]
@@ -109,11 +109,13 @@ def spring_mesh(coil: Coil, points: int = _RING) -> Mesh:
     return Mesh(vertices, np.concatenate([part.reshape(-1, 3) for part in (*sides, *caps)]))
 
 
-def _wire_centre(coil: Coil) -> tuple[Array, Array, Array]:
-    """Points along the wire's centre from tang to leg; the unit vectors there away from the coil's axis, and along."""
+def wire_centre(coil: Coil, points: int = 0) -> tuple[Array, Array, Array]:
+    """Points along the wire's centre from tang to leg; the unit vectors there away from the coil's axis, and along.
+
+    The coils have so many `points`, or as many as keep within the chord.
+    """
     rise, up = coil.rise, np.array([0.0, 0.0, 1.0])
-    step = min(0.25, 2.0 * np.sqrt(CHORD / coil.diameter))
-    azimuth = coil.start_azimuth + np.linspace(0.0, 2.0 * pi * coil.turns, ceil(2.0 * pi * coil.turns / step) + 1)
+    azimuth = coil.start_azimuth + np.linspace(0.0, 2.0 * pi * coil.turns, points or coil_points(coil))
     radial = np.stack((np.cos(azimuth), np.sin(azimuth), 0.0 * azimuth), -1)
     around = np.cross(up, radial)
     level = coil.start_level + coil.pitch * (azimuth - azimuth[0]) / (2.0 * pi)
@@ -128,6 +130,12 @@ def _wire_centre(coil: Coil) -> tuple[Array, Array, Array]:
     centre = np.vstack((tang_end, bend, helix, leg_end))
     outwards = np.vstack((np.repeat(radial[:1], 1 + len(bend), axis=0), radial, radial[-1:]))
     return centre, outwards, np.vstack((up, bending, climb, climb[-1:]))
+
+
+def coil_points(coil: Coil) -> int:
+    """Points along the coils whose chords are nowhere further than `CHORD` from the wire's centre."""
+    step = min(0.25, 2.0 * sqrt(CHORD / coil.diameter))
+    return ceil(2.0 * pi * coil.turns / step) + 1
 
 
 def part_meshes(drawn: Mapping[str, cq.Solid], coils: Mapping[str, Coil]) -> dict[str, Mesh]:

@@ -13,10 +13,12 @@ from rich.markup import escape
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.report.compare.comparison import Outcome
+from tvimdesign.report.compare.comparison_page import comparison_page
 from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import print_comparison, summary_text
 from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.figures.plot_process import PlotProcess
+from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.check_study import refuse_what_cannot_be
@@ -65,6 +67,7 @@ def compare_studies(
         outcome.seconds["whole"] = time.perf_counter() - began
         reported = outcome.plain()
         folder.write_json("compare.json", reported)
+        write_page(folder, comparison_page(folder, outcome, tuple(settings)))
         studies = {label: entrant.study.model_dump(mode="json") for label, entrant in entrants.items()}
         inputs = {label: entrant.path for label, entrant in entrants.items()}
         folder.finish("partly done" if troubles else "compared", inputs, studies, outcome.seconds)

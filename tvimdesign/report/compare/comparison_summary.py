@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table as Grid
 
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_table import Row
 from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.progress import WIDTH
+from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import number
 
 _COLOURS = {"better": "green", "worse": "red"}
@@ -26,9 +27,8 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
     for sentence in outcome.conclusions:
         console.print(f"- {escape(sentence)}")
     console.print()
-    for which, rows in outcome.rows.items():
-        asked = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
-        _print_rows(COMPARISONS[which].capitalize(), [r for r in rows if r.headline or r.name in asked], console)
+    for table in told_rows(outcome):
+        print_table(table, console, _COLOURS)
     for which, alone in outcome.alone.items():
         shown = [f"{label}: {row.name} {_value(row, label, with_unit=True)}" for label, row in alone if row.headline]
         if shown:
@@ -50,29 +50,29 @@ def summary_text(outcome: Outcome) -> str:
     return stream.getvalue()
 
 
-def _print_rows(title: str, rows: list[Row], console: Console) -> None:
-    if not rows:
-        return
-    labels = list(rows[0].values)
-    grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    grid.add_column("", header_style="dim")
-    for label in labels:
-        grid.add_column(label, justify="right", header_style="dim")
-    grid.add_column("unit", header_style="dim")
-    for label in labels[1:]:
-        grid.add_column(f"{label} / {labels[0]}", justify="right", header_style="dim")
-        grid.add_column(f"{label} is", header_style="dim")
+def told_rows(outcome: Outcome) -> list[SummaryTable]:
+    """Headlines and what is asked, side by side, a table for each comparison."""
+    asked = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
+    return [
+        side_by_side(COMPARISONS[which].capitalize(), [row for row in rows if row.headline or row.name in asked])
+        for which, rows in outcome.rows.items()
+    ]
+
+
+def side_by_side(title: str, rows: Sequence[Row]) -> SummaryTable:
+    """Outputs of all studies beside one another, with what each is over the first."""
+    labels = list(rows[0].values) if rows else []
+    heads = ["", *labels, "unit"]
+    heads += [head for label in labels[1:] for head in (f"{label} / {labels[0]}", f"{label} is")]
+    cells = []
     for row in rows:
         against: list[str] = []
         for label in labels[1:]:
-            ratio, verdict = row.ratio(label), row.verdict(label)
-            colour = _COLOURS.get(verdict)
-            against += [
-                "" if ratio is None else number(ratio, 3),
-                f"[{colour}]{verdict}[/{colour}]" if colour else verdict,
-            ]
-        grid.add_row(row.name, *(_value(row, label) for label in labels), pretty(row.unit), *against)
-    console.print(grid)
+            ratio = row.ratio(label)
+            against += ["" if ratio is None else number(ratio, 3), row.verdict(label)]
+        cells.append([row.name, *(_value(row, label) for label in labels), pretty(row.unit), *against])
+    ratios = range(len(labels) + 2, len(heads), 2)
+    return SummaryTable(title, heads, cells, (*range(1, len(labels) + 1), *ratios))
 
 
 def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
@@ -108,14 +108,25 @@ def _print_searches(outcome: Outcome, console: Console) -> None:
 
 
 def _print_warnings(outcome: Outcome, console: Console) -> None:
-    """The advice that the designs held against each other do not follow."""
+    for label, names in accepted(outcome):
+        console.print(f"{escape(label)} is beyond its rating, as its study accepts: {', '.join(names)}.")
+    for said in warnings_of(outcome):
+        console.print(f"[yellow]Warning[/yellow] {escape(said)}.")
+
+
+def accepted(outcome: Outcome) -> Iterator[tuple[str, list[str]]]:
+    """(study, ratings) of what is beyond its rating, as its study accepts."""
     for label, found in outcome.found.items():
         if names := found.get(outcome.which, {}).get("accepting"):
-            console.print(f"{escape(label)} is beyond its rating, as its study accepts: {', '.join(names)}.")
+            yield label, names
+
+
+def warnings_of(outcome: Outcome) -> Iterator[str]:
+    """The advice that the designs held against each other do not follow."""
+    for label, found in outcome.found.items():
         for warning in found.get(outcome.which, {"warnings": []})["warnings"]:
             value = format_quantity(warning["value"], outcome.unit(warning["output"]))
-            said = f"{label}: {warning['output']} is {value}: {warning['because']}."
-            console.print(f"[yellow]Warning[/yellow] {escape(said)}")
+            yield f"{label}: {warning['output']} is {value}: {warning['because']}"
 
 
 def _print_fronts(outcome: Outcome, console: Console) -> None:

@@ -17,12 +17,6 @@ _PHASES = (
     ("stiffening", "cooling: freezes supercooled"),
     ("equilibrium_stiffening", "cooling, as the melting curve would claim"),
 )
-_PLACES = (
-    ("hot_side", "pads, inner side"),
-    ("near_face", "layer, near face"),
-    ("far_face", "layer, far face"),
-    ("cold_side", "pads, outer side"),
-)
 _SUMS = ("electrical_energy",)
 """Columns that begin at zero in every phase, and add up over the cycle."""
 _LEFT, _WIDE = 0.62, 3.4  # inches: where panels over time begin, and how wide they are beside others
@@ -106,7 +100,7 @@ def _joined(soft: dict[str, Any], stiff: dict[str, Any] | None, name: str) -> tu
 
 
 def _temperatures(axes: Any, soft: dict[str, Any], stiff: dict[str, Any] | None, data: dict[str, Any]) -> None:
-    for i, (name, label) in enumerate(_PLACES):
+    for i, (name, label) in enumerate(data["places"].items()):
         axes.plot(*_joined(soft, stiff, name), label=label, **style_of(i))
     axes.axhspan(*data["melting"], label="melting range", **BAND)
     axes.axhline(data["target"], label="target", **LIMIT)

@@ -66,10 +66,10 @@ class ResultsFolder:
 
     def look_up_versions(self) -> None:
         """Do now what takes time of the manifest: good where a run waits for something else."""
-        _ = self._made_by
+        _ = self.made_by
 
     @cached_property
-    def _made_by(self) -> dict[str, Any]:
+    def made_by(self) -> dict[str, Any]:
         """Versions and commit."""
         return {
             "tvimdesign": __version__,
@@ -153,7 +153,7 @@ class ResultsFolder:
             MANIFEST,
             {
                 "status": status,
-                **self._made_by,
+                **self.made_by,
                 "started": self._started.isoformat(timespec="seconds"),
                 "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
                 "timing": timing or {},

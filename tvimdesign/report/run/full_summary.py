@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from rich.console import Console
@@ -14,25 +13,21 @@ from rich.table import Table as Grid
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Input, Table, table_for
 from tvimdesign.report.output.choices_tables import best_rows, price_in_words, tally_in_words
-from tvimdesign.report.output.tables import (
-    NOTHING,
-    current_rows,
-    headline_rows,
-    margin_text,
-    number,
-    point_rows,
-    value_text,
-    variable_rows,
-)
+from tvimdesign.report.output.summary_table import print_table
+from tvimdesign.report.output.tables import current_rows, headline_rows, number, point_rows, variable_rows
 from tvimdesign.report.output.thresholds import meaning
-from tvimdesign.report.run.first_screen.measured import ends_in_words
-from tvimdesign.report.run.why import binding, sentences, slack_in_words
+from tvimdesign.report.run.summary_tables import (
+    assumptions_table,
+    checks_table,
+    intervals_table,
+    prices_table,
+)
+from tvimdesign.report.run.why import sentences, slack_in_words
 from tvimdesign.report.run.yield_words import cost_of_margins, lost_in_words, reached_in_words, yield_of
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
-from tvimdesign.solve.result import ConstraintCheck, StudyResult
+from tvimdesign.solve.result import StudyResult
 
 _SENTENCES_SHOWN = 3
-_ROUND = 1e-5  # of any unit a limit is written in
 
 
 def print_full_summary(
@@ -63,8 +58,8 @@ def print_full_summary(
         grid.add_row(name, value, unit, description)
     console.print(grid)
     _print_checks(answer, table, console)
-    _print_intervals((uncertainty or {}).get("intervals", {}), console)
-    _print_assumptions((uncertainty or {}).get("assumptions", {}), console)
+    print_table(intervals_table((uncertainty or {}).get("intervals", {})), console)
+    print_table(assumptions_table((uncertainty or {}).get("assumptions", {})), console)
     _print_prices(answer, table, console)
 
 
@@ -206,57 +201,24 @@ def _verdict(answer: StudyResult) -> str:
 
 def _print_checks(answer: StudyResult, table: Table, console: Console) -> None:
     """Requirements always; the machine's own rules only where they bind or break."""
-    grid = _grid("What must hold", ("", "limit", "value", "unit", "margin", "because"), right=(2, 4))
-    hidden = 0
-    for check in answer.checks:
-        if check.origin != "require" and check.kept and check.worst > NOTHING:
-            hidden += 1
-            continue
-        mark = "[red]broken[/red]" if not check.kept else "[yellow]binds[/yellow]" if _binds(check) else "ok"
-        mark = "[yellow]open[/yellow]" if check in answer.undecided else mark
-        unit = table.unit(check.output)
-        because = "the study" if check.origin == "require" else check.origin
-        value = from_si(check.value, unit)
-        shown = number(0.0 if abs(value) < _ROUND else value)
-        if check.output in answer.intervals:
-            shown = value_text(answer, check.output, table)
-        grid.add_row(mark, check.text, shown, pretty(unit), _worst(check, table), because)
-    if grid.row_count:
-        console.print(grid)
+    found, hidden = checks_table(answer, table)
+    print_table(found, console, _STYLES)
     if hidden:
         console.print(f"[dim]{hidden} rules of the machine hold with a margin.[/dim]")
 
 
-def _worst(check: ConstraintCheck, table: Table) -> str:
-    """The margin for people, with the history that leaves the least."""
-    return margin_text(replace(check, margin=check.worst), table)
-
-
-def _binds(check: ConstraintCheck) -> bool:
-    return abs(check.margin) <= NOTHING
+_STYLES = {"broken": "red", "binds": "yellow", "open": "yellow"}
+"""Of a word that says how a limit stands."""
 
 
 def _print_prices(answer: StudyResult, table: Table, console: Console) -> None:
     """What binds, with its cost in the objective and in each output; the costliest in sentences; what is slack."""
-    held = binding(answer)
-    if held:
-        outputs = list(answer.design.study["minimize"])
-        columns = ("limit", "relaxed by", "lowers the objective by", *outputs)
-        grid = _grid("What holds the design back", columns, right=tuple(range(1, len(columns))))
-        for row in held:
-            each = (_saved(row.sensitivity[name]) if name in row.sensitivity else "" for name in outputs)
-            grid.add_row(row.text, row.step, _saved(row.shadow_price), *each)
-        console.print(grid)
-        for sentence in sentences(answer)[:_SENTENCES_SHOWN]:
-            console.print(escape(sentence))
+    print_table(prices_table(answer), console)
+    for sentence in sentences(answer)[:_SENTENCES_SHOWN]:
+        console.print(escape(sentence))
     slack = slack_in_words(answer, table)
     if slack:
         console.print(f"[dim]{escape(slack)}[/dim]")
-
-
-def _saved(percent: float) -> str:
-    """A saving for people: what is less than a millionth is none."""
-    return f"{percent:.2g} %" if abs(percent) >= 1e-4 else "0 %"
 
 
 def _print_warnings(answer: StudyResult, warnings: Sequence[tuple[str, str]], console: Console) -> None:
@@ -270,46 +232,3 @@ def _print_warnings(answer: StudyResult, warnings: Sequence[tuple[str, str]], co
         console.print(
             f"Another optimum, objective {start.objective:.5g}, reached by {count} of {all_} starts: {where}."
         )
-
-
-def _print_intervals(intervals: Mapping[str, Mapping[str, Any]], console: Console) -> None:
-    """What each headline and requirement may be, given what nobody has measured; what to measure first, and how many
-    values for half the width (results.json names them).
-    """
-    measured = any(one.get("before") for one in intervals.values())
-    heads: tuple[str, ...] = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
-    heads += ("before measuring",) if measured else ()
-    grid = _grid("What may be, over the ranges of what is not measured (95 %, all together)", heads, right=(1, 2, 3, 7))
-    for output, one in intervals.items():
-        if one["low"] == one["high"]:
-            continue
-        value, low, high, least, most = (
-            "never" if end is None else number(end)
-            for end in (
-                one["value"],
-                one["low"],
-                one["high"],
-                one["one_at_a_time"]["low"],
-                one["one_at_a_time"]["high"],
-            )
-        )
-        first = next(iter(one["shares"]), "")
-        share = f"{100.0 * one['shares'][first]:.0f} %" if first else ""
-        half = f"{len(one['to_halve'])}" if one["to_halve"] else "many"
-        earlier = (ends_in_words(one["before"]),) if measured else ()
-        grid.add_row(output, value, low, high, f"{least} to {most}", one["unit"], first, share, half, *earlier)
-    if grid.row_count:
-        console.print(grid)
-
-
-def _print_assumptions(assumptions: Mapping[str, Sequence[Mapping[str, Any]]], console: Console) -> None:
-    """What the requirements rest on: assumed inputs, and what each output is at the ends of their ranges."""
-    heads = ("", "at low", "at high", "unit", "assumed", "value", "from", "to", "unit")
-    grid = _grid("What rests on what is assumed", heads, right=(1, 2, 5, 6, 7))
-    for output, rows in assumptions.items():
-        for i, row in enumerate(rows):
-            ends = ("never" if row[end] is None else number(row[end]) for end in ("output_at_low", "output_at_high"))
-            inputs = (number(row["value"]), number(row["low"]), number(row["high"]), row["unit"])
-            grid.add_row(output if i == 0 else "", *ends, row["output_unit"], row["input"], *inputs)
-    if grid.row_count:
-        console.print(grid)

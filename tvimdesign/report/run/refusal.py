@@ -33,6 +33,9 @@ def leaving_the_reason(
     try:
         yield
     except InfeasibleError as error:
+        from tvimdesign.report.output.page_sections import write_page
+        from tvimdesign.report.run.run_page.run_page import refused_page
+
         progress("")  # raises KeyboardInterrupt where a solver swallowed one, and its failure looks like a conflict
         refused: RefusedRun = {
             "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
@@ -42,6 +45,7 @@ def leaving_the_reason(
         folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
         folder.write_json("results.json", refused)
         folder.write("summary.txt", f"{study.name}: no design.\n{error}\n")
+        write_page(folder, refused_page(folder, tree, study, str(error)))
         folder.finish("infeasible", {"study": tree.path} if tree.path else {}, study.model_dump(mode="json"))
         if as_json:
             print(json.dumps({**refused, "folder": str(folder.path)}, indent=2))

@@ -15,7 +15,11 @@ from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves, torq
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.design import Design
 
-_TEMPERATURES = ("hot_side", "near_face", "far_face", "cold_side")
+PLACES = {
+    "hot_side": "pads, inner side", "near_face": "layer, near face", "far_face": "layer, far face",
+    "cold_side": "pads, outer side",
+}  # fmt: skip
+"""Columns of temperatures that are drawn, and what a figure calls them."""
 _PROFILES = 5
 
 
@@ -43,6 +47,7 @@ def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
         "cycle": {
             **phases,
             "labels": labels,
+            "places": PLACES,
             "melting": melting,
             "soft": shown("soft_threshold"),
             "stiff": shown("stiff_threshold"),
@@ -71,10 +76,15 @@ def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
 
 def _history(curves: Curves) -> dict[str, Any]:
     """What is drawn of a phase: columns over its time, and the temperatures through the polymer at some moments."""
-    time, through = curves["time"], ["near_face", *(name for name in curves if name.startswith("cell_")), "far_face"]
+    time, through = curves["time"], through_the_layer(curves)
     moments = [min(bisect_left(time, time[-1] * i / (_PROFILES - 1)), len(time) - 1) for i in range(_PROFILES)]
     profiles = [{"time": time[at], "temperatures": [curves[name][at] for name in through]} for at in moments]
-    return {name: curves[name] for name in (*_TEMPERATURES, *PHASE_UNITS)} | {"profiles": profiles}
+    return {name: curves[name] for name in (*PLACES, *PHASE_UNITS)} | {"profiles": profiles}
+
+
+def through_the_layer(curves: Curves) -> list[str]:
+    """Columns with the temperatures through the polymer, from the pads on."""
+    return ["near_face", *(name for name in curves if name.startswith("cell_")), "far_face"]
 
 
 def _depths(answer: StudyResult, table: Table) -> list[float]:

@@ -37,6 +37,7 @@ def run_study(
     from tvimdesign.report.run.first_screen.run_screen import RunScreen, look_first, show
     from tvimdesign.report.run.infeasible_report import above_rating, complaint
     from tvimdesign.report.run.refusal import leaving_the_reason
+    from tvimdesign.report.run.run_page.run_page import write_run_page
     from tvimdesign.report.run.write_answer import finish, write_answer
     from tvimdesign.report.run.yield_words import below_yield
 
@@ -68,12 +69,13 @@ def run_study(
             folder.look_up_versions()
             with noting(failures):
                 drawing.finish()
+        write_run_page(folder, answered, screen.told(answered, timed=False))
         finish(folder, answered)
     if as_json:
         more = {"folder": str(folder.path), "not_done": [str(failure) for failure in failures]}
         print(json.dumps({**answered.reported, **more}, indent=2, allow_nan=False))
     else:
-        show(look_first(folder, str(folder.path), wide_console().width), wide_console())
+        show(look_first(str(folder.path), wide_console().width), wide_console())
     if not found.found:
         raise InfeasibleError(complaint(found, answered.study.table))
     if refused := above_rating(found, answered.study.table):

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table as Grid
 
 from tvimdesign.device import Table
+from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.tolerate.tolerance_tables import spreads
 from tvimdesign.report.tolerate.unknown import unknown_rows
@@ -18,63 +18,71 @@ from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.uncertainty.tolerance import Spread
 
 
-def print_tolerances(found: Spread, data: dict[str, Any], table: Table, console: Console) -> None:
+def print_tolerances(found: Spread, data: Mapping[str, Any], table: Table, console: Console) -> None:
     """Print what varies from part to part, and what is to be said of both blocks."""
     for note in data["notes"]:
         console.print(f"[dim]{escape(note)}[/dim]")
-    grid = _grid(
-        "What spreads from part to part",
-        ("", "as drawn", "worst case", "rss sd", "mc mean", "mc sd", "99.73 %", "unit", "most by"),
-    )
-    for i, row in enumerate(data["outputs"]):
-        if row["output"] in found.asked and spreads(found, i):
-            most = int(found.shares[i].argmax())
-            by = f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
-            grid.add_row(
-                row["output"], _shown(row["as_drawn"]), _span(row["worst_low"], row["worst_high"]),
-                _shown(row["deviation_rss"]), _shown(row["mean"]), _shown(row["deviation"]),
-                _span(row["low"], row["high"]), row["unit"], by,
-            )  # fmt: skip
-    console.print(grid)
-    concern = of_concern(found)
-    if concern:
-        grid = _grid("Limits that too many modules break", ("", "yield", "C_pk", "most by"))
-        for kept in concern:
-            i = found.outputs.index(kept.limit.output)
-            most = int(found.shares[i].argmax())
-            by = f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
-            grid.add_row(in_words(kept.limit, table), f"{100.0 * kept.share.share:.4g} %", f"{kept.capability:.2f}", by)
-        console.print(grid)
-    if "cost_of_robustness" in data:
-        grid = _grid("What robustness costs", ("", "nominal optimum", "robust optimum", "unit"))
-        for row in data["cost_of_robustness"]:
-            grid.add_row(row["output"], number(row["nominal"]), number(row["robust"]), row["unit"])
-        console.print(grid)
+    for shown in (spread_table(found, data), concern_table(found, table), robustness_table(data)):
+        print_table(shown, console)
     for sentence in data["sentences"]:
         console.print(escape(sentence))
 
 
+def spread_table(found: Spread, data: Mapping[str, Any]) -> SummaryTable:
+    """What is asked or minimised and spreads: by worst case, root-sum-square and modules drawn at random."""
+    heads = ("", "as drawn", "worst case", "rss sd", "mc mean", "mc sd", "99.73 %", "unit", "most by")
+    rows = [
+        (row["output"], _shown(row["as_drawn"]), _span(row["worst_low"], row["worst_high"]),
+         _shown(row["deviation_rss"]), _shown(row["mean"]), _shown(row["deviation"]),
+         _span(row["low"], row["high"]), row["unit"], _most_by(found, i))
+        for i, row in enumerate(data["outputs"])
+        if row["output"] in found.asked and spreads(found, i)
+    ]  # fmt: skip
+    return SummaryTable("What spreads from part to part", heads, rows, range(1, 7))
+
+
+def concern_table(found: Spread, table: Table) -> SummaryTable:
+    """Limits that too many modules break, and what carries their spread."""
+    rows = [
+        (in_words(kept.limit, table), f"{100.0 * kept.share.share:.4g} %", f"{kept.capability:.2f}",
+         _most_by(found, found.outputs.index(kept.limit.output)))
+        for kept in of_concern(found)
+    ]  # fmt: skip
+    return SummaryTable("Limits that too many modules break", ("", "yield", "C_pk", "most by"), rows, (1, 2))
+
+
+def robustness_table(data: Mapping[str, Any]) -> SummaryTable:
+    """Minimised outputs without and with the robustness that a study asks for."""
+    rows = [
+        (row["output"], number(row["nominal"]), number(row["robust"]), row["unit"])
+        for row in data.get("cost_of_robustness", ())
+    ]
+    return SummaryTable("What robustness costs", ("", "nominal optimum", "robust optimum", "unit"), rows, (1, 2))
+
+
+def _most_by(found: Spread, i: int) -> str:
+    """The contributor that carries most of an output's spread, with its share."""
+    most = int(found.shares[i].argmax())
+    return f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
+
+
 def print_unknown(data: Mapping[str, Any], console: Console) -> None:
     """The second block, under its own heading."""
-    heads = ("", "as drawn", "one at a time", "all together, 95 %", "unit", "measure first")
-    shown = _grid("What nobody knows", heads)
+    print_table(unknown_table(data), console)
+
+
+def unknown_table(data: Mapping[str, Any]) -> SummaryTable:
+    """What outputs may be, over the ranges of what nobody has measured."""
+    rows = []
     for row in unknown_rows(data):
         if row["low"] == row["high"]:
             continue
         alone = _span(row["one_at_a_time_low"], row["one_at_a_time_high"])
         first = f"{row['measure_first']} {100.0 * float(row['share'] or 0.0):.0f} %" if row["measure_first"] else ""
         cells = (str(row["output"]), _shown(row["as_drawn"]), alone, _span(row["low"], row["high"]))
-        shown.add_row(*cells, str(row["unit"]), first)
-    if shown.row_count:
-        console.print(shown)
-
-
-def _grid(title: str, columns: Sequence[str]) -> Grid:
-    grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0),
-                header_style="dim")  # fmt: skip
-    for i, name in enumerate(columns):
-        grid.add_column(name, justify="left" if i in (0, len(columns) - 1) or name == "unit" else "right")
-    return grid
+        rows.append((*cells, str(row["unit"]), first))
+    heads = ("", "as drawn", "one at a time", "all together, 95 %", "unit", "measure first")
+    return SummaryTable("What nobody knows", heads, rows, (1, 2, 3))
 
 
 def _shown(value: float | None) -> str:

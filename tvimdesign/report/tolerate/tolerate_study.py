@@ -15,10 +15,12 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.thresholds import soft_of_module
 from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.tolerate.tolerance_page import tolerance_page
 from tvimdesign.report.tolerate.tolerance_plot_data import figure_data
 from tvimdesign.report.tolerate.tolerance_screen import print_tolerances, print_unknown
 from tvimdesign.report.tolerate.tolerance_tables import (
@@ -81,6 +83,8 @@ def tolerate_study(path: Path, out: Path, samples: int, workers: int, *, overwri
             figure = Drawing("spread", "tolerance_figure.spread", figure_data(found, table))
             drawing.begin(folder.path, [figure], study.name)
             drawing.finish()
+        text = source.read_text("utf-8")
+        write_page(folder, tolerance_page(folder, study.name, found, data, table, text))
         progress("")
         folder.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"))
         if as_json:

@@ -12,6 +12,7 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
+from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
@@ -27,14 +28,10 @@ FILE = "summary.txt"
 SPREAD = "TVIMDESIGN_SPREAD"
 """Variable of the environment: `off` leaves yield and assumptions out, where many runs share few processors."""
 _FILE_WIDTH = 120
-_COLOURS = {
+COLOURS = {
     "bold": r"^\S.*? · (?=shear|compression)", "green": r"OPTIMAL|ALL LIMITS KEPT",
     "red": r"BROKEN|NO DESIGN FOUND|NEVER SOFT|ABOVE RATING(, NOT ACCEPTED)?", "yellow": r"\bBINDS\b|\bOPEN\b|^Warning",
 }  # fmt: skip
-_LOOK_FIRST = (
-    "cad/preview.png", "plots/front.png", "plots/cycle.png", "why.csv", "results.csv",
-)  # fmt: skip
-"""Files of a run, the one to look at first first."""
 
 
 class RunScreen:
@@ -68,11 +65,15 @@ class RunScreen:
             self._uncertainty = self._process.finish() if self._process and self._asked else {}
         return self._uncertainty
 
+    def told(self, answered: AnsweredStudy, *, timed: bool) -> Told:
+        """What is to be told beside the answer; a file is not told the seconds, so that it is the same every time."""
+        seconds = time.perf_counter() - self._began if timed else None
+        return Told(seconds, self.uncertainty(), answered.reported["doubts"], answered.front.front)
+
     def tell(self, answered: AnsweredStudy, folder: ResultsFolder, console: Console | None, *, full: bool) -> None:
         """Write summary.txt, and print the first screen, or everything."""
-        uncertainty = self.uncertainty()
-        told = Told(time.perf_counter() - self._began, uncertainty, answered.reported["doubts"], answered.front.front)
-        write_summary(answered, folder, uncertainty)
+        told = self.told(answered, timed=True)
+        write_summary(answered, folder, told.uncertainty)
         if console is not None and full:
             _print_all(answered, told, console)
         elif console is not None:
@@ -115,13 +116,12 @@ def show(lines: list[str], console: Console) -> None:
     """Print lines as they are: none is wrapped again."""
     for line in lines:
         text = Text(line)
-        for style, pattern in _COLOURS.items():
+        for style, pattern in COLOURS.items():
             text.highlight_regex(pattern, style)
         console.print(text, soft_wrap=True)
 
 
-def look_first(folder: ResultsFolder, shown: str, width: int) -> list[str]:
-    """Where to look first: a picture or a table of the folder, and the tables."""
-    first = next((name for name in _LOOK_FIRST if (folder.path / name).exists()), FILE)
-    files = [f"{shown}/{first}"] + ([f"all tables: {shown}/{FILE}, --full"] if first != FILE else [])
+def look_first(shown: str, width: int) -> list[str]:
+    """Where to look first: the page of the folder, and the tables."""
+    files = [f"{shown}/{PAGE}", f"all tables: {shown}/{FILE}, --full"]
     return joined("Look first", files, max(width, LABEL + 1))

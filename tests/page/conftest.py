@@ -1,0 +1,48 @@
+"""A browser, and pages opened in it from the disk. Where there is no browser its tests are skipped, and say why."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+import sample_pages
+from opened_page import Opened, opening
+from playwright.sync_api import Browser, sync_playwright
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
+"""Draw 3-D without a graphics card; run as root, as in a container."""
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """Chromium of the system."""
+    if CHROMIUM is None:
+        pytest.skip("no browser, so no test of the page in one: install chromium (Debian: apt-get install chromium)")
+    with sync_playwright() as play:
+        started = play.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        yield started
+        started.close()
+
+
+@pytest.fixture(scope="session")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of a run: a real answer, with a front and the parts of a small model beside it."""
+    return sample_pages.run_page(tmp_path_factory.mktemp("page") / "run")
+
+
+@pytest.fixture(scope="module")
+def screen(browser: Browser, report: Path) -> Iterator[Opened]:
+    """The page on a usual screen, for all tests of a file that leave it as they found it."""
+    with opening(browser, report) as found:
+        yield found
+
+
+@pytest.fixture
+def opened(browser: Browser) -> Iterator[Callable[..., Opened]]:
+    """Open a file with settings of its own."""
+    with ExitStack() as stack:
+        yield lambda path, **settings: stack.enter_context(opening(browser, path, **settings))

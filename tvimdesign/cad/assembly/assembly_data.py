@@ -1,0 +1,74 @@
+"""The assembly for programs that show it: of each part what it is and how it moves, the steps, the springs wound."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.cad.assembly.assembly import installed_coils
+from tvimdesign.cad.assembly.assembly_note import written_steps
+from tvimdesign.cad.assembly.bill_of_materials import Item
+from tvimdesign.cad.assembly.exploded_lifts import lifts
+from tvimdesign.cad.export.mesh import RING, Instance, coil_points, wire_centre
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.kinds import SPRINGS, TURNING, kind_of
+from tvimdesign.study.design import Design
+
+SHARES = (-1.0, -0.5, 0.5, 1.0)
+"""Of the stroke, at which the springs' wires are given; at rest they are as the meshes have them."""
+_DIGITS = 3  # of millimetres
+
+
+def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], placed: Mapping[str, Instance]) -> bytes:
+    """The data as JSON. Lengths in mm, masses in g, angles in rad; names are those of the parts in the GLB."""
+    by_kind = {one.kind: one for one in items}
+    apart = lifts(placed)
+    data = {
+        "mode": design.mode,
+        "stroke": dims.stroke,
+        "parts": [
+            {"name": name, **_part(by_kind[kind_of(name)]), "lift": round(apart[name], _DIGITS)}
+            for name in placed
+        ],
+        "steps": [
+            {"text": step.text, "parts": _named(step.place, list(placed)), "from": _side(step.place)}
+            for step in written_steps(design, dims, items)
+        ],
+        "wires": {"ring": RING, "shares": SHARES, "moved": {kind: _moved(dims, kind) for kind in SPRINGS}},
+    }  # fmt: skip
+    return (json.dumps(data, separators=(",", ":")) + "\n").encode()
+
+
+def _part(item: Item) -> dict[str, Any]:
+    """What there is to say of a part of one kind."""
+    return {
+        "kind": item.kind, "title": item.title, "made": item.made, "mass": round(item.mass, _DIGITS),
+        "turns": item.kind in TURNING, "files": list(item.papers),
+    }  # fmt: skip
+
+
+def _named(place: Sequence[Mapping[str, str]], names: Sequence[str]) -> list[str]:
+    """The parts that come into their place, in order."""
+    return [name for one in place for name in names if one["part"] in (name, kind_of(name))]
+
+
+def _side(place: Sequence[Mapping[str, str]]) -> str:
+    """The side that the last of them comes from; none where nothing comes."""
+    return place[-1]["from"] if place else ""
+
+
+def _moved(dims: Dimensions, kind: str) -> list[list[float]]:
+    """For each share of the stroke, how far each ring of a spring's mesh has moved from rest [mm]: x, y, z in turn."""
+    rest = installed_coils(dims)[kind]
+    points = coil_points(rest)
+    at_rest = wire_centre(rest)[0]
+    mirror = np.array([1.0, 1.0 if kind == "spring_right" else -1.0, 1.0])
+    found = []
+    for share in SHARES:
+        coil = installed_coils(dims, share * dims.stroke)[kind]
+        moved = (wire_centre(coil, points)[0] - at_rest) * mirror
+        found.append([round(float(each), _DIGITS) for each in moved.ravel()])
+    return found

@@ -1,0 +1,160 @@
+"""What a page is put together from: plain records. Numbers in them are text already, as the terminal prints them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
+
+Tone = Literal["", "good", "warn", "bad"]
+"""What a status or a cell means; the page says it by a word or a mark too, not by its colour alone."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One cell of a grid: its text, the number it is sorted by where that is not in the text, and its tone."""
+
+    text: str
+    sort: float | None = None
+    tone: Tone = ""
+    code: bool = False
+    links: Sequence[tuple[str, str]] = ()
+    """Texts with addresses relative to the page, which stand instead of the text."""
+
+
+@dataclass(frozen=True)
+class Head:
+    """A column of a grid."""
+
+    text: str
+    right: bool = False
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A table that can be sorted; one of many rows can be filtered, too."""
+
+    macro: ClassVar[str] = "grid"
+    caption: str
+    heads: Sequence[Head]
+    rows: Sequence[Sequence[Cell]]
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Labels with their texts."""
+
+    macro: ClassVar[str] = "facts"
+    rows: Sequence[tuple[str, str]]
+
+
+@dataclass(frozen=True)
+class Words:
+    """Paragraphs."""
+
+    macro: ClassVar[str] = "words"
+    lines: Sequence[str]
+
+
+@dataclass(frozen=True)
+class Points:
+    """A list of sentences; `numbered` where the order counts."""
+
+    macro: ClassVar[str] = "points"
+    lines: Sequence[str]
+    numbered: bool = False
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Steps in order, each with a picture that the figure of that name takes of it."""
+
+    macro: ClassVar[str] = "steps"
+    lines: Sequence[str]
+    figure: str
+
+
+@dataclass(frozen=True)
+class Warned:
+    """Warnings, each with what to write in the study."""
+
+    macro: ClassVar[str] = "warned"
+    rows: Sequence[tuple[str, str]]
+
+
+@dataclass(frozen=True)
+class Listing:
+    """A text as it is in its file."""
+
+    macro: ClassVar[str] = "listing"
+    title: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A PNG that is part of the page."""
+
+    macro: ClassVar[str] = "picture"
+    png: bytes
+    says: str
+    """What a reader who cannot see it is told."""
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A figure that the page's own code draws from plain data, such as curves, a front or the module's solids."""
+
+    macro: ClassVar[str] = "drawn"
+    name: str
+    """Unique on the page."""
+    by: str
+    """The module of static/ that draws it."""
+    says: str
+    """Its caption, which stands for it where nothing can be drawn."""
+    data: Mapping[str, Any]
+    binary: bytes = b""
+    """What is too large for JSON: the meshes."""
+    libraries: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Folded:
+    """Blocks behind a line that opens them."""
+
+    macro: ClassVar[str] = "folded"
+    title: str
+    blocks: Sequence[Block]
+
+
+Block = Grid | Facts | Words | Points | Steps | Warned | Listing | Picture | Drawn | Folded
+
+
+@dataclass(frozen=True)
+class Section:
+    """One part of the page, under a heading of its own."""
+
+    name: str
+    """The end of its address: `report.html#name`."""
+    title: str
+    blocks: Sequence[Block]
+
+
+@dataclass(frozen=True)
+class Page:
+    """A whole page."""
+
+    title: str
+    kind: str
+    """What was done: `shear module`, `comparison`."""
+    status: str
+    tone: Tone
+    first: Sequence[Block]
+    """The first screen."""
+    picture: Picture | None
+    sections: Sequence[Section]
+    made_by: str
+    files: Mapping[str, str] = field(default_factory=dict)
+    """Files of the folder to look at, by what they are."""

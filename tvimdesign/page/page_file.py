@@ -1,0 +1,104 @@
+"""A page as one HTML file: template, styles, code, data and meshes together, so that it opens offline from a mail."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+from collections.abc import Iterator, Sequence
+from functools import cache
+from importlib import resources
+from pathlib import PurePosixPath
+from typing import Any
+
+from tvimdesign.page.blocks import Block, Drawn, Folded, Page
+
+FILE = "report.html"
+MOST = 8_000_000
+"""Bytes that a page may have, so that a mail takes it."""
+_STYLES = ("theme.css", "page.css", "figures.css", "print.css")
+_ALWAYS = ("main.js", "tables.js", "data.js", "figures.js")
+"""Code of every page; a figure brings its own."""
+
+
+def page_html(page: Page) -> bytes:
+    """The page as UTF-8. The same page gives the same bytes."""
+    drawn = list(figures(page))
+    text: str = _template().render(
+        page=page,
+        style="\n".join(_static(name) for name in _STYLES),
+        imports=_json({"imports": _modules(drawn)}),
+        data=_json({one.name: dict(one.data) for one in drawn}),
+        drawn=drawn,
+    )
+    return (text.rstrip() + "\n").encode()
+
+
+def figures(page: Page) -> Iterator[Drawn]:
+    """Every figure of a page that its code draws, in order."""
+    yield from _figures([*page.first, *(block for section in page.sections for block in section.blocks)])
+
+
+def _figures(blocks: Sequence[Block]) -> Iterator[Drawn]:
+    for block in blocks:
+        if isinstance(block, Drawn):
+            yield block
+        elif isinstance(block, Folded):
+            yield from _figures(block.blocks)
+
+
+def _modules(drawn: Sequence[Drawn]) -> dict[str, str]:
+    """The page's code by the names it is imported by; libraries only where a figure needs them."""
+    libraries = {name for one in drawn for name in one.libraries}
+    own = [path for path in _own_modules() if path in _ALWAYS or drawn]
+    return {f"page/{name}": _address(name) for name in (*own, *(f"vendor/{name}.js" for name in sorted(libraries)))}
+
+
+@cache
+def _own_modules() -> tuple[str, ...]:
+    """Modules of static/ and its folders, but no libraries."""
+    found = []
+    folders = [PurePosixPath()]
+    while folders:
+        folder = folders.pop()
+        for entry in resources.files(__package__).joinpath("static", *folder.parts).iterdir():
+            if entry.is_dir() and entry.name != "vendor":
+                folders.append(folder / entry.name)
+            elif entry.name.endswith(".js"):
+                found.append((folder / entry.name).as_posix())
+    return tuple(sorted(found))
+
+
+@cache
+def _address(name: str) -> str:
+    """A module as an address that holds it: a page that was opened from a disk cannot import other files."""
+    return f"data:text/javascript;base64,{base64.b64encode(_static(name).encode()).decode()}"
+
+
+@cache
+def _static(name: str) -> str:
+    return resources.files(__package__).joinpath("static", *name.split("/")).read_text(encoding="utf-8")
+
+
+def _json(data: Any) -> str:
+    """JSON that can stand in a script element. Raises ValueError for what JSON has no number for."""
+    return json.dumps(data, allow_nan=False, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def packed(data: bytes) -> str:
+    """Bytes as the page's code reads them: gzip in base64; the same bytes every time."""
+    return base64.b64encode(gzip.compress(data, 6, mtime=0)).decode()
+
+
+@cache
+def _template() -> Any:
+    """The template, compiled once; it escapes all text."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(
+        loader=PackageLoader("tvimdesign.page"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True,
+    )  # fmt: skip
+    environment.filters["packed"] = packed
+    environment.filters["base64"] = lambda data: base64.b64encode(data).decode()
+    return environment.get_template("page.html.jinja")

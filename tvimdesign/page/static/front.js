@@ -1,0 +1,101 @@
+// A front: two outputs against each other, and all of its columns as parallel axes that can be brushed.
+import { axis, chart, frame, short } from "page/charts.js";
+import { button, choice, make } from "page/dom.js";
+
+/** Draw the front; a brush, or the ends typed in below, keep only the designs within, in the table too. */
+export function draw(place, data) {
+  const varying = data.names.map((_, i) => i).filter((i) => varies(data.points.map(({ values }) => values[i])));
+  const ends = data.names.map(() => [null, null]);
+  const shown = { x: data.names.indexOf(data.of[1]), y: data.names.indexOf(data.of[0]) };
+  const inside = ({ values }) => values.every((value, i) =>
+    (ends[i][0] === null || value >= ends[i][0]) && (ends[i][1] === null || value <= ends[i][1]));
+  const named = Object.fromEntries(data.labels.map((label, i) => [i, label]));
+  const controls = make("div", { className: "controls", role: "group", "aria-label": "What the front shows" });
+  const x = choice("Across", named, (value) => { shown.x = Number(value); scatter.show(); });
+  const y = choice("Up", named, (value) => { shown.y = Number(value); scatter.show(); });
+  x.select.value = shown.x;
+  y.select.value = shown.y;
+  const clear = button("Keep all", () => { ends.forEach((end) => { end[0] = end[1] = null; }); parallel.show(); renew(); });
+  const count = make("p", { className: "told", "aria-live": "polite" });
+  controls.append(x.row, y.row, clear);
+  place.append(controls, count);
+
+  const scatter = chart(place, { says: `Front: ${data.labels[shown.y]} against ${data.labels[shown.x]}`, height: 340 }, (look) => ({
+    ...frame(look), legend: { show: false },
+    tooltip: { ...frame(look).tooltip, trigger: "item", formatter: ({ data: one }) => `point ${one.number}${one.status === "between" ? "" : `, ${one.status}`}<br>${one.said}` },
+    xAxis: axis(data.labels[shown.x], look),
+    yAxis: axis(data.labels[shown.y], look, { nameGap: 46 }),
+    series: [{
+      type: "scatter", color: look.colours[0],
+      data: data.points.map((point) => ({
+        value: [point.values[shown.x], point.values[shown.y]], number: point.number, status: point.status,
+        said: [shown.x, shown.y].map((i) => `${data.labels[i]}: ${short(point.values[i])}`).join("<br>"),
+        symbol: point.status === "knee" ? "diamond" : "circle", symbolSize: point.status === "knee" ? 16 : 9,
+        itemStyle: { opacity: inside(point) ? 1 : 0.15, color: point.status === "knee" ? look.accent : look.colours[0] },
+        label: { show: point.status !== "between" && inside(point), formatter: point.status.split(",")[0], position: "top", color: look.text },
+      })),
+      labelLayout: { hideOverlap: true },
+    }],
+  }));
+
+  const parallel = chart(place, { says: `Parallel coordinates of ${data.labels.join(", ")}`, height: 360 }, (look) => ({
+    parallel: { left: 60, right: 60, top: 76, bottom: 24 },
+    parallelAxis: varying.map((of, dim) => ({
+      dim, name: inLines(data.labels[of]), nameTextStyle: { color: look.text, fontSize: 11, lineHeight: 13 }, scale: true,
+      axisLabel: { color: look.quiet, formatter: short, fontSize: 11 }, axisLine: { lineStyle: { color: look.quiet } },
+      areaSelectStyle: { color: look.colours[0], opacity: 0.25, borderColor: look.colours[0], width: 16 },
+    })),
+    series: [{
+      type: "parallel", inactiveOpacity: 0.06, activeOpacity: 1, smooth: false,
+      lineStyle: { width: 1.6, color: look.colours[0], opacity: 0.7 },
+      data: data.points.map((point) => ({
+        value: varying.map((i) => point.values[i]), lineStyle: { color: point.status === "knee" ? look.accent : look.colours[0], width: point.status === "knee" ? 3 : 1.6, opacity: inside(point) ? 0.8 : 0.06 },
+      })),
+    }],
+  }));
+  parallel.box.dataset.brush = "";
+  parallel.made.on("axisareaselected", ({ parallelAxisId, intervals }) => {
+    const at = parallel.made.getModel().queryComponents({ mainType: "parallelAxis", id: parallelAxisId })[0].componentIndex;
+    ends[varying[at]] = intervals.length ? [Math.min(...intervals.flat()), Math.max(...intervals.flat())] : [null, null];
+    renew();
+  });
+
+  const typed = make("details", { className: "ends" }, make("summary", {}, "Ends of the axes, typed"));
+  const fields = data.labels.map((label, i) => ["from", "to"].map((word, end) => {
+    const input = make("input", { type: "number", step: "any", "aria-label": `${label} ${word}` });
+    input.addEventListener("change", () => { ends[i][end] = input.value === "" ? null : Number(input.value); parallel.show(); renew(false); });
+    return input;
+  }));
+  typed.append(...data.labels.map((label, i) => make("p", { className: "control" }, make("span", {}, label), ...fields[i])));
+  place.append(typed);
+
+  const same = data.names.map((_, i) => i).filter((i) => !varying.includes(i)).map((i) => `${data.labels[i]}: ${short(data.points[0].values[i])}`);
+  if (same.length) place.append(make("p", { className: "note" }, `The same in every design: ${same.join(", ")}.`));
+
+  const rows = [...place.closest("section").querySelectorAll("tbody tr")];
+  const renew = (write = true) => {
+    const kept = new Set(data.points.filter(inside).map(({ number }) => String(number)));
+    for (const row of rows) row.hidden = !kept.has(row.cells[0].textContent.trim());
+    count.textContent = kept.size === data.points.length ? `${kept.size} designs` : `${kept.size} of ${data.points.length} designs are within`;
+    place.dataset.kept = kept.size;
+    scatter.show();
+    if (write) ends.forEach((end, i) => end.forEach((value, j) => { fields[i][j].value = value === null ? "" : short(value); }));
+  };
+  renew();
+}
+
+const SAME = 1e-4; // share of a value within which all designs have it
+
+/** Whether values differ by more than rounding. */
+function varies(values) {
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  return high - low > SAME * Math.max(Math.abs(low), Math.abs(high));
+}
+
+/** A label in short lines. */
+function inLines(label) {
+  return label.split(" ").reduce((lines, word) => {
+    const last = lines.at(-1);
+    return last && last.length + word.length < 12 ? [...lines.slice(0, -1), `${last} ${word}`] : [...lines, word];
+  }, []).join("\n");
+}

@@ -1,0 +1,95 @@
+"""What the pages of all commands have alike: grids from rows of text, the study's file, versions, and writing it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
+
+from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Listing, Page, Section, Tone, Words
+from tvimdesign.page.page_file import FILE, page_html
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.summary_table import SummaryTable
+
+_NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
+_TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
+    ("bad", re.compile(r"BROKEN|NO DESIGN FOUND|NEVER SOFT|ABOVE RATING, NOT|\bbroken\b|\bfailure\b|\bworse\b")),
+    ("warn", re.compile(r"\bBINDS\b|\bOPEN\b|\bbinds\b|\bopen\b|HISTORY DECIDES|^YIELD|\bwarning\b|partly done")),
+    ("good", re.compile(r"OPTIMAL|ALL LIMITS KEPT|^ok$|^pass$|\bbetter\b")),
+)
+"""Words that say how something stands, worst first."""
+
+
+def tone_of(text: str) -> Tone:
+    """What a word that says how something stands means."""
+    return next((tone for tone, pattern in _TONES if pattern.search(text)), "")
+
+
+def grid(
+    caption: str, heads: Sequence[str], rows: Sequence[Sequence[str]], *, right: Collection[int] = (),
+    code: Collection[int] = (0,), toned: Collection[int] = (), note: str = "",
+) -> Grid:  # fmt: skip
+    """A grid from rows of text; columns of `right` are numbers, of `code` names of the study, of `toned` say how it
+    stands.
+    """
+    cells = [
+        [
+            Cell(text, sort_key(text) if i in right else None, tone_of(text) if i in toned else "", i in code)
+            for i, text in enumerate(row)
+        ]
+        for row in rows
+    ]
+    named = [text or ("name" if i in code else "state" if i in toned else "") for i, text in enumerate(heads)]
+    return Grid(caption, [Head(text, i in right) for i, text in enumerate(named)], cells, note)
+
+
+def grid_of(table: SummaryTable, *, toned: Collection[int] = (), code: Collection[int] = (0,), note: str = "") -> Grid:
+    """A table of the summary as a grid."""
+    return grid(table.title, table.heads, table.rows, right=table.right, toned=toned, code=code, note=note)
+
+
+def sort_key(text: str) -> float | None:
+    """The number a text begins with; of `never` one beyond all others."""
+    if text == "never":
+        return 1e300
+    found = _NUMBER.match(text.replace("−", "-"))
+    return float(found[0]) if found else None
+
+
+def study_section(text: str) -> Section:
+    """The study's own file."""
+    return Section("study", "Study", [Listing("The study's file", text)])
+
+
+def versions_section(folder: ResultsFolder, inputs: Mapping[str, str] | None = None) -> Section:
+    """What made the page: versions, commit, and the records the module was made from."""
+    made_by = folder.made_by
+    libraries = ", ".join(f"{name} {version}" for name, version in made_by["libraries"].items() if version)
+    rows = [
+        ("tvimdesign", f"{made_by['tvimdesign']}{commit_words(made_by)}"),
+        ("Python", f"{made_by['python']} on {made_by['platform']}"),
+        ("Libraries", libraries),
+    ]
+    words = Words(["`manifest.json` beside this page has hashes of everything that went in and came out."])
+    records = [Facts([*(inputs or {}).items()])] if inputs else []
+    return Section("versions", "Versions", [Facts(rows), *records, words])
+
+
+def commit_words(made_by: Mapping[str, Any]) -> str:
+    """The commit in short, where the program runs from a source tree."""
+    return f", commit {made_by['commit'][:12]}" if made_by["commit"] else ""
+
+
+def made_by_words(folder: ResultsFolder) -> str:
+    """The page's last line."""
+    return f"Written by tvimdesign {folder.made_by['tvimdesign']}{commit_words(folder.made_by)}."
+
+
+def there(folder: ResultsFolder, files: Mapping[str, str]) -> dict[str, str]:
+    """Those of some files that the folder has."""
+    return {name: says for name, says in files.items() if (folder.path / name).exists()}
+
+
+def write_page(folder: ResultsFolder, page: Page) -> None:
+    """Write report.html."""
+    folder.write(FILE, page_html(page))

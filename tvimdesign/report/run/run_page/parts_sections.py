@@ -1,0 +1,131 @@
+"""The sections on the parts, read off the files that CAD has written: solids, checks, materials, steps, springs."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.base.units import pretty
+from tvimdesign.base.whole_files import TABLE_ENCODING
+from tvimdesign.cad.assembly import file_names
+from tvimdesign.page.blocks import Block, Cell, Drawn, Folded, Grid, Head, Picture, Section, Steps, Words
+from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.tables import number
+from tvimdesign.report.run.run_page.cycle_section import FIGURE as CYCLE
+
+FOLDER = "cad"
+_LEVELS = ("failure", "warning", "pass")
+
+
+def preview(cad: Path) -> Picture | None:
+    """The module whole, where CAD has drawn it."""
+    path = cad / file_names.PREVIEW
+    return Picture(path.read_bytes(), "The module, whole and opened") if path.exists() else None
+
+
+def solids_section(cad: Path, study: str) -> Section:
+    """The assembly to turn; or, where no parts were made, how to make them."""
+    model, data = cad / file_names.ASSEMBLY_GLB, cad / file_names.ASSEMBLY_DATA
+    if not (model.exists() and data.exists()):
+        words = (
+            f"This run made no parts, so there is no module to turn here. `tvimdesign run {study} --overwrite` makes "
+            "them and writes this page with them."
+        )
+        return Section("assembly", "Assembly in 3-D", [Words([words])])
+    says = (
+        "The assembly: turn it, hide parts, take it apart, cut it, turn its rotor; pick a part for what it is made "
+        "of and its files."
+    )
+    told: dict[str, Any] = json.loads(data.read_text("utf-8"))
+    drawn = Drawn(
+        "solids", "solids/viewer.js", says, {**told, "folder": FOLDER, "cycle": CYCLE}, model.read_bytes(), ["three"]
+    )
+    return Section("assembly", "Assembly in 3-D", [drawn])
+
+
+def checks_section(cad: Path) -> list[Section]:
+    """Every check on the solids, those that did not pass first."""
+    path = cad / "checks.json"
+    if not path.exists():
+        return []
+    checks: list[dict[str, Any]] = json.loads(path.read_text("utf-8"))["checks"]
+    ordered = sorted(checks, key=lambda check: _LEVELS.index(check["level"]))
+    counts = ((level, sum(check["level"] == level for check in checks)) for level in reversed(_LEVELS))
+    said = ", ".join(f"{count} {level}" for level, count in counts if count)
+    failed = [check for check in ordered if check["level"] != "pass"]
+    blocks: list[Block] = [Words([f"{len(checks)} checks on the solids: {said}."])]
+    blocks += [_checks("Checks that did not pass", failed)] if failed else []
+    return [Section("checks", "Checks", [*blocks, Folded("All checks", [_checks("Checks on the solids", ordered)])])]
+
+
+def _checks(title: str, checks: list[dict[str, Any]]) -> Grid:
+    rows = [
+        (check["level"], check["text"], _with_unit(check, "value"), _with_unit(check, "limit"), check["basis"])
+        for check in checks
+    ]
+    return grid(title, ("", "what was checked", "value", "limit", "basis"), rows, right=(2, 3), code=(), toned=(0,))
+
+
+def _with_unit(check: Mapping[str, Any], what: str) -> str:
+    return f"{number(check[what])} {pretty(check['unit'])}".rstrip()
+
+
+def materials_section(cad: Path) -> list[Section]:
+    """The bill of materials, with links to the files a part is made from."""
+    rows = _csv(cad / file_names.BILL_OF_MATERIALS)
+    if not rows:
+        return []
+    heads = ("item", "part", "quantity", "made or bought", "title", "fit", "g each", "g all", "files")
+    shown = ("item", "part", "quantity", "made_or_bought", "title", "fit", "mass_each_g", "mass_all_g")
+    numbers = ("item", "quantity", "mass_each_g", "mass_all_g")
+    right = [name in numbers for name in shown]
+    cells = [
+        [
+            *(Cell(row[name], float(row[name]) if name in numbers else None) for name in shown),
+            _files(row["files"].split()),
+        ]
+        for row in rows
+    ]
+    found = Grid("Bill of materials", [Head(text, at) for text, at in zip(heads, [*right, False], strict=True)], cells)
+    return [Section("materials", "Bill of materials", [found])]
+
+
+def _files(names: list[str]) -> Cell:
+    """Links to a part's files, by their endings."""
+    links = tuple((name.rpartition(".")[2].upper(), f"{FOLDER}/{name}") for name in names)
+    return Cell(" ".join(text for text, _ in links), links=links)
+
+
+def steps_section(cad: Path) -> list[Section]:
+    """How the parts go together, in order, with the pictures that CAD has drawn."""
+    path = cad / file_names.ASSEMBLY_DATA
+    if not path.exists():
+        return []
+    steps = json.loads(path.read_text("utf-8"))["steps"]
+    drawn = (
+        (file_names.EXPLODED, "The parts in the order in which they go on, the lowest first"),
+        (file_names.SECTION, "The module cut through its axis"),
+    )
+    pictures = [Picture((cad / name).read_bytes(), says, says) for name, says in drawn if (cad / name).exists()]
+    return [Section("steps", "Assembly steps", [Steps([step["text"] for step in steps], "solids"), *pictures])]
+
+
+def spring_section(cad: Path) -> list[Section]:
+    """What the spring's maker needs."""
+    rows = _csv(cad / file_names.SPRING_TABLE)
+    if not rows:
+        return []
+    heads = ("", "value", "unit", "tolerance", "note")
+    found = [tuple(row[name] for name in ("name", "value", "unit", "tolerance", "note")) for row in rows]
+    return [Section("spring", "Spring sheet", [grid("The spring", heads, found, right=(1,), code=())])]
+
+
+def _csv(path: Path) -> list[dict[str, str]]:
+    """Rows of a table, by column; none where there is no such file."""
+    if not path.exists():
+        return []
+    with path.open(encoding=TABLE_ENCODING, newline="") as file:
+        return list(csv.DictReader(file))
