@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import tvimdesign as tvim
+from tvimdesign.solve.nlp.solution import SAME_OPTIMUM
 
 EVALUATED = {"coil_count": [3.0, 3.5], "wire_diameter": ["2 mm", "2.4 mm"]}
 
@@ -17,7 +18,7 @@ EVALUATED = {"coil_count": [3.0, 3.5], "wire_diameter": ["2 mm", "2.4 mm"]}
 def optimised(study: tvim.Study) -> tvim.Sweep:
     # Where on its circle the coil ends decides how much leg and tang bend, so that each turn of the coil count has
     # optima of its own; a cell that begins at its neighbour's stays with that kind. Here all have the range of one end.
-    return study.vary(coil_count=[3, 3.25]).sweep(pcl_thickness=tvim.linspace("0.6 mm", "0.8 mm", 3), progress=False)
+    return study.vary(coil_count=[3, 3.1]).sweep(pcl_thickness=tvim.linspace("0.6 mm", "0.8 mm", 3), progress=False)
 
 
 @pytest.fixture(scope="module")
@@ -27,9 +28,11 @@ def grid() -> tvim.Sweep:
 
 def test_a_cell_at_the_optimum_s_own_value_is_the_optimum(optimised: tvim.Sweep, result: tvim.Result) -> None:
     assert result["pcl_thickness"].value == pytest.approx(0.6, rel=1e-6)  # the end of its range, where it binds
-    first = optimised.table("module_mass", "response_time").iloc[0]
-    assert first.module_mass == pytest.approx(result["module_mass"].value, rel=1e-4)
-    assert first.response_time == pytest.approx(result["response_time"].value, rel=1e-4)
+    # Mass and volume trade along a flat valley there, so what is minimised says whether it is the same optimum.
+    reference, weights = result.design.solution["reference"], result.design.study["minimize"]
+    first = dict(zip(optimised.plan.columns, optimised.kept[0].answer.values, strict=True))
+    cell, alone = (sum(w * one[n] / reference[n] for n, w in weights.items()) for one in (first, result.design.values))
+    assert cell == pytest.approx(alone, rel=SAME_OPTIMUM)
 
 
 def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Sweep) -> None:
