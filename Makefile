@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units vendor cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -54,6 +54,11 @@ bench-sweep: $(STAMP)  ## designs a second through compiled equations, and throu
 	$(BENCH) benchmarks/sweep.py
 	$(BENCH) benchmarks/sweep.py --study benchmarks/reference.yaml
 
+bench-cells: $(STAMP)  ## what a sweep of 2,000 cells costs beside its cells: processes, scaling, a resume, bytes a cell
+	$(BENCH) benchmarks/sweep_cells.py
+	$(BENCH) benchmarks/sweep_cells.py --cells 200 --task optimize
+	$(BENCH) benchmarks/sweep_cells.py --cells 20 --task cold
+
 bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hypervolume
 	$(BENCH) benchmarks/front.py
 
@@ -66,7 +71,7 @@ bench-random-choices: $(STAMP)  ## 200 random choices of heater, process, spring
 fuzz: $(STAMP)  ## mutated studies, settings, records and designs: each is read or refused in words (minutes)
 	$(BIN)/python campaigns/fuzz.py
 
-kills: $(STAMP)  ## end runs, fronts and the making of parts at random moments, and look at what is left (Linux; minutes)
+kills: $(STAMP)  ## end runs, fronts, sweeps and the making of parts at random moments, and look at what is left (minutes)
 	$(BIN)/python campaigns/kills.py
 
 random-studies: $(STAMP)  ## whole searches of random studies, each answer attacked by random search and evolution (minutes)

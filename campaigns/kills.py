@@ -3,7 +3,7 @@
     python campaigns/kills.py [--tries 20] [--seed 1] [--commands run front parts] [--json FILE]
 
 After each: no process left two seconds later, no temporary folder, every file whole, the manifest says what happened,
-and a run with a front that is resumed ends in the same bytes as one that ran through. Linux alone.
+and a front or a sweep that is resumed ends in the same bytes as one that ran through.
 """
 
 from __future__ import annotations
@@ -18,8 +18,11 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+
+import psutil
 
 ROOT = Path(__file__).resolve().parents[1]
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
@@ -27,10 +30,14 @@ MARK = "TVIMDESIGN_CAMPAIGN"
 _STUDY = str(ROOT / "studies/paper_as_published.yaml")
 _FRONT = [str(ROOT / "studies/front_shear.yaml"), "--set", "front.points=3", "--set", "solver.starts=1",
           "--no-cad", "--no-plots"]  # fmt: skip
+_OVER = "sweep={over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 12}, wire_diameter: [2 mm, 2.4 mm]}}"
+_GOES_ON = {"front": "front/progress", "sweep": "shards"}
+"""Commands that can be resumed, and the folder of what they go on from."""
 COMMANDS = {
     "run": ["run", _STUDY, "--no-cad"],
     "front": ["run", *_FRONT],
     "parts": ["cad", str(ROOT / "cad/paper_shear/design.json")],
+    "sweep": ["sweep", _STUDY, "--set", _OVER, "--workers", "2", "--no-plots"],
     "compare": ["compare", _STUDY, str(ROOT / "studies/compare_shear.yaml"), "--points", "0"],
 }
 """What is ended; each gets `--out`."""
@@ -64,16 +71,13 @@ def start(words: list[str], own: Path) -> subprocess.Popen[bytes]:
         )  # fmt: skip
 
 
-def at_work(own: Path) -> list[int]:
+def at_work(own: Path) -> list[psutil.Process]:
     """Processes with the mark that have not ended."""
-    mark, found = f"{MARK}={own}".encode(), []
-    for process in Path("/proc").glob("[0-9]*"):
-        try:
-            stopped = (process / "stat").read_text().rpartition(")")[2].split()[0] in "ZX"
-            if not stopped and mark in (process / "environ").read_bytes().split(b"\0"):
-                found.append(int(process.name))
-        except OSError:
-            continue
+    found = []
+    for process in psutil.process_iter():
+        with suppress(psutil.Error):  # it ended meanwhile, or is another user's
+            if process.environ().get(MARK) == str(own) and process.status() != psutil.STATUS_ZOMBIE:
+                found.append(process)
     return found
 
 
@@ -95,8 +99,8 @@ def faults_after(one: Try, own: Path) -> list[str]:
         time.sleep(0.05)
     if left := at_work(own):
         found.append(f"{len(left)} processes left after 2 s")
-        for number in left:
-            os.kill(number, signal.SIGKILL)
+        for one_left in left:
+            one_left.kill()
     if list((own / "tmp").iterdir()):
         found.append(f"left in the temporary folder: {', '.join(path.name for path in (own / 'tmp').iterdir())}")
     expected = {signal.SIGKILL: -signal.SIGKILL}.get(one.number, 128 + one.number)
@@ -139,21 +143,24 @@ def whole(path: Path, data: bytes) -> bool:
     return data.endswith(ends.get(path.suffix, b"")) and len(data) > 0
 
 
-def resumed_differs(own: Path, reference: Path) -> list[str]:
-    """Go on with a front that was ended, and compare it with one that ran through."""
-    if not (own / "out/front/progress").is_dir():
-        return []
-    process = start([*COMMANDS["front"], "--resume"], own)
+def resumed_differs(command: str, own: Path, reference: Path) -> list[str]:
+    """Go on with a command that was ended, and compare what it made with one that ran through."""
+    process = start([*COMMANDS[command], "--resume"], own)
     if process.wait(timeout=600.0) != 0:
         return [f"resumed, it ends with {process.returncode}"]
-    files = {path.relative_to(reference) for path in reference.rglob("*") if path.is_file()} - {Path("manifest.json")}
-    other = {path.relative_to(own / "out") for path in (own / "out").rglob("*") if path.is_file()}
+    files, other = (_compared(folder) for folder in (reference, own / "out"))
     found = [f"resumed, {name} is not there" for name in sorted(files - other)]
     return found + [
         f"resumed, {name} differs"
         for name in sorted(files & other)
         if (reference / name).read_bytes() != (own / "out" / name).read_bytes()
     ]
+
+
+def _compared(folder: Path) -> set[Path]:
+    """Files that must be the same: neither the manifest, which has times, nor who wrote which cell of a sweep."""
+    found = {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+    return {path for path in found if path.name != "manifest.json" and path.parts[0] != "shards"}
 
 
 def campaign(tries: int, seed: int, commands: list[str], folder: Path) -> dict[str, dict[str, int]]:
@@ -170,10 +177,9 @@ def campaign(tries: int, seed: int, commands: list[str], folder: Path) -> dict[s
             own = folder / f"{command}-{number}"
             own.mkdir()
             faults = faults_after(one, own)
-            if command == "front":
-                resumes = (own / "out/front/progress").is_dir()
-                count["resumed"] += resumes
-                faults += resumed_differs(own, through / "out")
+            if command in _GOES_ON and (own / "out" / _GOES_ON[command]).is_dir():
+                count["resumed"] += 1
+                faults += resumed_differs(command, own, through / "out")
             count["tries"] += 1
             count["failures"] += bool(faults)
             for fault in faults:
@@ -188,7 +194,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tries", type=int, default=20, help="of each command")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), default=["run", "front", "parts"])
+    parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), default=["run", "front", "parts", "sweep"])
     parser.add_argument("--json", type=Path, help="file for the figures")
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="kills-") as folder:

@@ -7,7 +7,7 @@ import sys
 import time
 from pathlib import Path
 
-from support import ROOT
+from support import ROOT, is_at_work
 
 CHILD = """
 import os, sys, time
@@ -26,14 +26,6 @@ from tvimdesign.base.child_process import start_child
 start_child("sleeping_child")
 time.sleep(60)
 """
-
-
-def is_at_work(process: int) -> bool:
-    """Whether a process runs; one that has ended and waits to be reaped does not."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
 
 
 def test_children_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 import json
 import random
 import signal
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -47,10 +46,6 @@ def test_mutations_change_a_text_and_data() -> None:
     assert plain == {"a": [1, {"b": 2}]}
 
 
-needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="finds processes under /proc")
-
-
-@needs_proc
 @pytest.mark.parametrize(
     ("command", "number", "after"),
     [
@@ -60,6 +55,7 @@ needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="finds processes
             for number in kills.SIGNALS
             for after in (2.5, 4.0)
         ),
+        *(pytest.param("sweep", number, 5.0, marks=pytest.mark.slow) for number in kills.SIGNALS),
         *(pytest.param("parts", number, 6.0, marks=pytest.mark.slow) for number in kills.SIGNALS),
     ],
 )

@@ -13,6 +13,8 @@ from pathlib import Path
 from subprocess import CompletedProcess
 from unittest import mock
 
+import psutil
+
 from tvimdesign.cli.main import main
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -31,6 +33,14 @@ USED_BY_PARTS = {
     "cover_screw_key", "adjuster_screw_key", "motor_screw_key", "mount_screw_key", "heater_fuse",
 }  # fmt: skip
 """Rows that print files, the assembly note and checks on the solids read alone."""
+
+
+def is_at_work(process: int) -> bool:
+    """Whether a process runs; one that has ended and waits to be reaped does not."""
+    try:
+        return psutil.Process(process).status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
 
 
 def digits(name: str, usual: float) -> float:

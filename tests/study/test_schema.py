@@ -46,6 +46,14 @@ WRONG = [
     "mode: shear\ntolerances: {wire_diamter: 1 mm}",
     "mode: shear\ntolerances: {wire_diameter: {plus_minus: 1 mm, distribution: gauss}}",
     "mode: shear\nrobust: {sigma: 2, yield: 0.9}",
+    "mode: shear\nsweep: {over: {pcl_thicknes: [1 mm]}}",
+    "mode: shear\nsweep: {over: {pcl_thickness: 1 mm}}",
+    "mode: shear\nsweep: {over: {rate_model: {from: smi, to: simple}}}",
+    "mode: shear\nsweep: {over: {}}",
+    "mode: shear\nsweep: {method: random, over: {pcl_thickness: [1 mm]}}",
+    "mode: shear\nsweep: {over: {pcl_thickness: {from: 1 mm, too: 2 mm, count: 3}}}",
+    "mode: shear\nsweep: {over: {pcl_thickness: [1 mm]}, outputs: [modul_mass]}",
+    "mode: shear\nsweep: {over: {pcl_thickness: [1 mm]}, task: solve}",
 ]
 
 
@@ -71,6 +79,9 @@ def test_names_and_units_stand_in_the_schema(table: Table) -> None:
         "mode: shear\nmodule:\nvary: {wire_diameter: {catalog: metric, to: 2 mm}}\nminimize: joint_stiffness@hot",
         "mode: shear\nvary: {coil_count: {choose: [2, '3']}}\nminimize: {module_mass: 50 %}",
         "mode: shear\nvary: {rate_model: {choose: [smi]}}\nminimize: {module_mass: 1e-1}",
+        "mode: shear\nsweep: {over: {pcl_thickness: {from: 1 mm, to: 2 mm, step: 1 mm}, arc_count: {from: 3, to: 5}}}",
+        "mode: shear\nsweep: {method: sobol, count: 8, over: {require.module_mass: {from: <= 90 g, to: <= 120 g}}}",
+        "mode: shear\nsweep: {cells: [{pcl_thickness: 1 mm, rate_model: smi}], outputs: all, most: 3}",
     ],
 )
 def test_a_good_study_fits(validator: Any, read: Callable[..., Study], text: str) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from tvimdesign.api import html
 from tvimdesign.api.shown_progress import shown_progress
+from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.study import Range, read_tree
@@ -66,6 +67,7 @@ class Study:
         tolerances: Any = None,
         robust: Any = None,
         solver: Values | None = None,
+        sweep: Values | None = None,
         write: Values | None = None,
         catalog: str | os.PathLike[str] | None = None,
         folder: str | os.PathLike[str] = ".",
@@ -75,7 +77,7 @@ class Study:
             "name": name, "description": description, "mode": mode, "catalog": catalog, "module": module, "vary": vary,
             "require": require, "accept": accept, "minimize": minimize, "front": front,
             "operating_points": operating_points, "profile": profile, "tolerances": tolerances, "robust": robust,
-            "solver": solver, "write": write,
+            "solver": solver, "sweep": sweep, "write": write,
         }  # fmt: skip
         given = {key: value for key, value in sections.items() if value is not None}
         self._tree = tree_of_values(given, "Study(...)", Path(folder))
@@ -181,16 +183,49 @@ class Study:
             return Result.of(answer_study(self._tree, say, drawn_only=True))
 
     def sweep(
-        self, axes: Mapping[str, Sequence[Any]] | None = None, /, *, progress: bool = True, **more: Sequence[Any]
+        self,
+        axes: Values | None = None,
+        /,
+        *,
+        method: str | None = None,
+        count: int | None = None,
+        seed: int | None = None,
+        task: str | None = None,
+        cells: Sequence[Values] | None = None,
+        outputs: Sequence[str] | str | None = None,
+        out: str | os.PathLike[str] | None = None,
+        workers: int = 0,
+        scheduler: str = "",
+        overwrite: bool = False,
+        progress: bool = True,
+        **more: Any,
     ) -> Sweep:
-        """Answer the study at every value of an axis, or of a grid of several; each value is set as `set` does.
+        """Answer the study at every cell of a grid or a sample; each value is set as `set` does.
 
-        What else may change is optimised at each, from its neighbour's optimum where that can be done. A cell without
-        a design is one of the table, with its reason. Raises StudyError for a value that cannot be set.
+        An axis is a list of values, or a range `{"from": "0.6 mm", "to": "2 mm", "count": 20}`. Without axes the
+        study's own `sweep` section says them. `method` is `grid`, `latin_hypercube` or `sobol`, these with a `count`
+        of cells and a `seed`; `cells` names each cell instead. `task="evaluate"` optimises nothing. What else may
+        change is optimised in each cell, from the study's own optimum where that can be done. A cell without a design
+        is a row with its reason.
+
+        Cells are answered in this process and nothing is written, unless `out` names a folder: then `workers` processes
+        (as many as processors unless given), or the cluster of a dask `scheduler`, keep them there, and cells that are
+        there are not computed again. A folder has the `outputs` the study asks about, and those named; here all are
+        kept. Raises StudyError for a value that cannot be set.
         """
         from tvimdesign.api.sweep import swept
+        from tvimdesign.sweep.run_sweep import Where
 
-        return swept(self, {**(axes or {}), **more}, progress)
+        if out is None and (workers or scheduler or overwrite):
+            raise InputError("sweep: workers keep their cells in a folder; name it with out=")
+        section = {"over": {**(axes or {}), **more} or None, "method": method, "count": count, "seed": seed,
+                   "task": task, "cells": cells, "outputs": outputs or ("all" if out is None else None)}  # fmt: skip
+        given = {name: value for name, value in section.items() if value is not None}
+        if "over" in given or cells is not None:
+            tree = self._changed("sweep", "", {"sweep": given})._tree
+        else:
+            tree = self._changed("sweep", "sweep.", given)._tree if self._tree.section("sweep") else self._tree
+        return swept(tree, progress, out, Where(workers, scheduler), overwrite=overwrite)
 
     # --- what it looks like ---
 

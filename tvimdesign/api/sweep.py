@@ -1,80 +1,105 @@
-"""A study answered at every cell of an axis or a grid, in this process, each cell from its neighbour's optimum."""
+"""A study answered at every cell of a sweep, in this process or by workers, as a table with a result for each cell."""
 
 from __future__ import annotations
 
-import itertools
 import math
+import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tvimdesign.api import html
-from tvimdesign.api.quantity import Quantity
 from tvimdesign.api.result import Result
 from tvimdesign.api.shown_progress import shown_progress
-from tvimdesign.base.errors import InputError, TvimError
-from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.compare.answer_series import AnswerSeries
-from tvimdesign.report.output.progress import Progress
-from tvimdesign.study import Study as ResolvedStudy
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import pretty
+from tvimdesign.report.run.answered_study import answer_study
+from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
+from tvimdesign.sweep.answers import CellAnswers
+from tvimdesign.sweep.gather import Value, columns, told
+from tvimdesign.sweep.job import Cell as AskedCell
+from tvimdesign.sweep.job import CellAnswer, Job
+from tvimdesign.sweep.keys import CellKeys
+from tvimdesign.sweep.plan import SweepPlan, plan_of
+from tvimdesign.sweep.run_sweep import Where
+from tvimdesign.sweep.shards import Kept, Shards
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-MOST_CELLS = 10_000
-_ALWAYS = ("module_mass", "envelope_diameter", "response_time")
-"""Outputs that every table has, whatever the study minimises and requires."""
+    from tvimdesign.api.study import Study
 
-
-class SweptStudy(Protocol):
-    """What a sweep needs of a study: `tvimdesign.Study` has it."""
-
-    _tree: StudyTree
-
-    @property
-    def resolved(self) -> ResolvedStudy:
-        """The study as it was read, every number in SI."""
-
-    @property
-    def mode(self) -> str:
-        """Shear or compression."""
-
-    def set(self, values: Mapping[str, Any], /) -> SweptStudy:
-        """A copy with inputs and choices of the module fixed."""
+_WITH_DESIGN = {"evaluated", "optimal", "above_rating", "below_yield"}
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One study of a sweep: where it stands on the axes, and its result, or why it has none."""
+    """One study of a sweep: where it stands on the axes, how it ended, and why where it has no design."""
 
-    at: Mapping[str, Any]
-    study: SweptStudy
-    result: Result | None
+    at: Mapping[str, str]
     status: str
+    reason: str
+    _sweep: Sweep = field(repr=False)
+    _texts: tuple[str, ...] = field(repr=False)
+
+    @property
+    def study(self) -> Study:
+        """The cell's own study; run on its own it is searched from every start."""
+        from tvimdesign.api.study import Study
+
+        return Study._of(self._sweep.plan.cell_tree(self._texts))
+
+    @cached_property
+    def result(self) -> Result | None:
+        """The cell's whole result, answered as in the sweep when it is first asked for; None without a design."""
+        return self._sweep._result(self._texts) if self.status in _WITH_DESIGN else None
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """Every cell, in the order of the axes, the last of which changes fastest."""
+    """Every cell in its order: of a grid the last axis changes fastest."""
 
-    axes: Mapping[str, Sequence[Any]]
-    cells: tuple[Cell, ...]
-    warm_solves: int
-    """How many cells were optimised from their neighbour's optimum alone."""
+    plan: SweepPlan
+    kept: Sequence[Kept]
+    """What each cell came to, in SI."""
+    folder: Path | None = None
+    """Where it is written; None where it is not."""
+
+    @property
+    def warm_solves(self) -> int:
+        """How many cells were optimised from the study's own optimum alone."""
+        return sum(one.answer.warm for one in self.kept)
 
     def table(self, *names: str) -> pd.DataFrame:
-        """A row a cell: where it stands, its status, and the named outputs; else those the study asks about.
+        """A row a cell: where it stands, how it ended, and the named outputs; else those the study asks about.
 
-        Numbers are in the units of `tvimdesign rows`, which `table.attrs["units"]` has by column.
+        Numbers are in the units of `tvimdesign rows`, which `table.attrs["units"]` has by column. Raises InputError
+        for an output that the sweep did not keep.
         """
         import pandas as pd
 
-        columns = list(names) or self._asked
-        frame = pd.DataFrame([self._row(cell, columns) for cell in self.cells])
-        frame.attrs["units"] = {name: self._unit(name) for name in (*self.axes, *columns)}
+        places = {name: place for place, name in enumerate(self.plan.columns)}
+        if lacking := [name for name in names if name not in places]:
+            raise InputError(f"{', '.join(lacking)}: not kept by this sweep; name it in `outputs=`")
+        wanted = list(names) or [name for name in self.plan.asked if name in places]
+        listed = columns(self.plan)
+        heads = [one.name for one in listed if one.kind in {"axis", "told"}]
+        frame = pd.DataFrame([self._row(number, heads, wanted, places) for number in range(len(self))])
+        frame.attrs["units"] = {one.name: one.unit for one in listed if one.kind == "axis"} | {
+            name: self.plan.unit(name) for name in wanted
+        }
         return frame
+
+    def _row(self, number: int, heads: Sequence[str], wanted: Sequence[str], places: Mapping[str, int]) -> Any:
+        answer = self.kept[number].answer
+        values = tuple(answer.values[places[name]] for name in wanted)
+        found = told(Kept(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted])
+        axes = self.plan.axis_values(number)
+        return dict(zip([*heads, *wanted], map(_or_nan, [*axes, *found]), strict=True))
 
     def plot(self, name: str) -> Figure:
         """Draw an output over the first axis, a line for each value of the others; in a notebook it shows."""
@@ -83,7 +108,7 @@ class Sweep:
 
         from tvimdesign.api.figures import shown
 
-        table, (first, *others) = self.table(name), list(self.axes)
+        table, (first, *others) = self.table(name), [axis.name for axis in self.plan.axes]
         figure = Figure(figsize=(6.0, 3.8), layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.subplots()
@@ -91,49 +116,36 @@ class Sweep:
             label = ", ".join(f"{other} {value:.4g}" if isinstance(value, float) else f"{other} {value}"
                               for other, value in zip(others, at, strict=True))  # fmt: skip
             axes.plot(line[first], line[name], marker="o", label=label)
-        axes.set(xlabel=self._label(first), ylabel=self._label(name))
+        units = table.attrs["units"]
+        axes.set(xlabel=_label(first, units[first]), ylabel=_label(name, units[name]))
         if others:
             axes.legend()
         return shown(figure)
 
-    @property
-    def _asked(self) -> list[str]:
-        study = self.cells[0].study.resolved
-        limits = [limit.output for limit in study.require]
-        return list(dict.fromkeys([*study.minimize, *limits, *_ALWAYS, *study.vary]))
+    def _result(self, texts: tuple[str, ...]) -> Result:
+        tree, plan = self.plan.cell_tree(texts), self.plan
+        if plan.task == "evaluate":
+            return Result(answer_study(tree, lambda _: None, drawn_only=True))
+        search = self._answers.search_of(texts)
+        return Result(answer_study(tree, lambda _: None, search=search.as_optimize))
 
-    def _row(self, cell: Cell, columns: Sequence[str]) -> dict[str, Any]:
-        row = {name: self._plain(name, value, cell.study) for name, value in cell.at.items()}
-        row["status"] = cell.status
-        for name in columns:
-            found = cell.result[name] if cell.result else math.nan
-            row[name] = found.value if isinstance(found, Quantity) else found
-        return row
-
-    def _plain(self, name: str, value: Any, study: SweptStudy) -> Any:
-        """A value of an axis as a number in the row's unit; as it was given where it is none."""
-        set_to, unit = study.resolved.module.get(name), self._unit(name)
-        return from_si(set_to, unit) if isinstance(set_to, float) else str(value)
-
-    def _unit(self, name: str) -> str:
-        row = self.cells[0].study.resolved.table.by_name.get(name.partition("@")[0])
-        return getattr(row, "unit", "")  # a choice has none
-
-    def _label(self, name: str) -> str:
-        unit = pretty(self._unit(name) or "1")
-        return f"{name.replace('_', ' ')} ({unit})" if unit else name.replace("_", " ")
+    @cached_property
+    def _answers(self) -> CellAnswers:
+        return CellAnswers(Job.of(self.plan))
 
     def __len__(self) -> int:
         """Count of cells."""
-        return len(self.cells)
+        return len(self.kept)
 
     def __getitem__(self, number: int) -> Cell:
         """A cell by its number, from 0."""
-        return self.cells[number]
+        answer, texts = self.kept[number].answer, self.plan.points.texts(range(len(self))[number])
+        names = [axis.name for axis in self.plan.axes]
+        return Cell(dict(zip(names, texts, strict=True)), answer.status, answer.reason, self, texts)
 
     def __iter__(self) -> Iterator[Cell]:
         """Every cell."""
-        return iter(self.cells)
+        return (self[number] for number in range(len(self)))
 
     def _repr_html_(self) -> str:
         table = self.table()
@@ -144,49 +156,39 @@ class Sweep:
         return html.heading("Sweep", f"{len(self)} cells") + html.grid(heads, rows)
 
 
-def swept(study: SweptStudy, axes: Mapping[str, Sequence[Any]], progress: bool) -> Sweep:
-    """Answer a study at every cell of the grid, what is minimised over its value at the study's own start.
+def _or_nan(value: Value) -> Value:
+    return math.nan if value is None else value
 
-    Raises InputError for no grid, StudyError for what cannot be set.
+
+def _label(name: str, unit: str) -> str:
+    shown = pretty(unit or "1")
+    return f"{name.replace('_', ' ')} ({shown})" if shown else name.replace("_", " ")
+
+
+def swept(
+    tree: StudyTree, progress: bool, out: str | os.PathLike[str] | None, where: Where, *, overwrite: bool
+) -> Sweep:
+    """Answer a study at every cell of its sweep: here, or by workers that keep what they find in the folder `out`.
+
+    Raises InputError for no sweep, StudyError for what cannot be set.
     """
-    cells = _cells(study, axes)
-    whole = study.resolved
-    series = AnswerSeries(whole)
-    found = []
+    plan = plan_of(tree)
     with shown_progress(progress) as say:
-        for number, (at, asked) in enumerate(cells, start=1):
-            found.append(_answered(at, asked, series, _numbered(say, f"cell {number} of {len(cells)}")))
-    return Sweep(dict(axes), tuple(found), series.warm_solves)
+        if out is None:
+            return Sweep(plan, _here(plan, say))
+        sweep_folder(plan, Path(out), where, say, overwrite=overwrite, resume=not overwrite, plots=False)
+        keys = CellKeys(plan)
+        every = (keys.key(plan.points.texts(number)) for number in range(plan.count))
+        return Sweep(plan, list(Shards(Path(out), plan.columns).kept(every)), Path(out))
 
 
-def _cells(study: SweptStudy, axes: Mapping[str, Sequence[Any]]) -> list[tuple[dict[str, Any], SweptStudy]]:
-    """Every study of the grid, each read, so that a value that cannot be is told before anything is solved."""
-    empty = [name for name, values in axes.items() if isinstance(values, str) or not len(values)]
-    count = math.prod(len(values) for values in axes.values())
-    if empty or not axes:
-        named = f"the axis {empty[0]!r} is no list of values" if empty else "it has no axis"
-        raise InputError(f'sweep: {named}; write pcl_thickness=linspace("0.6 mm", "2 mm", 20), for one')
-    if count > MOST_CELLS:
-        raise InputError(f"sweep: {count} cells; the limit is {MOST_CELLS}; take fewer values on an axis")
-    plain = study.set({"front": None}) if study.resolved.front else study
-    cells = []
-    for values in itertools.product(*axes.values()):
-        at = dict(zip(axes, values, strict=True))
-        asked = plain.set(at)
-        _ = asked.resolved
-        cells.append((at, asked))
-    return cells
-
-
-def _numbered(say: Progress, cell: str) -> Progress:
-    return lambda text: say(f"{cell}: {text}" if text else "")
-
-
-def _answered(at: Mapping[str, Any], study: SweptStudy, series: AnswerSeries, say: Progress) -> Cell:
-    try:
-        say("begins")
-        result = Result(series.answer(study._tree, say))
-    except TvimError as error:
-        return Cell(at, study, None, " ".join(str(error).split()))
-    found = result._answered.result.found
-    return Cell(at, study, result if found else None, result.status)
+def _here(plan: SweepPlan, say: Any) -> list[Kept]:
+    answers, found = CellAnswers(Job.of(plan)), list[Kept]()
+    known: dict[tuple[str, ...], CellAnswer] = {}
+    for number in range(plan.count):
+        say(f"cell {number + 1} of {plan.count}")
+        texts = plan.points.texts(number)
+        if texts not in known:
+            known[texts] = answers.answer(AskedCell("", texts))
+        found.append(Kept(known[texts], 0.0))
+    return found

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +32,19 @@ def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> s
         options["pass_fds"] = (pipe,)
     command = [sys.executable, "-X", "utf8", "-m", module, *arguments]
     return subprocess.Popen(command, env=environment, **options)
+
+
+def hear(process: subprocess.Popen[str], put: Callable[[str | None], object]) -> None:
+    """Hand on every line that a child says on standard output, as it comes, from a thread; None once it has ended."""
+
+    def listen() -> None:
+        assert process.stdout is not None
+        with process.stdout:
+            for line in process.stdout:
+                put(line)
+        put(None)
+
+    threading.Thread(target=listen, daemon=True).start()
 
 
 def follow_parent(parent: int | None = None) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from tvimdesign.base.errors import OutputError
@@ -18,8 +20,26 @@ HALF_WRITTEN = ".*.part"
 
 def write_whole(path: Path, data: bytes) -> None:
     """Write beside, flush to disk, rename: a reader never sees half a file. Raises OutputError."""
+    with whole_file(path) as beside:
+        beside.write_bytes(data)
+
+
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """A file beside, to be written by whoever needs its path, which then takes its place. Raises OutputError."""
     try:
-        _write_whole(path, data)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:100]}.", suffix=".part")
+        os.close(handle)
+        beside = Path(name)
+        try:
+            yield beside
+            with beside.open("rb+") as stream:
+                os.fsync(stream.fileno())
+            beside.chmod(0o644)
+            beside.replace(path)
+        except BaseException:
+            beside.unlink(missing_ok=True)
+            raise
     except OSError as error:
         raise _cannot(path, error) from error
 
@@ -37,17 +57,3 @@ def _cannot(path: Path, error: OSError) -> OutputError:
         f"{path}: cannot be written: {error.strerror or error}; what was written before is whole: make room, or name "
         "another folder with --out"
     )
-
-
-def _write_whole(path: Path, data: bytes) -> None:
-    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:100]}.", suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-        Path(beside).chmod(0o644)
-        Path(beside).replace(path)
-    except BaseException:
-        Path(beside).unlink(missing_ok=True)
-        raise

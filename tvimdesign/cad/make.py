@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
 import queue
 import shutil
-import signal
 import subprocess
 import tempfile
-import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO, Any
 
-from tvimdesign.base.child_process import start_child
+from tvimdesign.base.child_process import hear, start_child
 from tvimdesign.base.errors import GeometryError, InputError
+from tvimdesign.base.process_tree import end_process_tree
 from tvimdesign.base.whole_files import make_folder
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
@@ -71,27 +68,16 @@ def make_cad(
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    """End the process with its children: they are one group."""
-    with contextlib.suppress(ProcessLookupError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
+    """End the process with its children."""
+    if process.poll() is None:
+        end_process_tree(process.pid)
     process.wait()
 
 
 def _messages(process: subprocess.Popen[str], deadline: float) -> Iterator[dict[str, Any]]:
     """What the child says, until it ends; raises TimeoutError at the deadline."""
     said: queue.Queue[str | None] = queue.Queue()
-
-    def listen() -> None:
-        assert process.stdout is not None
-        with process.stdout:
-            for line in process.stdout:
-                said.put(line)
-        said.put(None)
-
-    threading.Thread(target=listen, daemon=True).start()
+    hear(process, said.put)
     while True:
         try:
             line = said.get(timeout=max(0.0, deadline - time.monotonic()))

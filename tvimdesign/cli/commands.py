@@ -12,6 +12,7 @@ from tvimdesign.base.errors import InputError, RenamedWarning
 from tvimdesign.cli import completions
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.cli.options import AsJson, Out, Overwrite, ResultOfRun, Settings, StudyFile, StudyOrDesign
+from tvimdesign.cli.sweep_command import sweep
 from tvimdesign.report.virtual_tests import TESTS
 
 app = typer.Typer(
@@ -293,6 +294,8 @@ def compare(
         studies, folder, points=points, overwrite=overwrite, plots=plots, as_json=json, settings=settings or ()
     )
 
+
+app.command()(sweep)
 
 PaperOut = Annotated[
     Path | None,

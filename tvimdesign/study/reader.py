@@ -17,6 +17,8 @@ from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.study.sections.accept import read_accept
 from tvimdesign.study.sections.goals import read_front, read_minimize, read_require
 from tvimdesign.study.sections.settings import read_module, read_points
+from tvimdesign.study.sections.sweep_block import SweepBlock
+from tvimdesign.study.sections.sweeps import read_sweep
 from tvimdesign.study.sections.tolerances import read_robust, read_tolerances
 from tvimdesign.study.sections.vary import check_against_module, read_vary, with_start
 from tvimdesign.study.study import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions, unit_of
@@ -45,6 +47,12 @@ def read_tree(tree: StudyTree, table: TableOf = table_for, catalog: CatalogOf = 
     return _Reader(Mistakes(tree.file, list(tree.problems)), tree.name, tree.folder, table, catalog, tree.root).read()
 
 
+def read_swept(tree: StudyTree) -> tuple[Study, SweepBlock | None]:
+    """Read a study and what it asks to be swept, None where nothing is; raises StudyError with every problem found."""
+    reader = _Reader(Mistakes(tree.file, list(tree.problems)), tree.name, tree.folder, table_for, Catalog, tree.root)
+    return reader.read(), reader.sweep
+
+
 def read_study_text(
     source: str, name: str = "study", folder: Path = Path(), table: TableOf = table_for, catalog: CatalogOf = Catalog
 ) -> Study:
@@ -63,6 +71,8 @@ class _Reader:
     catalog: CatalogOf
     root: Mapping
     sections: dict[str, Node] = field(default_factory=dict)
+    sweep: SweepBlock | None = None
+    """What is swept, which is no part of the study that each cell is."""
 
     def read(self) -> Study:
         """Read all sections and return the study; raises StudyError with every problem."""
@@ -108,6 +118,7 @@ class _Reader:
         self._both_or_neither()
         self._profile_has_a_range(reading.table, vary)
         tolerances = read_tolerances(reading, get("tolerances"), points)
+        self.sweep = read_sweep(reading, get("sweep"), points)
         return {
             "mode": reading.mode,
             "module": module,

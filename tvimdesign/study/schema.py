@@ -12,6 +12,7 @@ from tvimdesign.device import MODES, Choice, FirstOscillation, Input, Output, Ta
 from tvimdesign.study.sections.accept import rating_names
 from tvimdesign.study.sections.tolerances import STANDARD, tolerance_rows
 from tvimdesign.study.study import FEWEST_POINTS, FORMAT, MOST_POINTS, ProfileOptions, SolverOptions, WriteOptions
+from tvimdesign.study.sweep_schema import sweep_schema
 
 _NUMBER = r"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
 _POINT = "[a-z][a-z0-9_]{0,31}"
@@ -24,6 +25,7 @@ _SECTIONS = {
     "minimize": "what is to be small, with weights",
     "front": "two or three outputs to be traded against one another, and how many designs to find",
     "operating_points": "where stiffness and damping are wanted; `cold` and `hot` always exist",
+    "sweep": "many cells of the study, which `tvimdesign sweep` answers",
     "tolerances": "how far inputs lie from what is drawn; `standard` takes the usual ones",
 }
 """The sections whose names depend on the mode, and what they are for."""
@@ -79,6 +81,7 @@ def _of_mode(table: Table) -> _Schema:
         "minimize": _minimize(table),
         "front": _front(table),
         "operating_points": _points(table),
+        "sweep": _sweep(table),
         "tolerances": _tolerances(table),
     }
 
@@ -172,11 +175,22 @@ def _minimize(table: Table) -> _Schema:
 
 
 def _front(table: Table) -> _Schema:
-    names = "|".join(pattern[1:-1] for pattern in _by_output(table, lambda _: {}))
+    names = _output_names(table)
     output = {"type": "string", "pattern": f"^({names})$"}
     outputs = {"type": "array", "minItems": 2, "maxItems": 3, "uniqueItems": True, "items": output}
     points = {"type": "integer", "minimum": FEWEST_POINTS, "maximum": MOST_POINTS, "default": 12}
     return _section(_SECTIONS["front"], {"of": outputs, "points": points})
+
+
+def _sweep(table: Table) -> _Schema:
+    settable = _settable(table)
+    words = frozenset(row.name for row in settable if isinstance(row, Choice))
+    output = {"type": "string", "pattern": f"^({_output_names(table)})$"}
+    return sweep_schema(_SECTIONS["sweep"], {row.name: _set(row) for row in settable}, words, output)
+
+
+def _output_names(table: Table) -> str:
+    return "|".join(pattern[1:-1] for pattern in _by_output(table, lambda _: {}))
 
 
 def _points(table: Table) -> _Schema:

@@ -35,6 +35,7 @@ SECTIONS = (
     "tolerances",
     "robust",
     "solver",
+    "sweep",
     "write",
 )
 """The keys of a study, in the order in which it is usually written."""
@@ -92,6 +93,12 @@ def tree_of_values(values: Mapped[str, Any], file: str, folder: Path) -> StudyTr
     root = node_of(values, file, problems)
     assert isinstance(root, Mapping)  # as `values` is one
     return StudyTree(renamed(root, file), file, "study", folder, problems=tuple(problems.found))
+
+
+def without_section(tree: StudyTree, name: str) -> StudyTree:
+    """The tree without one of the study's sections."""
+    left = {key: value for key, value in tree.root.entries.items() if key != name}
+    return replace(tree, root=replace(tree.root, entries=left))
 
 
 def tree_yaml(tree: StudyTree) -> str:

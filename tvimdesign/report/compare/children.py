@@ -6,13 +6,12 @@ import json
 import queue
 import subprocess
 import tempfile
-import threading
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tvimdesign.base.child_process import start_child
+from tvimdesign.base.child_process import hear, start_child
 from tvimdesign.base.errors import TvimError
 from tvimdesign.report.output.progress import Progress
 
@@ -90,15 +89,7 @@ def _start(
             "tvimdesign.report.compare.comparison_job", [*paths[:2], str(how[0]), json.dumps(list(how[1])), *paths[2:]],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
         )  # fmt: skip
-
-    def listen() -> None:
-        assert process.stdout is not None
-        with process.stdout:
-            for line in process.stdout:
-                said.put((one.label, line))
-        said.put((one.label, None))
-
-    threading.Thread(target=listen, daemon=True).start()
+    hear(process, lambda line: said.put((one.label, line)))
     return _Child(one.label, process, out, errors, time.perf_counter())
 
 

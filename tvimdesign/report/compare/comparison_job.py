@@ -23,7 +23,6 @@ from tvimdesign.base.errors import AboveRatingError, BelowYieldError, Infeasible
 from tvimdesign.base.units import from_si
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.device import Table
-from tvimdesign.report.compare import normalization
 from tvimdesign.report.output.tables import check_row
 from tvimdesign.report.output.thresholds import soft_in_words
 from tvimdesign.report.run.infeasible_report import above_rating, complaint
@@ -33,6 +32,7 @@ from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.solve import normalization
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated

@@ -34,14 +34,14 @@ class ResultsFolder:
     As a context manager it always leaves a manifest: of a run that ended early, too.
     """
 
-    def __init__(self, path: Path, overwrite: bool = False, resume: bool = False) -> None:
+    def __init__(self, path: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS) -> None:
         """Make the folder, or empty it of an earlier run's files where `overwrite` says so. Raises InputError.
 
-        With `resume` what an unfinished run can go on from stays.
+        With `resume` what an unfinished run can go on from stays: the files of the folder `progress` in it.
         """
         if overwrite and resume:
             raise InputError("--overwrite and --resume: choose one")
-        self.path = path
+        self.path, self._progress = path, progress
         self._started = datetime.now(UTC)
         self._finished = False
         try:
@@ -85,7 +85,7 @@ class ResultsFolder:
         self.path.mkdir(parents=True, exist_ok=True)
         if not any(self.path.iterdir()):
             return
-        if resume and (self.path / MANIFEST).exists() and not (self.path / PROGRESS).is_dir():
+        if resume and (self.path / MANIFEST).exists() and not (self.path / self._progress).is_dir():
             raise InputError(f"{self.path}: there is nothing to resume in it; --overwrite to do it again")
         if (
             not (overwrite or resume)
@@ -94,14 +94,14 @@ class ResultsFolder:
         ):
             raise InputError(
                 f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder; "
-                "--resume goes on with a front that was stopped"
+                "--resume goes on with a front or a sweep that was stopped"
             )
         for target in self._earlier():
-            if resume and target.parent == self.path / PROGRESS:
+            if resume and target.parent == self.path / self._progress:
                 continue
             if target.resolve().is_relative_to(self.path.resolve()):
                 target.unlink(missing_ok=True)
-        for folder in ("plots", "cad", "front"):
+        for folder in ("plots", "cad", "front", "shards"):
             _remove_if_empty(self.path / folder)
 
     def _earlier(self) -> list[Path]:

@@ -10,6 +10,7 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.record_checks import record_checks
 from tvimdesign.study.tree import tree_of_file
+from tvimdesign.sweep.plan import swept_cells
 
 
 def check_study(path: Path, settings: Sequence[str] = (), *, deep: bool, as_json: bool) -> None:
@@ -17,14 +18,18 @@ def check_study(path: Path, settings: Sequence[str] = (), *, deep: bool, as_json
 
     Raises StudyError with every mistake, and what `refuse_what_cannot_be` raises.
     """
-    study = read_tree(tree_of_file(path, settings))
+    tree = tree_of_file(path, settings)
+    study = read_tree(tree)
     if deep:
         from tvimdesign.report.run.diagnostics import check_deep
 
         check_deep(study, as_json=as_json)
         return
     refuse_what_cannot_be(study)
+    cells = swept_cells(tree)
     print(study.model_dump_json(indent=2) if as_json else describe(study))
+    if cells and not as_json:
+        print(f"Its sweep has {cells} cells.")
 
 
 def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:

@@ -23,7 +23,7 @@ def read_require(reading: Reading, node: Node | None, points: Collection[str]) -
     found: list[Requirement] = []
     for name, (key, value) in entries(reading.problems, node, "require", "outputs, each with its limits").items():
         path = step("require", name)
-        row = _output(reading, key, path, name, points)
+        row = named_output(reading, key, path, name, points)
         if row is None:
             continue
         read = _limits(reading, value, path, name, row)
@@ -35,13 +35,13 @@ def read_require(reading: Reading, node: Node | None, points: Collection[str]) -
 def read_minimize(reading: Reading, node: Node | None, points: Collection[str]) -> dict[str, float]:
     """Return the weight of each output that is to be small; every problem is noted."""
     if isinstance(node, Text) and not node.empty:
-        row = _output(reading, node, "minimize", node.value, points)
+        row = named_output(reading, node, "minimize", node.value, points)
         return {} if row is None else {node.value: 1.0}
     found: dict[str, float] = {}
     expected = "the name of an output, or outputs with their weights"
     for name, (key, value) in entries(reading.problems, node, "minimize", expected).items():
         path = step("minimize", name)
-        if _output(reading, key, path, name, points) is None:
+        if named_output(reading, key, path, name, points) is None:
             continue
         weight = number(reading.problems, value, path, "a weight, a number above 0")
         if weight is not None and weight <= 0:
@@ -81,10 +81,10 @@ def _traded(reading: Reading, node: Node, path: str, points: Collection[str]) ->
     word = text(reading.problems, node, path, "the name of an output")
     if word is None or not isinstance(node, Text):
         return None
-    return word if _output(reading, node, path, word, points) else None
+    return word if named_output(reading, node, path, word, points) else None
 
 
-def _output(reading: Reading, key: Text, path: str, name: str, points: Collection[str]) -> Output | None:
+def named_output(reading: Reading, key: Text, path: str, name: str, points: Collection[str]) -> Output | None:
     """Return the output a full name means, None (and a problem) where it means none."""
     base, at, point = name.partition("@")
     row = reading.table.by_name.get(base)
@@ -114,13 +114,14 @@ def _limits(reading: Reading, node: Node, path: str, name: str, row: Output) -> 
         if not 1 <= len(node.items) <= MOST_LIMITS:
             reading.problems.add(node, path, f"a list of {len(node.items)} limits", f"1 to {MOST_LIMITS} limits")
             return []
-        read = [_limit(reading, item, f"{path}[{i}]", name, row) for i, item in enumerate(node.items)]
+        read = [read_limit(reading, item, f"{path}[{i}]", name, row) for i, item in enumerate(node.items)]
         return [requirement for requirement in read if requirement is not None]
-    requirement = _limit(reading, node, path, name, row)
+    requirement = read_limit(reading, node, path, name, row)
     return [] if requirement is None else [requirement]
 
 
-def _limit(reading: Reading, node: Node, path: str, name: str, row: Output) -> Requirement | None:
+def read_limit(reading: Reading, node: Node, path: str, name: str, row: Output) -> Requirement | None:
+    """Return one limit on an output, None (and a problem) where it is none."""
     unit = "" if row.unit == "1" else f" {row.unit}"
     expected = f"a limit such as '<= 5{unit}' or '>= 5{unit}'"
     word = text(reading.problems, node, path, expected)

@@ -3,7 +3,7 @@
 import pytest
 from comparable import COMPRESSION, SHEAR
 
-from tvimdesign.report.compare import normalization
+from tvimdesign.solve import normalization
 from tvimdesign.study import read_study_text
 
 

@@ -1,0 +1,38 @@
+"""A process is ended with all that it started, in groups of their own or not."""
+
+import subprocess
+import sys
+import time
+
+import psutil
+from support import is_at_work
+
+from tvimdesign.base.process_tree import end_process_tree
+
+CHILD = "import time; time.sleep(60)"
+PARENT = f"""
+import subprocess, sys, time
+others = [subprocess.Popen([sys.executable, "-c", {CHILD!r}], start_new_session=apart) for apart in (False, True)]
+print(*(other.pid for other in others), flush=True)
+time.sleep(60)
+"""
+
+
+def test_descendants_end_with_their_process() -> None:
+    process = subprocess.Popen([sys.executable, "-c", PARENT], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    others = [psutil.Process(int(number)) for number in process.stdout.readline().split()]
+    assert [is_at_work(other.pid) for other in others] == [True, True]
+    end_process_tree(process.pid)
+    process.stdout.close()
+    assert process.wait(timeout=5.0) != 0
+    end = time.monotonic() + 5.0
+    while time.monotonic() < end and any(is_at_work(other.pid) for other in others):
+        time.sleep(0.02)
+    assert not any(is_at_work(other.pid) for other in others)
+
+
+def test_a_process_that_is_gone_is_none_to_end() -> None:
+    process = subprocess.Popen([sys.executable, "-c", ""])
+    process.wait()
+    end_process_tree(process.pid)

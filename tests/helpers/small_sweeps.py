@@ -1,0 +1,40 @@
+"""A sweep of six cells that are evaluated in a second or two, and how tests have it done."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.report.sweep.sweep_study import sweep_folder
+from tvimdesign.study.tree import tree_of_file
+from tvimdesign.sweep.plan import SweepPlan, plan_of
+from tvimdesign.sweep.run_sweep import Where
+
+SMALL = """
+mode: shear
+name: small
+sweep:
+  over:
+    pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 3}
+    pcl_inner_radius: [20 mm, 70 mm]
+  outputs: [spring_stiffness]
+"""
+"""Half of the cells are no module: the layer would end before it begins."""
+
+
+def plan(path: Path, *settings: str) -> SweepPlan:
+    return plan_of(tree_of_file(path, settings))
+
+
+def swept(path: Path, out: Path, *, resume: bool = False, **where: Any) -> dict[str, Any]:
+    """Sweep a study into a folder, as the command does; returns what it tells of the work."""
+    told = sweep_folder(
+        plan(path), out, Where(**where), lambda _: None, overwrite=False, resume=resume, plots=False
+    )  # fmt: skip
+    found: dict[str, Any] = told["run"]
+    return found
+
+
+def tables(out: Path) -> dict[str, bytes]:
+    """The tables of a folder, to be compared byte for byte."""
+    return {name: (out / name).read_bytes() for name in ("cells.csv", "cells.sqlite", "sweep.json")}

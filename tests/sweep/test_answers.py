@@ -1,0 +1,52 @@
+"""A cell's answer depends on its study alone: not on the cells before it, nor on the compiled module it shares."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from small_sweeps import plan
+
+import tvimdesign as tvim
+from tvimdesign.sweep.answers import CellAnswers
+from tvimdesign.sweep.chunks import CellQueue
+from tvimdesign.sweep.job import Cell, CellAnswer, Job
+
+
+def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswer]:
+    asked = plan(path, *settings)
+    found = CellAnswers(Job.of(asked))
+    return {number: found.answer(Cell("", asked.points.texts(number))) for number in order}
+
+
+def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
+    over = "sweep.over={pcl_thickness: [0.6 mm, 1 mm], arc_count: [3, 4]}"
+    forward, backward = answers(study_file, [0, 1, 2, 3], over), answers(study_file, [3, 0], over)
+    assert backward == {number: forward[number] for number in backward}
+    assert len({one.values for one in forward.values()}) == 4
+
+
+@pytest.mark.slow
+def test_optimised_cells_are_the_same_in_any_order_and_an_infeasible_one_says_what_it_breaks(tmp_path: Path) -> None:
+    path = tmp_path / "study.yaml"
+    path.write_text(tvim.example("paper_shear").text)
+    over = "sweep={over: {pcl_thickness: [0.6 mm, 0.9 mm], require.holding_torque: ['>= 12 N.m', '>= 120 N.m']}}"
+    one = "solver.starts=1"
+    forward, backward = answers(path, [0, 1, 2, 3], over, one), answers(path, [2, 0], over, one)
+    assert backward == {number: forward[number] for number in backward}
+    assert [forward[number].warm for number in (0, 2)] == [True, True]
+    assert forward[1].status == "infeasible"
+    assert "breaks" in forward[1].reason
+
+
+def test_a_worker_stays_with_cells_of_its_kind_and_cells_of_a_dead_one_are_tried_alone(study_file: Path) -> None:
+    asked = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
+    cells = [Cell(str(number), asked.points.texts(number)) for number in range(4)]
+    left = CellQueue(cells, Job.of(asked), workers=2)
+    first, other, second = left.next(1), left.next(2), left.next(1)
+    assert [one.texts[1] for one in (*first, *other, *second)] == ["smi", "bending", "smi"]
+    left.done(1000, 1.0)
+    left.put_back([*first, *second])
+    assert [len(left.next(1)) for _ in range(3)] == [1, 1, 1]
+    assert left.next(1) == []
+    assert len(left) == 0

@@ -1,0 +1,257 @@
+"""A sweep is the same table, byte for byte, whoever computes it and however often it was stopped."""
+
+from __future__ import annotations
+
+import csv
+import json
+import random
+import resource
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from small_sweeps import plan, swept, tables
+from support import ROOT, Command, environment
+
+import tvimdesign as tvim
+from tvimdesign.base.errors import InputError
+from tvimdesign.sweep.gather import write_parquet
+from tvimdesign.sweep.job import Cell, Job
+from tvimdesign.sweep.pool import Pool
+from tvimdesign.sweep.run_sweep import Where, run_sweep
+from tvimdesign.sweep.shards import Shards
+
+
+def rows(out: Path) -> list[dict[str, str]]:
+    with (out / "cells.csv").open(encoding="utf-8-sig") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_cells_are_those_of_single_evaluations(one_process: Path) -> None:
+    table = rows(one_process)
+    assert [row["status"] for row in table] == ["evaluated", "refused"] * 3
+    assert "arc_width is" in table[1]["reason"]
+    assert table[1]["module_mass"] == ""
+    alone = tvim.Study(mode="shear", module={"pcl_thickness": "1.3 mm", "pcl_inner_radius": "20 mm"})
+    result = alone.evaluate(progress=False)
+    for name in ("module_mass", "response_time", "spring_stiffness"):
+        assert float(table[2][name]) == pytest.approx(result[name].value, rel=1e-11)
+    kept = result.requirements()["kept"]
+    assert int(table[2]["broken"]) == int((~kept).sum())
+
+
+def test_the_data_base_has_the_table_with_units_and_meanings(one_process: Path) -> None:
+    connection = sqlite3.connect(one_process / "cells.sqlite")
+    try:
+        masses = [mass for (mass,) in connection.execute("SELECT module_mass FROM cells ORDER BY cell")]
+        units = dict(connection.execute("SELECT name, unit FROM columns"))
+    finally:
+        connection.close()
+    assert masses == [float(row["module_mass"]) if row["module_mass"] else None for row in rows(one_process)]
+    assert (units["pcl_thickness"], units["module_mass"], units["reason"]) == ("mm", "g", "")
+    told = json.loads((one_process / "sweep.json").read_text())
+    assert {column["name"]: column["unit"] for column in told["columns"]} == units
+    assert told["statuses"] == {"evaluated": 3, "refused": 3}
+    least = min(float(row["module_mass"]) for row in rows(one_process) if row["broken"] == "0")
+    assert told["best"]["module_mass"]["value"] == least
+
+
+def test_parquet_has_the_same_numbers(one_process: Path, tmp_path: Path) -> None:
+    shutil.copy(one_process / "cells.csv", tmp_path)
+    write_parquet(plan(one_process / "study.yaml"), tmp_path)
+    kept = pd.read_parquet(tmp_path / "cells.parquet")
+    expected = pd.read_csv(one_process / "cells.csv", encoding="utf-8-sig")
+    expected["reason"] = expected["reason"].fillna("")
+    pd.testing.assert_frame_equal(kept[list(expected)], expected, check_dtype=False)
+
+
+def test_two_workers_and_a_resumed_sweep_give_the_same_bytes(
+    study_file: Path, one_process: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    first = swept(study_file, out, workers=2)
+    assert (first["reused"], first["computed"]) == (0, 6)
+    assert tables(out) == tables(one_process)
+    for path in (out / "shards").iterdir():  # as if each had been killed in its last line
+        path.write_bytes(path.read_bytes()[:-10])
+    again = swept(study_file, out, resume=True, workers=1)
+    assert 1 <= again["computed"] <= 2
+    assert again["reused"] == 6 - again["computed"]
+    assert tables(out) == tables(one_process)
+    last = swept(study_file, out, resume=True, workers=1)
+    assert (last["reused"], last["computed"]) == (6, 0)
+
+
+def test_parts_of_an_array_share_a_folder_and_the_last_gathers(
+    tvimdesign: Command, study_file: Path, one_process: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    for part in (3, 1, 2):
+        done = tvimdesign("sweep", study_file, "--out", out, "--shard", f"{part}/3", "--workers", 1, "--no-plots")
+        assert done.returncode == 0, done.stderr
+        assert (out / "cells.csv").exists() == (part == 2)
+    assert "0 reused, 2 computed" in done.stdout
+    assert tables(out) == tables(one_process)
+
+
+def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file: Path, one_process: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "shards").symlink_to(one_process / "shards")
+    asked, where = plan(study_file, "sweep.over.pcl_thickness=[0.6 mm, 2 mm]"), Where(workers=1)
+    done = run_sweep(asked, out, where, lambda _: None)
+    assert (done.reused, done.computed, done.whole) == (4, 0, True)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--shard", "4/3"], "--shard 4/3: expected part/parts, such as 1/3"),
+        (["--shard", "1/3", "--overwrite"], "--overwrite and --shard"),
+        (["--scheduler", "tcp://127.0.0.1:1"], "--scheduler tcp://127.0.0.1:1: the scheduler does not answer"),
+        (["--set", "sweep.over.pcl_thicknes=[1 mm]"], "did you mean 'pcl_thickness'?"),
+        (["--set", "sweep.over.current={from: 1 A, to: 2 A, count: 1000000}"], "6000000 cells; the limit is 100000"),
+        (["--resume", "--overwrite"], "--overwrite and --resume: choose one"),
+    ],
+)
+def test_what_cannot_be_done_is_said_in_a_line(
+    tvimdesign: Command, study_file: Path, tmp_path: Path, words: list[str], said: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.setattr("tvimdesign.sweep.cluster.CONNECT", 0.5)
+    done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", *words)
+    assert done.returncode == 2, done.stderr
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("library", "words", "said"),
+    [
+        ("distributed", ["--scheduler", "tcp://127.0.0.1:1"], "pip install 'tvimdesign[cluster]'"),
+        ("pyarrow", ["--parquet"], "pip install 'tvimdesign[parquet]'"),
+    ],
+)
+def test_an_extra_that_is_missing_is_named(
+    tvimdesign: Command, study_file: Path, tmp_path: Path, library: str, words: list[str], said: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.setitem(sys.modules, library, None)
+    done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", *words)
+    assert done.returncode == 2, done.stderr
+    assert said in done.stderr
+
+
+def test_a_folder_of_results_is_not_written_over(tvimdesign: Command, study_file: Path, one_process: Path) -> None:
+    done = tvimdesign("sweep", study_file, "--out", one_process)
+    assert done.returncode == 2
+    assert "--resume goes on with a front or a sweep" in done.stderr
+
+
+def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(
+    study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "sitecustomize.py").write_text(KILLED_BY_TWO_MILLIMETRES)
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{ROOT}")
+    asked = plan(study_file, "sweep.over.pcl_inner_radius=[20 mm]")
+    cells = [Cell(f"{number:032x}", asked.points.texts(number)) for number in range(3)]
+    spent = Pool(Job.of(asked), tmp_path, 1).answer(cells, lambda _: None)
+    shards = Shards(tmp_path, asked.columns)
+    found = [kept.answer for kept in shards.kept(cell.key for cell in cells)]
+    assert [one.status for one in found] == ["evaluated", "evaluated", "crashed"]
+    assert found[2].reason == "its process ended with code -9"
+    assert (spent.cells, spent.died) == (3, 2)
+
+
+KILLED_BY_TWO_MILLIMETRES = """
+import os, signal, sys
+if sys.argv[0] == "-m" and "tvimdesign.sweep.worker" in sys.orig_argv:
+    from tvimdesign.sweep.answers import CellAnswers
+    answer = CellAnswers.answer
+    def deadly(self, cell):
+        if cell.texts[0] == "2 mm":
+            os.kill(os.getpid(), signal.SIGKILL)
+        return answer(self, cell)
+    CellAnswers.answer = deadly
+"""
+
+
+def test_where_a_sweep_is_computed_is_read_from_words() -> None:
+    assert Where.of(2, "", "").part == (1, 1)
+    assert Where.of(0, "", "3/8").part == (3, 8)
+    for wrong in ("0/3", "4/3", "a/3", "3", "1/"):
+        with pytest.raises(InputError, match="expected part/parts"):
+            Where.of(0, "", wrong)
+
+
+@pytest.mark.slow
+def test_a_sweep_that_is_killed_again_and_again_ends_in_the_same_bytes(
+    study_file: Path, one_process: Path, tmp_path: Path
+) -> None:
+    out, draw = tmp_path / "out", random.Random(19)
+    command = [
+        sys.executable,
+        "-m",
+        "tvimdesign",
+        "sweep",
+        str(study_file),
+        "--out",
+        str(out),
+        "--no-plots",
+        "--workers",
+        "2",
+    ]
+    for number in range(4):
+        process = subprocess.Popen([*command, *(["--resume"] if number else [])], env=environment(), cwd=ROOT)
+        time.sleep(draw.uniform(1.0, 5.0))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    subprocess.run([*command, "--resume"], env=environment(), cwd=ROOT, check=True)
+    assert tables(out) == tables(one_process)
+
+
+@pytest.mark.slow
+def test_a_disk_that_fills_once_costs_no_cell(study_file: Path, one_process: Path, tmp_path: Path) -> None:
+    out, room = tmp_path / "out", 800
+    words = ["sweep", str(study_file), "--out", str(out), "--no-plots", "--workers", "1"]
+    full = subprocess.run(
+        [sys.executable, "-m", "tvimdesign", *words], env=environment(), cwd=ROOT, capture_output=True,
+        text=True, check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)),
+    )  # fmt: skip
+    assert full.returncode == 4, full.stderr
+    assert "the cells before are kept: make room, then the same command with --resume goes on" in full.stderr
+    assert "Traceback" not in full.stderr
+    kept = len(Shards(out, plan(study_file).columns))
+    assert 0 < kept < 6
+    assert swept(study_file, out, resume=True, workers=1)["reused"] == kept
+    assert tables(out) == tables(one_process)
+
+
+@pytest.mark.slow
+def test_optimised_cells_are_the_same_bytes_for_one_and_two_workers(tmp_path: Path) -> None:
+    path = tmp_path / "optimised.yaml"
+    text = (ROOT / "studies/paper_shear.yaml").read_text()
+    over = (
+        "{pcl_thickness: {from: 0.6 mm, to: 1.2 mm, count: 6}, operating_points.hot.temperature: [100 degC, 105 degC]}"
+    )
+    path.write_text(f"{text}\nsweep: {{over: {over}}}\n")
+    first = swept(path, tmp_path / "one", workers=1)
+    second = swept(path, tmp_path / "two", workers=2)
+    assert tables(tmp_path / "one") == tables(tmp_path / "two")
+    assert first["warm"] == second["warm"] == 12
+    cold = tvim.load(path).set(pcl_thickness="1.2 mm").run(progress=False)
+    table = rows(tmp_path / "one")
+    assert float(table[-2]["module_mass"]) == pytest.approx(cold["module_mass"].value, rel=2e-2)
+
+
+def test_what_is_kept_is_what_the_study_asks_about_and_what_is_named(study_file: Path) -> None:
+    asked = plan(study_file)
+    assert asked.columns == ("module_mass", "envelope_diameter", "response_time", "spring_stiffness")
+    assert asked.count == 6

@@ -1,0 +1,1 @@
+"""The command `sweep`: the folder, the tables, the figure and the screen of a sweep."""

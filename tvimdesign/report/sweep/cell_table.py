@@ -1,0 +1,59 @@
+"""What is seen of cells while they go by to their files: how they ended, the best of them, points of the figure."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from tvimdesign.sweep.gather import Value, columns
+from tvimdesign.sweep.plan import ALWAYS, SweepPlan
+
+MOST_DRAWN = 20_000
+"""Cells of a figure; of more, every second, third, ... is drawn."""
+PANELS = 3
+
+
+class CellTable:
+    """Looks at every row of a table once."""
+
+    def __init__(self, plan: SweepPlan) -> None:
+        """Nothing has been seen yet."""
+        self._names = [column.name for column in columns(plan)]
+        self._units = {column.name: column.unit for column in columns(plan)}
+        self._every = -(-plan.count // MOST_DRAWN)
+        study = plan.first
+        wanted = [*study.minimize, *(limit.output for limit in study.require), *ALWAYS]
+        apart = {axis.name for axis in plan.axes}
+        self.shown = [name for name in dict.fromkeys(wanted) if name not in apart][:PANELS]
+        """Outputs of the figure and of the screen."""
+        self.least = [name for name in (study.minimize or self.shown) if name not in apart]
+        self._ended: Counter[str] = Counter()
+        self.best: dict[str, dict[str, Any]] = {}
+        """By output that is to be small: the cell with the least value that keeps every limit."""
+        self.drawn: list[dict[str, Value]] = []
+        """Rows of the figure."""
+
+    @property
+    def statuses(self) -> dict[str, int]:
+        """Count of cells by status, and of those that keep every limit."""
+        return dict(sorted(self._ended.items()))
+
+    def seeing(self, rows: Iterable[list[Value]]) -> Iterator[list[Value]]:
+        """Hand on every row, once it is seen."""
+        for number, values in enumerate(rows):
+            row = dict(zip(self._names, values, strict=True))
+            self._ended[str(row["status"])] += 1
+            for name in self.least:
+                self._compare(name, row)
+            if number % self._every == 0:
+                self.drawn.append(row)
+            yield values
+
+    def _compare(self, name: str, row: dict[str, Value]) -> None:
+        value = row[name]
+        if row["broken"] != 0 or not isinstance(value, float) or not math.isfinite(value):
+            return
+        if name not in self.best or value < self.best[name]["value"]:
+            self.best[name] = {"cell": row["cell"], "value": value, "unit": self._units[name]}

@@ -1,0 +1,145 @@
+"""The command `sweep`, from a study file to a finished folder: the order of things, and what is written."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.whole_files import make_folder, write_whole
+from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.progress import Progress, progress_output, wide_console
+from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
+from tvimdesign.report.sweep.cell_table import CellTable
+from tvimdesign.report.sweep.sweep_plot_data import figure_data
+from tvimdesign.report.sweep.sweep_screen import print_part, print_sweep
+from tvimdesign.study.tree import study_file, tree_of_file
+from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
+from tvimdesign.sweep.plan import SweepPlan, plan_of
+from tvimdesign.sweep.run_sweep import SweepDone, Where, run_sweep
+from tvimdesign.sweep.shards import SHARDS, Shards
+
+_IN_PARTS = "in parts"
+"""Status of a folder in which the jobs of an array write their shards."""
+
+
+def sweep_study(
+    path: Path, out: Path, where: Where, *, overwrite: bool, resume: bool, parquet: bool, plots: bool, as_json: bool,
+    settings: Sequence[str] = (),
+) -> None:  # fmt: skip
+    """Sweep a study and write its folder. Raises InputError, OutputError, and TvimError for a cluster that is gone."""
+    if parquet:
+        parquet_library()
+    plan = plan_of(tree_of_file(path, settings))
+    if where.part != (1, 1):
+        _part(plan, out, where, overwrite=overwrite, parquet=parquet, plots=plots, as_json=as_json)
+        return
+    with progress_output() as progress:
+        told = sweep_folder(
+            plan, out, where, progress, overwrite=overwrite, resume=resume, parquet=parquet, plots=plots
+        )
+    _say(told, plan, out, as_json=as_json)
+
+
+def sweep_folder(
+    plan: SweepPlan, out: Path, where: Where, progress: Progress, *, overwrite: bool, resume: bool,
+    parquet: bool = False, plots: bool = True,
+) -> dict[str, Any]:  # fmt: skip
+    """Answer every cell into a folder with its tables and figure; returns what is told. Raises as `sweep_study`."""
+    with ExitStack() as stack:
+        folder = stack.enter_context(ResultsFolder(out, overwrite, resume, SHARDS))
+        drawing = stack.enter_context(PlotProcess()) if plots and plan.study.write.plots else None
+        began = time.perf_counter()
+        done = run_sweep(plan, folder.path, where, progress)
+        return _gathered(plan, folder, done, progress, drawing, parquet=parquet, began=began)
+
+
+def _part(
+    plan: SweepPlan, out: Path, where: Where, *, overwrite: bool, parquet: bool, plots: bool, as_json: bool
+) -> None:
+    """One job of an array: its cells alone; the job after which every cell is there gathers them."""
+    if overwrite:
+        raise InputError("--overwrite and --shard: the parts of a sweep share a folder; name another one with --out")
+    _join(out)
+    with ExitStack() as stack:
+        progress = stack.enter_context(progress_output())
+        began = time.perf_counter()
+        done = run_sweep(plan, out, where, progress)
+        if not done.whole:
+            _say_part(done, where, out, as_json=as_json)
+            return
+        try:
+            folder = stack.enter_context(ResultsFolder(out, resume=True, progress=SHARDS))
+        except InputError:  # another part, which ended at the same time, gathers them
+            _say_part(done, where, out, as_json=as_json)
+            return
+        drawing = stack.enter_context(PlotProcess()) if plots and plan.study.write.plots else None
+        told = _gathered(plan, folder, done, progress, drawing, parquet=parquet, began=began)
+    _say(told, plan, out, as_json=as_json)
+
+
+def _join(out: Path) -> None:
+    """Use a folder together with other jobs: one that is empty, or that a sweep has begun. Raises InputError."""
+    make_folder(out)
+    own = {MANIFEST, SHARDS}
+    others = [path for path in out.iterdir() if path.name not in own and not path.name.startswith(".")]
+    if (out / MANIFEST).exists():
+        return
+    if others:
+        raise InputError(f"{out}: not a folder of results (no {MANIFEST}); name another one with --out")
+    write_whole(out / MANIFEST, (json.dumps({"status": _IN_PARTS, "files": {}}, indent=2) + "\n").encode())
+
+
+def _gathered(
+    plan: SweepPlan, folder: ResultsFolder, done: SweepDone, progress: Progress, drawing: PlotProcess | None, *,
+    parquet: bool, began: float,
+) -> dict[str, Any]:  # fmt: skip
+    """Write the tables, the figure and the manifest; returns what is told."""
+    progress("gathering the cells")
+    seen = CellTable(plan)
+    every = seen.seeing(rows(plan, done.keys, Shards(folder.path, plan.columns)))
+    write_tables(plan, every, folder.path)
+    if parquet:
+        write_parquet(plan, folder.path)
+    found = {
+        **head(), "study": plan.study.name, "task": plan.task, "method": plan.block.method, "seed": plan.block.seed,
+        "cells": done.cells, "statuses": seen.statuses, "best": seen.best,
+        "columns": [column._asdict() for column in columns(plan)],
+    }  # fmt: skip
+    folder.write_json("sweep.json", found)
+    folder.write("study.yaml", study_file(plan.written))
+    if drawing:
+        drawing.begin(folder.path, [Drawing("sweep", "sweep_figure.sweep", figure_data(plan, seen))], plan.study.name,
+                      vector=plan.study.write.vector)  # fmt: skip
+        folder.look_up_versions()
+        drawing.finish()
+    spent = {name: round(value, 3) for name, value in asdict(done.spent).items()}
+    seconds = time.perf_counter() - began
+    timing = {"seconds": round(seconds, 3), "reused": done.reused, "computed": done.computed, **spent}
+    folder.finish(
+        "swept", {"study": plan.tree.path} if plan.tree.path else {}, {"solver": {"seed": plan.block.seed}}, timing
+    )
+    progress("")
+    return {**found, "run": timing, "folder": str(folder.path)}
+
+
+def _say(told: dict[str, Any], plan: SweepPlan, out: Path, *, as_json: bool) -> None:
+    if as_json:
+        print(json.dumps(told, indent=2, allow_nan=False))
+    else:
+        print_sweep(told, plan, out, wide_console())
+
+
+def _say_part(done: SweepDone, where: Where, out: Path, *, as_json: bool) -> None:
+    told = {"cells": done.cells, "reused": done.reused, "computed": done.computed, "missing": done.missing}
+    if as_json:
+        print(json.dumps({**told, "shard": list(where.part), "process": os.getpid(), "folder": str(out)}, indent=2))
+    else:
+        print_part(told, where.part, out, wide_console())

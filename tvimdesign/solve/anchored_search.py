@@ -1,0 +1,136 @@
+"""Searches studies that differ in fixed numbers alone, each from one optimum: in any order, on any process."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.device import Input, Table
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
+from tvimdesign.solve.nlp.deadline import Deadline
+from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.nlp.solver_run import Progress, Run
+from tvimdesign.solve.normalization import at_its_start, common
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.record_choices import discrete_records
+from tvimdesign.solve.optimizer.statuses import OPTIMAL
+from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
+from tvimdesign.solve.search import Keep, optimize
+from tvimdesign.study import Study, given
+
+
+class Anchor(NamedTuple):
+    """The optimum that searches begin at, and the problem it was found with, which is built once."""
+
+    study: Study
+    optimizer: Optimizer
+    run: Run
+
+
+class AnchoredSearch:
+    """Finds the optimum of a study from that of its anchor, the same study with some numbers at a value of its own.
+
+    A study is searched from every start as usual where more than fixed numbers differ from the anchor, where something
+    is chosen from a list, where the anchor has no design, and where the warm solve ends without an optimum. What is
+    found hangs on the study and the anchor alone, not on what was searched before.
+    """
+
+    def __init__(self, anchor: Study, followed: Collection[str], normal: Study) -> None:
+        """Nothing is solved yet. `followed` are the numbers that differ between the studies, by name or path.
+
+        All studies' outputs are divided by those of the study `normal` at its start, so that all minimise the same.
+        """
+        self._anchor_study = _with_fixed(anchor, followed)
+        self._followed, self._normal = tuple(followed), normal
+
+    def find(
+        self,
+        study: Study,
+        progress: Progress = lambda _: None,
+        keep: Keep = lambda *_: None,
+        objectives: Sequence[str] = (),
+    ) -> tuple[Solution, bool]:
+        """The best design of a study, and whether the anchor's optimum alone led there. Raises as `optimize` does."""
+        solution = self._warm(study, study.table) if self._followed else None
+        if solution:
+            return solution, True
+        return optimize(study, progress, self._reference, keep, objectives), False
+
+    def as_optimize(
+        self, study: Study, progress: Progress, _: dict[str, float] | None, keep: Keep, objectives: Sequence[str]
+    ) -> Solution:
+        """The same in place of `optimize`, whose reference is the one of all studies here."""
+        return self.find(study, progress, keep, objectives)[0]
+
+    @cached_property
+    def _reference(self) -> dict[str, float] | None:
+        return common([at_its_start(self._normal)]) if self._normal.vary else None
+
+    @cached_property
+    def _anchor(self) -> Anchor | None:
+        """The anchor's optimum; None where it has none."""
+        kept: list[Anchor] = []
+
+        def remember(optimizer: Optimizer, runs: list[Run]) -> None:
+            converged = [run for run in runs if run.start.converged]
+            if converged:
+                best = min(converged, key=lambda run: run.start.objective)
+                kept.append(Anchor(self._anchor_study, optimizer, best))
+
+        try:
+            optimize(self._anchor_study, reference=self._reference, keep=remember)
+        except (InfeasibleError, InputError):
+            return None
+        return kept[0] if kept else None
+
+    def _warm(self, study: Study, table: Table) -> Solution | None:
+        """The optimum sought from the anchor's; None where that cannot be done, or comes to none."""
+        if not _alike(study, self._anchor_study, table):
+            return None
+        if _has_lists(study, table) or study.robust or study.profile.pieces():
+            return None
+        anchor = self._anchor
+        optimizer = anchor.optimizer.with_records(study) if anchor else None
+        if anchor is None or optimizer is None:
+            return None
+        optimizer.deadline = Deadline(study.solver.time_limit)
+        run = optimizer.solve(warm=anchor.run.trace)
+        if not run.start.converged:
+            return None
+        solution = verify_optimum(optimizer, run, (run.start,), optimizer.seconds)
+        return solution if solution.status == OPTIMAL else None
+
+
+def _with_fixed(study: Study, followed: Collection[str]) -> Study:
+    """The study with some of what it varies fixed at its start."""
+    free = [name for name in followed if name in study.vary]
+    if not free:
+        return study
+    starts = given(study)
+    vary = {name: allowed for name, allowed in study.vary.items() if name not in free}
+    return study.model_copy(update={"vary": vary, "module": {**study.module, **{name: starts[name] for name in free}}})
+
+
+def _has_lists(study: Study, table: Table) -> bool:
+    """Whether anything is chosen from a list."""
+    return bool(discrete_sizes(study, table).names) or len(discrete_records(study, table)) > 1
+
+
+def _alike(study: Study, other: Study, table: Table) -> bool:
+    """Whether two studies differ in fixed numbers alone: neither in words, nor in whole numbers, which are shapes."""
+    return _problem(study, table) == _problem(other, table)
+
+
+def _problem(study: Study, table: Table) -> dict[str, Any]:
+    """All of a study but its name and its fixed numbers."""
+    shape = {name: value for name, value in study.module.items() if not _is_number(name, table)}
+    points = tuple(study.operating_points)
+    kept = study.model_dump(exclude={"name", "description", "module", "operating_points", "write", "tolerances"})
+    return {**kept, "module": shape, "points": points}
+
+
+def _is_number(name: str, table: Table) -> bool:
+    row = table.quantity(name)
+    return isinstance(row, Input) and not row.integer

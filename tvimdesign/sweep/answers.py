@@ -1,0 +1,132 @@
+"""Answers cells one after another in this process: a cell's answer depends on its study alone, not on the others."""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
+from tvimdesign.device import Choice
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.solve.anchored_search import AnchoredSearch
+from tvimdesign.solve.nlp.constraints import constraints_of, in_words, refuse_impossible
+from tvimdesign.solve.optimizer.ratings import exceeded, kept, sorted_by_acceptance
+from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, BELOW_YIELD, OPTIMAL
+from tvimdesign.study import Study, drawn, given, read_tree
+from tvimdesign.sweep.job import Cell, CellAnswer, Job
+from tvimdesign.sweep.plan import set_in
+from tvimdesign.sweep.points import Texts
+
+MOST_KEPT = 8
+"""Compiled modules, and problems, that are kept: cells of one kind mostly follow one another."""
+_SAID = 300
+"""Letters of a reason at most."""
+
+
+class CellAnswers:
+    """Answers the cells of a job."""
+
+    def __init__(self, job: Job) -> None:
+        """Nothing is compiled yet."""
+        self._job = job
+        self._simulators: OrderedDict[Any, Simulator] = OrderedDict()
+        self._searches: OrderedDict[Texts, AnchoredSearch] = OrderedDict()
+
+    def answer(self, cell: Cell) -> CellAnswer:
+        """Evaluate or optimise a cell; one that has no design, or is none, says so."""
+        try:
+            study = read_tree(set_in(self._job.tree, self._job.names, cell.texts))
+            refuse_impossible(study)
+            return self._evaluated(study) if self._job.evaluate else self._optimised(study, cell.texts)
+        except InfeasibleError as error:
+            return self._nothing("infeasible", error)
+        except InputError as error:
+            return self._nothing("refused", error)
+
+    def search_of(self, texts: Texts) -> AnchoredSearch:
+        """What finds the optimum of a cell: it begins at the optimum of the study's own numbers with its words."""
+        words = tuple("" if number else text for text, number in zip(texts, self._job.numbers, strict=True))
+        if words not in self._searches:
+            named = [(name, text) for name, text in zip(self._job.names, words, strict=True) if text]
+            followed = [name for name, number in zip(self._job.names, self._job.numbers, strict=True) if number]
+            tree = set_in(self._job.tree, [name for name, _ in named], [text for _, text in named])
+            self._searches[words] = AnchoredSearch(read_tree(tree), followed, read_tree(self._job.tree))
+            _forget_oldest(self._searches)
+        self._searches.move_to_end(words)
+        return self._searches[words]
+
+    def _evaluated(self, study: Study) -> CellAnswer:
+        study = drawn(study)
+        numbers = given(study)
+        simulator = self._simulator(study, numbers)
+        model = simulator.model
+        inputs = np.array([float(numbers[name]) for name in model.names])
+        values = model.values(inputs, simulator.run_to_show(inputs).values)
+        stated = {name: float(inputs[i]) for name, i in model.index.items()}
+        return self._told("evaluated", study, {**stated, **values}, {**numbers, **model.words})
+
+    def _simulator(self, study: Study, numbers: dict[str, Any]) -> Simulator:
+        """The compiled module: one of the same words and conditions serves every number."""
+        words = tuple(getattr(numbers[row.name], "name", numbers[row.name]) for row in study.table.choices)
+        shapes = tuple(numbers[row.name] for row in study.table.inputs if row.integer)
+        key = (words, shapes, tuple(study.operating_points), study.solver.cells)
+        if key not in self._simulators:
+            model = DeviceFunctions(study.table, numbers, tuple(study.operating_points), study.solver.cells)
+            self._simulators[key] = Simulator(model)
+            _forget_oldest(self._simulators)
+        self._simulators.move_to_end(key)
+        return self._simulators[key]
+
+    def _optimised(self, study: Study, texts: Texts) -> CellAnswer:
+        search = self.search_of(texts)
+        solution, warm = search.find(study)
+        model = solution.model
+        stated = {name: float(solution.inputs[i]) for name, i in model.index.items()}
+        values = {**stated, **solution.values}
+        above, _ = sorted_by_acceptance([limit.output for limit in exceeded(values, study.table)], study.accept)
+        status = ABOVE_RATING if above and solution.status in {OPTIMAL, BELOW_YIELD} else solution.status
+        word = status.partition(":")[0].partition(",")[0].replace(" ", "_")
+        told = self._told(word, study, values, {**given(study), **stated, **model.words})
+        reasons = [f"beyond a rating: {', '.join(above)}"] if above else []
+        reasons += [] if word == status else [status]
+        reasons += [f"the search ended at its time limit of {solution.out_of_time:g} s"] if solution.out_of_time else []
+        return told._replace(reason=_short("; ".join([*reasons, *filter(None, [told.reason])])), warm=warm)
+
+    def _told(self, status: str, study: Study, values: dict[str, float], chosen: dict[str, Any]) -> CellAnswer:
+        limits = constraints_of(study, study.table, chosen)
+        broken = [limit for limit in limits if not kept(limit, values[limit.output], study.table)]
+        margins = [-float(limit.residual(values[limit.output])) for limit in limits]
+        return CellAnswer(
+            status=status,
+            reason=_short("; ".join(f"breaks {in_words(limit, study.table)}" for limit in broken)),
+            broken=len(broken), margin=_number(min(margins, default=math.nan)),
+            values=tuple(_value(name, study, values, chosen) for name in self._job.columns),
+        )  # fmt: skip
+
+    def _nothing(self, status: str, error: TvimError) -> CellAnswer:
+        return CellAnswer(status, _short(str(error)), None, None, (None,) * len(self._job.columns))
+
+
+def _value(name: str, study: Study, values: dict[str, float], chosen: dict[str, Any]) -> float | str | None:
+    if isinstance(study.table.by_name.get(name.partition("@")[0]), Choice):
+        return str(getattr(chosen[name], "name", chosen[name]))
+    return _number(values.get(name, math.nan))
+
+
+def _number(value: float) -> float | None:
+    """What is no number is nothing; what never happens stays infinite."""
+    return None if math.isnan(value) else float(value)
+
+
+def _short(text: str) -> str:
+    text = " ".join(text.split())
+    return text if len(text) <= _SAID else text[: _SAID - 3] + "..."
+
+
+def _forget_oldest(kept_ones: OrderedDict[Any, Any]) -> None:
+    if len(kept_ones) > MOST_KEPT:
+        kept_ones.popitem(last=False)

@@ -1,0 +1,153 @@
+"""The cells of a finished sweep gathered to tables: CSV, SQLite, and Parquet with the extra."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import sqlite3
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tvimdesign.base.errors import InputError, OutputError
+from tvimdesign.base.units import from_si
+from tvimdesign.base.whole_files import TABLE_ENCODING, whole_file
+from tvimdesign.study.sections.sweep_block import SweptAxis
+from tvimdesign.sweep.plan import SweepPlan
+from tvimdesign.sweep.points import is_words, rounded, senses
+from tvimdesign.sweep.shards import Kept, Shards
+
+Value = float | int | str | None
+_TOLD = ("status", "broken", "margin", "reason")
+
+
+class Column(NamedTuple):
+    """One column of the table."""
+
+    name: str
+    unit: str
+    """`1` of a number without unit, empty for words."""
+    kind: str
+    """`cell`, `axis`, `told` or `output`."""
+    meaning: str
+
+
+def columns(plan: SweepPlan) -> list[Column]:
+    """Every column of a sweep's table."""
+    axes = [Column(one.name, "" if is_words(one) else one.unit, "axis", _meaning(plan, one)) for one in plan.axes]
+    about = {
+        "status": "evaluated, optimal, above_rating, infeasible, refused, ...",
+        "broken": "limits that are not kept",
+        "margin": "the least margin over all limits, as a share of the limit",
+        "reason": "why there is no design, or what it breaks",
+    }
+    told = [Column(name, "1" if name in {"broken", "margin"} else "", "told", about[name]) for name in _TOLD]
+    outputs = [Column(_apart(name, plan), plan.unit(name), "output", _about(plan, name)) for name in plan.columns]
+    return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *told, *outputs]
+
+
+def _apart(name: str, plan: SweepPlan) -> str:
+    """A column of its own where an axis has the name already."""
+    return f"{name}_found" if name in {axis.name for axis in plan.axes} else name
+
+
+def _meaning(plan: SweepPlan, axis: SweptAxis) -> str:
+    about = _about(plan, axis.name.removeprefix("require.").rpartition(".")[2])
+    return f"limit {' and '.join(sorted(senses(axis)))} on: {about}" if axis.name.startswith("require.") else about
+
+
+def _about(plan: SweepPlan, name: str) -> str:
+    row = plan.study.table.by_name.get(name.partition("@")[0])
+    return str(getattr(row, "description", "")) if row else ""
+
+
+def rows(plan: SweepPlan, keys: Iterable[str], shards: Shards) -> Iterator[list[Value]]:
+    """Every cell as a row of the table, in order, numbers in the units of the columns."""
+    units = [plan.unit(name) for name in plan.columns]
+    for number, kept in enumerate(shards.kept(iter(keys))):
+        yield [number + 1, *plan.axis_values(number), *told(kept, units)]
+
+
+def told(kept: Kept, units: Sequence[str]) -> list[Value]:
+    """What a cell came to, in the units of the columns."""
+    answer = kept.answer
+    values = [_in_unit(value, unit) for value, unit in zip(answer.values, units, strict=True)]
+    margin = None if answer.margin is None else rounded(answer.margin)
+    return [answer.status, answer.broken, margin, answer.reason, *values]
+
+
+def _in_unit(value: float | str | None, unit: str) -> Value:
+    return rounded(from_si(value, unit)) if isinstance(value, float) and unit else value
+
+
+# --- files ---
+
+
+def write_tables(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) -> None:
+    """Write cells.csv and cells.sqlite in one go through the cells. Raises OutputError.
+
+    In text a number that there is none of is empty, and what never happens `inf`.
+    """
+    try:
+        _write_tables(plan, every, folder)
+    except sqlite3.OperationalError as error:
+        raise OutputError(f"{folder / 'cells.sqlite'}: cannot be written: {error}; the cells are kept") from error
+
+
+def _write_tables(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) -> None:
+    with (
+        whole_file(folder / "cells.csv") as text,
+        whole_file(folder / "cells.sqlite") as base,
+        text.open("w", encoding=TABLE_ENCODING, newline="") as stream,
+        contextlib.closing(sqlite3.connect(base)) as connection,
+    ):
+        connection.execute("PRAGMA journal_mode = OFF")  # it appears whole or not at all
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow([column.name for column in columns(plan)])
+        writer.writerows(_into(connection, plan, every))
+        connection.commit()
+
+
+def _into(connection: sqlite3.Connection, plan: SweepPlan, every: Iterable[list[Value]]) -> Iterator[list[Value]]:
+    """Hand on each row, once it stands in the database."""
+    named = columns(plan)
+    types = ["TEXT" if _is_text(column) else "REAL" for column in named]
+    listed = ", ".join(f'"{column.name}" {kind}' for column, kind in zip(named, types, strict=True))
+    connection.execute(f"CREATE TABLE cells ({listed})")
+    connection.execute("CREATE TABLE columns (name TEXT, unit TEXT, kind TEXT, meaning TEXT)")
+    connection.executemany("INSERT INTO columns VALUES (?, ?, ?, ?)", named)
+    marks = ", ".join("?" * len(named))
+    for row in every:
+        connection.execute(f"INSERT INTO cells VALUES ({marks})", row)
+        yield row
+
+
+def _is_text(column: Column) -> bool:
+    return not column.unit
+
+
+def write_parquet(plan: SweepPlan, folder: Path) -> None:
+    """Write cells.parquet from cells.csv, units and meanings with its columns. Raises InputError without pyarrow."""
+    pyarrow = parquet_library()
+    named = columns(plan)
+    types = {c.name: pyarrow.string() if _is_text(c) else pyarrow.float64() for c in named}
+    from pyarrow import csv as pyarrow_csv
+    from pyarrow import parquet as pyarrow_parquet
+
+    options = pyarrow_csv.ConvertOptions(column_types=types, null_values=[""])
+    table = pyarrow_csv.read_csv(folder / "cells.csv", convert_options=options)
+    fields = [table.schema.field(c.name).with_metadata({"unit": c.unit, "meaning": c.meaning}) for c in named]
+    with whole_file(folder / "cells.parquet") as beside:
+        pyarrow_parquet.write_table(table.cast(pyarrow.schema(fields)), beside)
+
+
+def parquet_library() -> Any:
+    """PyArrow; raises InputError where it is not installed, so that it is known before the work."""
+    try:
+        import pyarrow
+    except ModuleNotFoundError:
+        raise InputError(
+            "--parquet: needs pyarrow, which is not installed: pip install 'tvimdesign[parquet]'; cells.csv and "
+            "cells.sqlite hold the same table"
+        ) from None
+    return pyarrow

@@ -1,0 +1,171 @@
+"""Worker processes here: each answers chunk after chunk; one that dies is replaced, its cells tried again."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import queue
+import subprocess
+import tempfile
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, Any
+
+from tvimdesign.base.child_process import hear, start_child
+from tvimdesign.base.errors import OutputError, TvimError
+from tvimdesign.sweep.chunks import CellQueue
+from tvimdesign.sweep.job import Cell, CellAnswer, Job
+from tvimdesign.sweep.shards import Shards, ShardWriter
+from tvimdesign.sweep.worker import packed
+
+Heard = Callable[["Spent"], None]
+MOST_DEATHS = 2
+"""Workers that a cell may take along before it is left as crashed."""
+
+
+@dataclass
+class Spent:
+    """What a sweep has done and spent so far."""
+
+    cells: int = 0
+    warm: int = 0
+    cells_s: float = 0.0
+    """Seconds of the processor in the cells themselves."""
+    cpu_s: float = 0.0
+    """Seconds of the processor in chunks: reading them and keeping what they came to included."""
+    chunk_s: float = 0.0
+    """Seconds of chunks by the clock, of all workers."""
+    died: int = 0
+    """Workers that ended before their time."""
+
+    def add(self, said: dict[str, Any]) -> None:
+        """Count a chunk."""
+        self.cells += said["done"]
+        self.warm += said["warm"]
+        for name in ("cells_s", "cpu_s", "chunk_s"):
+            setattr(self, name, getattr(self, name) + said[name])
+
+
+@dataclass
+class _Worker:
+    number: int
+    process: subprocess.Popen[str]
+    chunk: list[Cell] = field(default_factory=list)
+    error: str = ""
+
+
+class Pool:
+    """Some worker processes on one job, which keep their cells in shards of a folder."""
+
+    def __init__(self, job: Job, folder: Path, workers: int) -> None:
+        """No process is started yet."""
+        self._job, self._folder, self._count = job, folder, workers
+        self._said: queue.Queue[tuple[int, str | None]] = queue.Queue()
+        self._workers: dict[int, _Worker] = {}
+        self._started = 0
+        self._deaths: Counter[str] = Counter()
+        self._errors: IO[bytes]
+        """What all of them write to standard error."""
+
+    def answer(self, cells: Sequence[Cell], heard: Heard) -> Spent:
+        """Answer every cell; `heard` is told after each chunk. Raises OutputError, TvimError for workers that fail."""
+        with tempfile.TemporaryFile() as self._errors:
+            return self._answer(CellQueue(cells, self._job, self._count), min(self._count, len(cells)), heard)
+
+    def _answer(self, left: CellQueue, processes: int, heard: Heard) -> Spent:
+        spent = Spent()
+        try:
+            for _ in range(processes):
+                self._start(left)
+            while self._workers:
+                number, line = self._said.get()
+                worker = self._workers[number]
+                if line is None:
+                    self._bury(worker, left, spent)
+                    continue
+                said = json.loads(line)
+                if "error" in said:
+                    worker.error = said["error"]
+                    continue
+                spent.add(said)
+                left.done(said["done"], said["chunk_s"])
+                heard(spent)
+                self._feed(worker, left)
+        finally:
+            for worker in self._workers.values():
+                worker.process.kill()
+                worker.process.wait()
+        return spent
+
+    def _start(self, left: CellQueue) -> None:
+        self._started += 1
+        number = self._started
+        process = start_child(
+            "tvimdesign.sweep.worker", stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True,
+            encoding="utf-8",
+        )  # fmt: skip
+        hear(process, lambda line: self._said.put((number, line)))
+        worker = self._workers[number] = _Worker(number, process)
+        self._tell(worker, packed(self._job, self._folder))
+        self._feed(worker, left)
+
+    def _feed(self, worker: _Worker, left: CellQueue) -> None:
+        """Give a worker its next chunk; without one it ends."""
+        worker.chunk = left.next(worker.number)
+        if worker.chunk:
+            self._tell(worker, json.dumps(worker.chunk))
+        elif worker.process.stdin:
+            with contextlib.suppress(BrokenPipeError):
+                worker.process.stdin.close()
+
+    @staticmethod
+    def _tell(worker: _Worker, line: str) -> None:
+        assert worker.process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):  # it has died, which is heard of in its turn
+            worker.process.stdin.write(f"{line}\n")
+            worker.process.stdin.flush()
+
+    def _bury(self, worker: _Worker, left: CellQueue, spent: Spent) -> None:
+        """Take a worker that has ended from the list; where it had cells, another one tries them again, one by one."""
+        code = worker.process.wait()
+        del self._workers[worker.number]
+        complaint = _tail(self._errors)
+        if worker.error:
+            raise (OutputError if code == OutputError.exit_code else TvimError)(worker.error)
+        if worker.process.stdin:
+            with contextlib.suppress(BrokenPipeError):
+                worker.process.stdin.close()
+        if not worker.chunk:
+            return
+        spent.died += 1
+        self._refuse_if_none_works(spent, code, complaint)
+        kept = Shards(self._folder, self._job.columns)
+        again = [cell for cell in worker.chunk if cell.key not in kept]
+        spent.cells += len(worker.chunk) - len(again)
+        if len(again) == 1:
+            self._deaths[again[0].key] += 1
+            if self._deaths[again[0].key] >= MOST_DEATHS:
+                self._give_up(again[0], code, complaint)
+                spent.cells += 1
+                again = []
+        left.put_back(again)
+        if len(left):
+            self._start(left)
+
+    def _refuse_if_none_works(self, spent: Spent, code: int, complaint: str) -> None:
+        if not spent.cells and spent.died > self._count * MOST_DEATHS:
+            raise TvimError(f"no worker process comes to its first cell: the last ended with code {code}: {complaint}")
+
+    def _give_up(self, cell: Cell, code: int, complaint: str) -> None:
+        """Keep a cell that ends whoever computes it."""
+        nothing = (None,) * len(self._job.columns)
+        reason = f"its process ended with code {code}" + (f": {complaint}" if complaint else "")
+        with ShardWriter(self._folder, self._job.columns) as shard:
+            shard.append([(cell.key, CellAnswer("crashed", reason, None, None, nothing), 0.0)])
+
+
+def _tail(errors: IO[bytes]) -> str:
+    errors.seek(0)
+    return " ".join(errors.read().decode(errors="replace").strip().splitlines()[-1:])

@@ -1,0 +1,149 @@
+"""The store of a sweep: files to which each writer alone appends, a line a cell, so that nothing is ever shared.
+
+A shard begins with a line that names its columns. A line that has no end was being written when its writer was killed:
+it is no cell. Whoever goes on writes a shard of its own.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any, NamedTuple
+
+from tvimdesign import __version__
+from tvimdesign.base.errors import OutputError
+from tvimdesign.base.whole_files import make_folder
+from tvimdesign.sweep.job import CellAnswer
+
+SHARDS = "shards"
+"""Folder of the shards in the folder of a sweep."""
+_KEY = slice(2, 34)
+"""Where the key stands in a line: `["0123...", ...`."""
+
+
+class ShardWriter:
+    """Appends to a shard of its own, which is made with the first cells."""
+
+    def __init__(self, folder: Path, columns: Sequence[str]) -> None:
+        """Nothing is written yet."""
+        self._folder, self._columns = folder / SHARDS, list(columns)
+        self._path: Path | None = None
+        self._file = -1
+
+    def __enter__(self) -> ShardWriter:
+        """Return itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        """Close the file."""
+        if self._file >= 0:
+            os.close(self._file)
+            self._file = -1
+
+    def append(self, cells: Sequence[tuple[str, CellAnswer, float]]) -> None:
+        """Write cells, each with its key and what it took [s], and flush them to the disk.
+
+        Raises OutputError where there is no room; what was there before stays whole.
+        """
+        lines = [json.dumps([key, *answer[:-1], int(answer.warm), round(seconds, 4)]) for key, answer, seconds in cells]
+        try:
+            if self._file < 0:
+                self._begin()
+            self._write("".join(f"{line}\n" for line in lines).encode())
+        except OSError as error:
+            raise OutputError(
+                f"{self._path or self._folder}: cannot be written: {error.strerror or error}; the cells before are "
+                "kept: make room, then the same command with --resume goes on"
+            ) from error
+
+    def _begin(self) -> None:
+        make_folder(self._folder)
+        number = len(list(self._folder.glob("*.jsonl")))
+        while self._file < 0:
+            number += 1
+            self._path = self._folder / f"{number:05d}.jsonl"
+            try:
+                self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o644)
+            except FileExistsError:
+                continue
+        self._write((json.dumps({"tvimdesign": __version__, "columns": self._columns}) + "\n").encode())
+
+    def _write(self, data: bytes) -> None:
+        """Append all of some lines, or nothing."""
+        before = os.fstat(self._file).st_size
+        try:
+            left = memoryview(data)
+            while left:
+                left = left[os.write(self._file, left) :]
+            os.fsync(self._file)
+        except OSError:
+            os.ftruncate(self._file, before)
+            raise
+
+
+class Kept(NamedTuple):
+    """One cell as a shard has it."""
+
+    answer: CellAnswer
+    seconds: float
+
+
+class Shards:
+    """All cells that the shards of a folder hold, by key; only where they stand is kept in memory."""
+
+    def __init__(self, folder: Path, columns: Sequence[str]) -> None:
+        """Look through every shard that has these columns; others are of a sweep that asked for less."""
+        self._files: list[tuple[Path, list[int]]] = []
+        self._places: dict[str, tuple[int, int]] = {}
+        for path in sorted((folder / SHARDS).glob("*.jsonl")):
+            self._look_through(path, columns)
+
+    def __contains__(self, key: str) -> bool:
+        """Whether a cell is there."""
+        return key in self._places
+
+    def __len__(self) -> int:
+        """Count of cells."""
+        return len(self._places)
+
+    def kept(self, keys: Iterator[str]) -> Iterator[Kept]:
+        """The cells of some keys, in their order. Raises KeyError for one that is not there."""
+        opened = [path.open("rb") for path, _ in self._files]
+        try:
+            for key in keys:
+                file, place = self._places[key]
+                opened[file].seek(place)
+                yield _kept(json.loads(opened[file].readline()), self._files[file][1])
+        finally:
+            for stream in opened:
+                stream.close()
+
+    def _look_through(self, path: Path, columns: Sequence[str]) -> None:
+        with path.open("rb") as stream:
+            head = stream.readline()
+            named = _columns_of(head)
+            if named is None or not set(columns) <= set(named):
+                return
+            self._files.append((path, [named.index(name) for name in columns]))
+            place = len(head)
+            for line in stream:
+                if line.startswith(b'["') and line.endswith(b"]\n"):
+                    self._places.setdefault(line[_KEY].decode("ascii", "replace"), (len(self._files) - 1, place))
+                place += len(line)
+
+
+def _columns_of(head: bytes) -> list[str] | None:
+    """The columns that a shard's first line names; None where it is none."""
+    try:
+        said = json.loads(head) if head.endswith(b"\n") else {}
+    except ValueError:
+        return None
+    return said.get("columns") if isinstance(said, dict) else None
+
+
+def _kept(line: list[Any], places: Sequence[int]) -> Kept:
+    _, status, reason, broken, margin, values, warm, seconds = line
+    return Kept(CellAnswer(status, reason, broken, margin, tuple(values[i] for i in places), bool(warm)), seconds)
