@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -88,6 +88,9 @@ contracts: $(STAMP)
 format: $(STAMP)  ## let ruff put the code in form
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+vendor: $(STAMP)  ## bundle the libraries of the report page anew from their pinned packages (needs npm)
+	$(BIN)/python vendor/vendor.py
 
 schema: $(STAMP)  ## write study.schema.json, for editors, from the table
 	$(BIN)/tvimdesign schema > study.schema.json

@@ -16,8 +16,8 @@ from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.study import read_study
 
 FILES = {
-    "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "results.csv", "results.json",
-    "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml", "summary.txt",
+    "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "report.html", "results.csv",
+    "results.json", "softening.csv", "stiffening.csv", "study.resolved.json", "study.yaml", "summary.txt",
 }  # fmt: skip
 PLOTS = {f"{name}.png" for name in ("bounds", "impedance", "mass", "cycle", "stiffness_and_damping", "power_and_energy",
                                     "torque")}  # fmt: skip

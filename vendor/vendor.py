@@ -23,6 +23,7 @@ def main() -> None:
     """Pack, check, unpack and bundle. Raises ValueError where a package is not the pinned one."""
     pinned: dict[str, Any] = yaml.safe_load((HERE / "packages.yaml").read_text(encoding="utf-8"))
     OUT.mkdir(parents=True, exist_ok=True)
+    made: dict[str, str] = {}
     with tempfile.TemporaryDirectory() as scratch:
         modules = Path(scratch) / "node_modules"
         for name, package in pinned["packages"].items():
@@ -34,7 +35,9 @@ def main() -> None:
             (OUT / f"{bundle}.LICENSE.txt").write_text(licences, encoding="utf-8")
             code = bundled(tool, Path(scratch) / f"{bundle}.js")
             (OUT / f"{bundle}.js").write_text(f"/*!\n{licences.replace('*/', '* /')}*/\n{code}", encoding="utf-8")
+            made[bundle] = hashlib.sha256((OUT / f"{bundle}.js").read_bytes()).hexdigest()
             print(f"{bundle}.js: {len(code)} bytes")
+    note_hashes(made)
 
 
 def unpack(name: str, package: Mapping[str, str], modules: Path) -> Path:
@@ -69,6 +72,16 @@ def bundled(tool: Path, entry: Path) -> str:
     """What the entry imports, as one module, minified."""
     arguments = ["--bundle", "--minify", "--format=esm", "--target=es2022", "--legal-comments=none"]
     return subprocess.run([tool, entry, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def note_hashes(made: Mapping[str, str]) -> None:
+    """Write the hashes of what was made into the list of packages, which a test holds the files against."""
+    path = HERE / "packages.yaml"
+    kept = path.read_text(encoding="utf-8").partition("made:")[0]
+    lines = [f"  {bundle}: {digest}" for bundle, digest in made.items()]
+    path.write_text(
+        "\n".join([f"{kept}made:                     # SHA-256 of each file", *lines, ""]), encoding="utf-8"
+    )
 
 
 if __name__ == "__main__":

@@ -40,8 +40,8 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     assert report.failed == ()
     assert report.notes == ()
     assert report.reused == ()
-    expected = {"assembly.step", "assembly.glb", "assembly.md", "bom.csv", "preview.png", "views/exploded.png",
-                "views/section.png", "springs/spring.pdf", "springs/spring.csv"}  # fmt: skip
+    expected = {"assembly.step", "assembly.glb", "assembly.json", "assembly.md", "bom.csv", "preview.png",
+                "views/exploded.png", "views/section.png", "springs/spring.pdf", "springs/spring.csv"}  # fmt: skip
     for kind in MODULES[design.mode].kinds(dimensions(design)):
         expected.add(f"step/{kind}.step")
         bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw"}

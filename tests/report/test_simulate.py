@@ -66,6 +66,7 @@ def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Comm
     assert files == sheets | {f"frequency.{ending}" for ending in ("png", "pdf", "svg")} | {
         "findings.json",
         "manifest.json",
+        "report.html",
         "tested.yaml",
     }
     manifest = json.loads((out / "manifest.json").read_text())

@@ -4,10 +4,11 @@ import {
   GridComponent, LegendComponent, MarkAreaComponent, MarkLineComponent, ParallelComponent, TitleComponent, TooltipComponent,
 } from "echarts/components";
 import { use } from "echarts/core";
+import { LabelLayout } from "echarts/features";
 import { SVGRenderer } from "echarts/renderers";
 
 use([
-  GridComponent, LegendComponent, LineChart, MarkAreaComponent, MarkLineComponent, ParallelChart, ParallelComponent, ScatterChart,
+  GridComponent, LabelLayout, LegendComponent, LineChart, MarkAreaComponent, MarkLineComponent, ParallelChart, ParallelComponent, ScatterChart,
   SVGRenderer, TitleComponent, TooltipComponent,
 ]);
 export { init } from "echarts/core";

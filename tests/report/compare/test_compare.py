@@ -43,7 +43,7 @@ def test_a_comparison_leaves_a_whole_folder(pair: Path) -> None:
         f"{mode}/{file}" for mode in ("shear", "compression") for file in ("drawn.json", "optimised.json", "study.yaml")
     }
     assert names == PICTURES | each | {
-        "compare.csv", "compare.json", "fronts.csv", "fronts.json", "manifest.json", "summary.txt",
+        "compare.csv", "compare.json", "fronts.csv", "fronts.json", "manifest.json", "report.html", "summary.txt",
     }  # fmt: skip
     manifest = json.loads((pair / "manifest.json").read_text())
     assert manifest["status"] == "compared"

@@ -31,7 +31,7 @@ def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict
     folder, reported, _ = results
     expected = {"contributors.csv", "limits.csv", "manifest.json", "not_known.csv",
                 "outputs.csv", "spread.pdf", "spread.png",
-                "spread.svg", "tolerances.json",
+                "spread.svg", "tolerances.json", "report.html",
                 "tolerated.yaml"}  # fmt: skip
     assert {path.name for path in folder.iterdir()} == expected
     kept = json.loads((folder / "tolerances.json").read_text())

@@ -6,9 +6,10 @@ const DARK = ["#6cb6ff", "#f0a860", "#5fd0ad", "#e39ad2", "#c9d1dc", "#9ad0f5"];
 const DASHES = ["solid", [7, 3], [2, 2], [9, 3, 2, 3], [4, 4], [1, 3]];
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const every = new Set();
+const PAPER = 640; // px that a chart is wide on a sheet
 let onPaper = false;
 
-/** A chart in `place`: `build(look)` gives its options; `says` is what a reader who cannot see it is told. */
+/** A chart in `place`: `build(look, width)` gives its options, at a width [px]; `says` is what a reader who cannot see it is told. */
 export function chart(place, { says, height = 260 }, build) {
   const box = document.createElement("div");
   box.className = "chart";
@@ -17,10 +18,16 @@ export function chart(place, { says, height = 260 }, build) {
   box.style.height = `${height}px`;
   place.append(box);
   const made = init(box, null, { renderer: "svg" });
-  const one = { box, made, show: () => made.setOption({ animation: false, ...build(look()) }, true) };
+  const one = { box, made, show: () => made.setOption({ animation: false, ...build(look(), onPaper ? PAPER : box.clientWidth) }, true) };
   one.show();
   every.add(one);
-  new ResizeObserver(() => { if (!onPaper) made.resize(); }).observe(box);
+  let wide = box.clientWidth;
+  new ResizeObserver(() => {
+    if (onPaper || box.clientWidth === wide) return;
+    wide = box.clientWidth;
+    made.resize();
+    one.show();
+  }).observe(box);
   return one;
 }
 
@@ -32,7 +39,7 @@ addEventListener("afterprint", () => toPaper(false));
 function toPaper(yes) {
   onPaper = yes;
   for (const one of every) {
-    one.made.resize(yes ? { width: Math.min(one.box.clientWidth || 640, 640) } : { width: "auto" });
+    one.made.resize(yes ? { width: PAPER } : { width: "auto" });
     one.show();
   }
 }
@@ -86,4 +93,15 @@ export function lineOf(name, pairs, number, look, more = {}) {
 export function short(value) {
   const number = Array.isArray(value) ? value.at(-1) : value;
   return typeof number === "number" ? String(Number(number.toPrecision(4))) : String(number ?? "");
+}
+
+/** Lines that a legend takes at a width. */
+export function legendRows(names, width) {
+  let [rows, used] = [1, 0];
+  for (const name of new Set(names)) {
+    const needs = 46 + 6.4 * name.length;
+    if (used && used + needs > width) { rows += 1; used = 0; }
+    used += needs;
+  }
+  return rows;
 }

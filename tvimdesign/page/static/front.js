@@ -4,6 +4,7 @@ import { button, choice, make } from "page/dom.js";
 
 /** Draw the front; a brush, or the ends typed in below, keep only the designs within, in the table too. */
 export function draw(place, data) {
+  const varying = data.names.map((_, i) => i).filter((i) => varies(data.points.map(({ values }) => values[i])));
   const ends = data.names.map(() => [null, null]);
   const shown = { x: data.names.indexOf(data.of[1]), y: data.names.indexOf(data.of[0]) };
   const inside = ({ values }) => values.every((value, i) =>
@@ -31,15 +32,16 @@ export function draw(place, data) {
         said: [shown.x, shown.y].map((i) => `${data.labels[i]}: ${short(point.values[i])}`).join("<br>"),
         symbol: point.status === "knee" ? "diamond" : "circle", symbolSize: point.status === "knee" ? 16 : 9,
         itemStyle: { opacity: inside(point) ? 1 : 0.15, color: point.status === "knee" ? look.accent : look.colours[0] },
-        label: { show: point.status !== "between" && inside(point), formatter: point.status, position: "right", color: look.text },
+        label: { show: point.status !== "between" && inside(point), formatter: point.status.split(",")[0], position: "top", color: look.text },
       })),
+      labelLayout: { hideOverlap: true },
     }],
   }));
 
   const parallel = chart(place, { says: `Parallel coordinates of ${data.labels.join(", ")}`, height: 360 }, (look) => ({
-    parallel: { left: 60, right: 60, top: 70, bottom: 24 },
-    parallelAxis: data.labels.map((label, dim) => ({
-      dim, name: label, nameTextStyle: { color: look.text, width: 105, overflow: "break", fontSize: 11 }, scale: true,
+    parallel: { left: 60, right: 60, top: 76, bottom: 24 },
+    parallelAxis: varying.map((of, dim) => ({
+      dim, name: inLines(data.labels[of]), nameTextStyle: { color: look.text, fontSize: 11, lineHeight: 13 }, scale: true,
       axisLabel: { color: look.quiet, formatter: short, fontSize: 11 }, axisLine: { lineStyle: { color: look.quiet } },
       areaSelectStyle: { color: look.colours[0], opacity: 0.25, borderColor: look.colours[0], width: 16 },
     })),
@@ -47,14 +49,14 @@ export function draw(place, data) {
       type: "parallel", inactiveOpacity: 0.06, activeOpacity: 1, smooth: false,
       lineStyle: { width: 1.6, color: look.colours[0], opacity: 0.7 },
       data: data.points.map((point) => ({
-        value: point.values, lineStyle: { color: point.status === "knee" ? look.accent : look.colours[0], width: point.status === "knee" ? 3 : 1.6, opacity: inside(point) ? 0.8 : 0.06 },
+        value: varying.map((i) => point.values[i]), lineStyle: { color: point.status === "knee" ? look.accent : look.colours[0], width: point.status === "knee" ? 3 : 1.6, opacity: inside(point) ? 0.8 : 0.06 },
       })),
     }],
   }));
   parallel.box.dataset.brush = "";
   parallel.made.on("axisareaselected", ({ parallelAxisId, intervals }) => {
     const at = parallel.made.getModel().queryComponents({ mainType: "parallelAxis", id: parallelAxisId })[0].componentIndex;
-    ends[at] = intervals.length ? [Math.min(...intervals.flat()), Math.max(...intervals.flat())] : [null, null];
+    ends[varying[at]] = intervals.length ? [Math.min(...intervals.flat()), Math.max(...intervals.flat())] : [null, null];
     renew();
   });
 
@@ -67,6 +69,9 @@ export function draw(place, data) {
   typed.append(...data.labels.map((label, i) => make("p", { className: "control" }, make("span", {}, label), ...fields[i])));
   place.append(typed);
 
+  const same = data.names.map((_, i) => i).filter((i) => !varying.includes(i)).map((i) => `${data.labels[i]}: ${short(data.points[0].values[i])}`);
+  if (same.length) place.append(make("p", { className: "note" }, `The same in every design: ${same.join(", ")}.`));
+
   const rows = [...place.closest("section").querySelectorAll("tbody tr")];
   const renew = (write = true) => {
     const kept = new Set(data.points.filter(inside).map(({ number }) => String(number)));
@@ -77,4 +82,20 @@ export function draw(place, data) {
     if (write) ends.forEach((end, i) => end.forEach((value, j) => { fields[i][j].value = value === null ? "" : short(value); }));
   };
   renew();
+}
+
+const SAME = 1e-4; // share of a value within which all designs have it
+
+/** Whether values differ by more than rounding. */
+function varies(values) {
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  return high - low > SAME * Math.max(Math.abs(low), Math.abs(high));
+}
+
+/** A label in short lines. */
+function inLines(label) {
+  return label.split(" ").reduce((lines, word) => {
+    const last = lines.at(-1);
+    return last && last.length + word.length < 12 ? [...lines.slice(0, -1), `${last} ${word}`] : [...lines, word];
+  }, []).join("\n");
 }

@@ -1,19 +1,23 @@
 // Panels of lines, such as the curves of a virtual test or the fronts of a comparison.
-import { axis, chart, frame, lineOf } from "page/charts.js";
+import { axis, chart, frame, legendRows, lineOf } from "page/charts.js";
 
 /** Draw each panel: lines with labels, bands where history leaves an interval, points where it says so. */
 export function draw(place, { panels }) {
   place.className += " panels";
   for (const panel of panels) {
     const says = [panel.title, `${panel.y_label} over ${panel.x_label}`, panel.lines.map(({ label }) => label).join(", ")];
-    chart(place, { says: says.filter(Boolean).join("; "), height: 320 }, (look) => ({
-      ...frame(look, { title: { text: panel.title ?? "", left: 8, textStyle: { color: look.text, fontSize: 14 } } }),
-      grid: { left: 62, right: 24, top: panel.title ? 74 : 48, bottom: 46 },
-      legend: { top: panel.title ? 26 : 0, textStyle: { color: look.text }, itemWidth: 26, type: "scroll" },
-      xAxis: axis(panel.x_label, look, { type: panel.log_x ? "log" : "value", scale: true }),
-      yAxis: axis(panel.y_label, look, { type: panel.log_y ? "log" : "value", nameGap: 46 }),
-      series: panel.lines.flatMap((line, i) => series(line, i, look)),
-    }));
+    chart(place, { says: says.filter(Boolean).join("; "), height: 330 }, (look, width) => {
+      const below = panel.title ? 26 : 0;
+      const top = below + 20 * legendRows(panel.lines.map(({ label }) => label), width) + 16;
+      return {
+        ...frame(look, { title: { text: panel.title ?? "", left: 8, textStyle: { color: look.text, fontSize: 14 } } }),
+        grid: { left: 62, right: 24, top, bottom: 46 },
+        legend: { top: below, textStyle: { color: look.text }, itemWidth: 26 },
+        xAxis: axis(panel.x_label, look, { type: panel.log_x ? "log" : "value", scale: true }),
+        yAxis: axis(panel.y_label, look, { type: panel.log_y ? "log" : "value", nameGap: 46 }),
+        series: panel.lines.flatMap((line, i) => series(line, i, look)),
+      };
+    });
   }
 }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from tvimdesign.page.blocks import Block, Drawn, Folded, Listing, Page, Points, Section, Warned
+from tvimdesign.page.blocks import Block, Drawn, Folded, Listing, Page, Points, Section, Warned, Words
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import side_by_side, told_rows, warnings_of
@@ -25,8 +25,10 @@ def comparison_page(folder: ResultsFolder, outcome: Outcome, settings: tuple[str
     troubles = [f"{label}, {trouble['step']}: {trouble['error']}" for label, trouble in outcome.troubles]
     said = "PARTLY DONE" if troubles else f"COMPARED {COMPARISONS[outcome.which].upper()}"
     warnings = [(text, "") for text in warnings_of(outcome)]
-    first: list[Block] = [Points(outcome.conclusions), *([Warned(warnings)] if warnings else [])]
-    sections = [_side_by_side(outcome), *_figures(outcome)]
+    lead, *rest = outcome.conclusions
+    first: list[Block] = [Words([lead]), *([Warned(warnings)] if warnings else [])]
+    follows = [Section("follows", "What follows", [Points(rest)])] if rest else []
+    sections = [*follows, _side_by_side(outcome), *_figures(outcome)]
     sections += [Section("not-done", "Not done", [Points(troubles)])] if troubles else []
     sections += [_studies(outcome, settings), versions_section(folder)]
     title = " against ".join(one.study.name for one in outcome.entrants.values())

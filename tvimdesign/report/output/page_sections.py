@@ -39,7 +39,8 @@ def grid(
         ]
         for row in rows
     ]
-    return Grid(caption, [Head(text, i in right) for i, text in enumerate(heads)], cells, note)
+    named = [text or ("name" if i in code else "state" if i in toned else "") for i, text in enumerate(heads)]
+    return Grid(caption, [Head(text, i in right) for i, text in enumerate(named)], cells, note)
 
 
 def grid_of(table: SummaryTable, *, toned: Collection[int] = (), code: Collection[int] = (0,), note: str = "") -> Grid:

@@ -5,18 +5,10 @@ import { button, make } from "page/dom.js";
 
 const [WIDE, HIGH] = [360, 270];
 
-/** Add pictures to the steps once they come near the screen, or go to paper. */
-export function addPictures(list) {
+/** Add pictures to the steps; the assembly stands as it stood before. */
+export async function addPictures(list) {
   const figure = document.getElementById(`figure-${list.dataset.figure}`);
   if (!figure) return;
-  let begun = null;
-  const begin = () => { begun ??= take(list, figure); return begun; };
-  new IntersectionObserver((entries, seen) => {
-    if (entries.some(({ isIntersecting }) => isIntersecting)) { seen.disconnect(); begin(); }
-  }, { rootMargin: "300px" }).observe(list);
-}
-
-async function take(list, figure) {
   const viewer = await draw(figure);
   if (!viewer) return;
   const steps = dataOf(list.dataset.figure).steps;

@@ -1,0 +1,70 @@
+"""The file itself: valid HTML, the same bytes every time, no text that escapes, no library that nothing uses."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import html5lib
+import pytest
+import yaml
+from support import ROOT
+
+from tvimdesign.page.blocks import Cell, Drawn, Facts, Folded, Grid, Head, Page, Section, Words
+from tvimdesign.page.page_file import page_html
+
+NASTY = '</script><script>alert(1)</script> & "it\'s"'
+PAGE = Page(
+    "A module", "shear module", "OPTIMAL", "good", [Facts([("Weighs", "98 g")])], None,
+    [Section("one", "One", [Words([NASTY])])], "Written by a test.",
+)  # fmt: skip
+VENDOR = ROOT / "tvimdesign/page/static/vendor"
+
+
+def test_the_page_of_a_run_is_valid_html(report: Path) -> None:
+    html5lib.HTMLParser(strict=True).parse(report.read_text("utf-8"))
+    names = re.findall(r'\bid="([^"]+)"', report.read_text("utf-8"))
+    assert len(names) == len(set(names))
+    assert {"first", "requirements", "assembly", "cycle", "why", "assumptions", "front", "checks", "materials", "steps",
+            "spring", "study", "versions"} <= set(names)  # fmt: skip
+
+
+def test_text_stays_text() -> None:
+    drawn = Drawn("nasty", "lines.js", NASTY, {"panels": [], "text": NASTY})
+    cells = Grid(NASTY, [Head(NASTY)], [[Cell(NASTY)]])
+    page = replace(PAGE, title=NASTY, sections=[Section("one", NASTY, [drawn, Folded(NASTY, [cells])])])
+    text = page_html(page).decode()
+    assert "<script>alert" not in text
+    html5lib.HTMLParser(strict=True).parse(text)
+
+
+def test_the_same_page_has_the_same_bytes() -> None:
+    with_meshes = replace(PAGE, first=[Drawn("solids", "solids/viewer.js", "A box", {}, b"meshes", ["three"])])
+    assert page_html(with_meshes) == page_html(with_meshes)
+
+
+def test_a_library_is_there_only_where_a_figure_needs_it() -> None:
+    plain = page_html(PAGE)
+    curves = page_html(replace(PAGE, first=[Drawn("lines", "lines.js", "Lines", {"panels": []}, b"", ["echarts"])]))
+    assert b"vendor/" not in plain
+    assert len(plain) < 100_000
+    assert b"vendor/echarts.js" in curves
+    assert b"vendor/three.js" not in curves
+
+
+def test_what_json_has_no_number_for_is_refused() -> None:
+    with pytest.raises(ValueError, match="JSON"):
+        page_html(replace(PAGE, first=[Drawn("lines", "lines.js", "Lines", {"x": [float("nan")]})]))
+
+
+def test_the_libraries_are_those_that_are_pinned() -> None:
+    pinned = yaml.safe_load((ROOT / "vendor/packages.yaml").read_text("utf-8"))
+    for bundle, names in pinned["bundles"].items():
+        code, licence = (VENDOR / f"{bundle}.js").read_bytes(), (VENDOR / f"{bundle}.LICENSE.txt").read_text("utf-8")
+        assert hashlib.sha256(code).hexdigest() == pinned["made"][bundle], "run `make vendor`"
+        for name in names:
+            package = pinned["packages"][name]
+            assert f"{name} {package['version']}, {package['licence']}" in licence
+        assert licence.splitlines()[0] in code.decode()

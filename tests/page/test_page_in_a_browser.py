@@ -1,0 +1,153 @@
+"""The page as a reader meets it: opened from the disk in a browser, read, sorted, brushed, printed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import axe_playwright_python
+import pytest
+from conftest import Opened
+
+from tvimdesign.page.page_file import MOST
+
+AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")
+SERIOUS = {"serious", "critical"}
+Open = Callable[..., Opened]
+
+
+FIGURES = ("cycle", "front", "solids")
+
+
+def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path) -> None:
+    found = screen
+    for name in FIGURES:
+        found.figure(name)
+    assert [url for url in found.requests if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert [url for url in found.requests if url.startswith("file:")] == [report.as_uri()]
+    assert found.complaints == []
+    assert report.stat().st_size < MOST
+
+
+@pytest.mark.parametrize(
+    ("colours", "rules"), [("light", None), pytest.param("dark", ["color-contrast"], marks=pytest.mark.slow)]
+)
+def test_axe_finds_no_serious_fault(opened: Open, report: Path, colours: str, rules: list[str] | None) -> None:
+    found = opened(report, color_scheme=colours, bypass_csp=True)
+    for name in FIGURES:
+        found.figure(name)
+    found.page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
+    # Rows of a table are alike, and axe looks at each of thousands of cells.
+    alike = (
+        "document.querySelectorAll('tbody').forEach(({ rows }) => [...rows].slice(4).forEach((row) => row.remove()))"
+    )
+    found.page.evaluate(alike)
+    found.page.evaluate(AXE)
+    asked = {"resultTypes": ["violations"], **({"runOnly": rules} if rules else {})}
+    faults = found.page.evaluate("(asked) => axe.run(document, asked).then(({ violations }) => violations)", asked)
+    serious = [one for one in faults if one["impact"] in SERIOUS]
+    assert [(one["id"], [node["html"][:120] for node in one["nodes"][:3]]) for one in serious] == []
+
+
+def test_the_page_is_dark_where_the_reader_is(opened: Open, report: Path) -> None:
+    def brightness(colours: str) -> int:
+        page = opened(report, color_scheme=colours).page
+        ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        return sum(map(int, re.findall(r"\d+", ground)[:3]))
+
+    assert brightness("light") > 700
+    assert brightness("dark") < 120
+
+
+def test_nothing_reaches_beyond_a_phone(opened: Open, report: Path) -> None:
+    found = opened(report, viewport={"width": 360, "height": 740})
+    for name in FIGURES:
+        found.figure(name)
+    assert found.page.evaluate("document.documentElement.scrollWidth") <= 360
+
+
+def test_it_is_read_without_its_code(opened: Open, report: Path) -> None:
+    page = opened(report, java_script_enabled=False).page
+    assert page.get_by_role("heading", name="Requirements").is_visible()
+    assert page.get_by_role("table", name="At the operating points").is_visible()
+    assert "Needs a browser that runs the page's code" in page.locator("#figure-cycle").inner_text()
+
+
+def test_it_prints_on_a4_with_its_figures(opened: Open, report: Path, tmp_path: Path) -> None:
+    found = opened(report, color_scheme="dark")
+    found.page.wait_for_selector("html[data-ready=all]", timeout=60_000)
+    assert [found.page.locator(f"#figure-{name}").get_attribute("data-state") for name in FIGURES] == ["drawn"] * 3
+    printed = found.page.pdf(path=tmp_path / "report.pdf", prefer_css_page_size=True, print_background=True)
+    boxes = {tuple(map(float, box.split())) for box in re.findall(rb"/MediaBox\s*\[([^\]]+)\]", printed)}
+    assert boxes
+    for _, _, wide, high in boxes:
+        assert (wide, high) == pytest.approx((595.3, 841.9), abs=1.5)  # A4 in points, ISO 216
+    found.page.emulate_media(media="print")
+    assert not found.page.get_by_role("navigation", name="Sections").is_visible()
+    assert found.page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    cut = "[...document.querySelectorAll('.grid')].filter((one) => one.scrollHeight > one.clientHeight + 1).length"
+    assert found.page.evaluate(cut) == 0
+
+
+def test_a_table_sorts_by_numbers_and_comes_back(screen: Opened) -> None:
+    page = screen.page
+    table = page.get_by_role("table", name="Points of the front")
+    column = "(one) => [...one.tBodies[0].rows].map((row) => Number(row.cells[1].textContent))"
+    head = table.get_by_role("columnheader").nth(1)
+    button = head.get_by_role("button")
+    button.focus()
+    page.keyboard.press("Enter")
+    assert head.get_attribute("aria-sort") == "ascending"
+    assert table.evaluate(column) == [45.0, 50.0, 60.0, 80.0, 100.0]
+    button.click()
+    assert table.evaluate(column) == [100.0, 80.0, 60.0, 50.0, 45.0]
+    button.click()
+    assert head.get_attribute("aria-sort") is None
+    assert table.evaluate(column) == [100.0, 80.0, 60.0, 50.0, 45.0]
+
+
+def test_a_long_table_is_filtered(screen: Opened) -> None:
+    page = screen.page
+    page.get_by_text("inputs and outputs, with their sources").click()
+    block = page.locator("details", has_text="inputs and outputs, with their sources")
+    block.get_by_role("searchbox").fill("module_mass")
+    rows = block.locator("tbody tr:visible")
+    assert 0 < rows.count() < 20
+    assert "module_mass" in rows.first.inner_text()
+
+
+def test_the_cursor_of_time_moves_by_keys_and_tells_what_is_then(screen: Opened) -> None:
+    figure = screen.figure("cycle")
+    assert "softening at 0 s" in figure.locator(".told").inner_text()
+    time = figure.get_by_role("slider", name="Time")
+    time.focus()
+    figure.page.keyboard.press("End")
+    assert "stiffening at" in figure.locator(".told").inner_text()
+    assert time.get_attribute("aria-valuetext") == figure.locator(".told").inner_text()
+
+
+def test_a_brush_keeps_the_designs_within(screen: Opened) -> None:
+    found = screen
+    figure = found.figure("front")
+    axes = figure.locator("[role=img]").nth(1)
+    axes.scroll_into_view_if_needed()
+    box = axes.bounding_box()
+    assert box
+    # The first axis stands 60 px from the left, from 76 px below the top down to 24 px above the bottom.
+    left, top, high = box["x"] + 60, box["y"] + 76, box["height"] - 100
+    mouse = found.page.mouse
+    mouse.move(left, top + 0.5 * high)
+    mouse.down()
+    mouse.move(left, top + 0.2 * high, steps=4)
+    mouse.move(left, top - 8, steps=4)
+    mouse.up()
+    rows = found.page.get_by_role("table", name="Points of the front").locator("tbody tr:visible")
+    figure.locator(".told", has_text="of 5 designs are within").wait_for()
+    assert rows.count() == 2
+    figure.get_by_role("button", name="Keep all").click()
+    assert rows.count() == 5
+    figure.get_by_text("Ends of the axes, typed").click()
+    figure.get_by_role("spinbutton", name="Module mass (g) to").fill("75")
+    found.page.keyboard.press("Tab")
+    assert rows.count() == 2

@@ -1,0 +1,128 @@
+"""The assembly in 3-D: turned, hidden, taken apart, cut, put together, picked, moved, coloured."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from conftest import Opened
+from sample_pages import LEG_MOVED, RING
+
+VIEWER = "document.getElementById('figure-solids').viewer"
+
+
+class Solids:
+    """The figure with what its parts are like."""
+
+    def __init__(self, found: Opened) -> None:
+        self.found = found
+        self.figure = found.figure("solids")
+        found.page.wait_for_selector("html[data-ready=all]", timeout=60_000)  # the steps' pictures are taken of it, too
+
+    def part(self, name: str, what: str) -> Any:
+        """An expression of a part."""
+        return self.found.page.evaluate(f"{VIEWER}.parts.get('{name}').{what}")
+
+    def picture(self) -> str:
+        """What the canvas shows now."""
+        return str(self.found.page.evaluate(f"({VIEWER}.stage.drawNow(), {VIEWER}.stage.canvas.toDataURL())"))
+
+    def slide(self, name: str, value: float) -> None:
+        self.figure.get_by_role("slider", name=name, exact=True).fill(str(value))
+
+
+@pytest.fixture
+def solids(screen: Opened) -> Iterator[Solids]:
+    """The assembly; afterwards every control stands where it stood."""
+    found = Solids(screen)
+    yield found
+    for name, value in (("Apart", 0), ("Rotor", 0), ("Assembly step", 3)):
+        found.slide(name, value)
+    found.figure.get_by_role("combobox", name="View").select_option("top")
+    found.figure.get_by_role("combobox", name="View").select_option("corner")
+
+
+def test_a_part_is_hidden_and_shown_by_the_tree(solids: Solids) -> None:
+    before = solids.picture()
+    box = solids.figure.get_by_role("checkbox", name="housing", exact=True)
+    box.uncheck()
+    assert solids.part("housing", "object.visible") is False
+    assert solids.picture() != before
+    box.check()
+    assert solids.picture() == before
+
+
+def test_the_parts_come_apart_by_their_lifts(solids: Solids) -> None:
+    at = "object.matrix.elements[14]"
+    before = {name: solids.part(name, at) for name in ("housing", "rotor")}
+    solids.slide("Apart", 0.5)
+    assert solids.part("housing", at) == pytest.approx(before["housing"])
+    assert solids.part("rotor", at) == pytest.approx(before["rotor"] + 0.5 * 90.0)
+
+
+def test_a_cut_shows_the_inside(solids: Solids) -> None:
+    before = solids.picture()
+    solids.figure.get_by_role("combobox", name="Cut").select_option("y")
+    assert solids.part("housing", "outside.clippingPlanes.length") == 1
+    assert solids.picture() != before
+    solids.figure.get_by_role("combobox", name="Cut").select_option("none")
+    assert solids.picture() == before
+
+
+def test_a_part_is_picked_in_the_picture_or_by_keys(solids: Solids) -> None:
+    solids.figure.locator("canvas").click()
+    about = solids.figure.locator(".about")
+    assert about.get_by_role("heading").inner_text() in {"housing", "rotor", "link"}
+    button = solids.figure.get_by_role("button", name="about pcl arc")
+    button.focus()
+    solids.found.page.keyboard.press("Enter")
+    assert "material of pcl_arc_1" in about.inner_text()
+    assert about.get_by_role("link").get_attribute("href") == "cad/step/pcl_arc_1.step"
+
+
+def test_keys_turn_the_module(solids: Solids) -> None:
+    before = solids.picture()
+    solids.figure.locator("canvas").focus()
+    solids.found.page.keyboard.press("ArrowLeft")
+    assert solids.picture() != before
+    solids.found.page.keyboard.press("ArrowRight")
+    position = solids.found.page.evaluate(f"{VIEWER}.stage.camera.position.toArray()")
+    assert len(position) == 3
+
+
+def test_the_rotor_turns_and_winds_the_spring(solids: Solids) -> None:
+    vertex = f"geometry.getAttribute('position').getY({2 * RING})"
+    rest, held = solids.part("spring_right_1", vertex), "geometry.getAttribute('position').getY(0)"
+    tang = solids.part("spring_right_1", held)
+    solids.slide("Rotor", 1)
+    assert solids.part("rotor", "object.matrix.elements[1]") == pytest.approx(0.0998, abs=1e-4)  # sin(0.1)
+    assert solids.part("housing", "object.matrix.elements[1]") == 0.0
+    assert solids.part("spring_right_1", vertex) == pytest.approx(rest + LEG_MOVED, abs=1e-4)
+    assert solids.part("spring_right_1", held) == tang
+    solids.slide("Rotor", -0.76)
+    assert solids.part("spring_right_1", vertex) == pytest.approx(rest - 0.76 * LEG_MOVED, abs=1e-4)
+
+
+def test_the_layer_has_the_colour_of_its_temperature(solids: Solids) -> None:
+    solids.figure.get_by_role("checkbox", name="Layer by its temperature").check()
+    painted = f"{VIEWER}.parts.get('pcl_arc_1').geometry.getAttribute('color')"
+    colours = f"Array.from({painted}.array)"
+    cold = solids.found.page.evaluate(colours)
+    assert max(cold[0::3]) < min(cold[2::3])  # blue at the start
+    solids.found.page.evaluate("import('page/time.js').then(({ moveTo }) => moveTo(60))")
+    solids.found.page.wait_for_timeout(50)
+    warm = solids.found.page.evaluate(colours)
+    assert max(warm[0::3]) > max(cold[0::3])
+
+
+def test_the_assembly_is_put_together_step_by_step_with_pictures(solids: Solids) -> None:
+    solids.slide("Assembly step", 2)
+    assert "Lay the pad and the arc into it." in solids.figure.inner_text()
+    assert solids.part("rotor", "object.visible") is False
+    assert solids.part("pcl_arc_1", "object.visible") is True
+    pictures = solids.found.page.locator("#steps .steps img")
+    assert pictures.count() == 3
+    assert len({pictures.nth(i).get_attribute("src") for i in range(3)}) == 3
+    solids.found.page.get_by_role("button", name="Show in 3-D").last.click()
+    assert solids.part("rotor", "object.visible") is True
