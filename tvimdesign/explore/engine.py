@@ -133,9 +133,8 @@ class Engine:
         tree = set_values(tree, {"front": None}) if tree.section("front") is not None else tree
         answered = answer_study(tree, progress, search=self._near if stage == "exact" else optimize)
         found, table = answered.result, answered.study.table
-        design, solution = found.design, found.solution
-        binding = [held.name for held in solution.held if held.shadow_price > 0.0] if solution else []
-        shown = shown_design(answered.study, free, design.values, binding)
+        design = found.design
+        shown = shown_design(answered.study, free, design.values)
         shown["status"] = "" if found.found else complaint(found, table)
         shown["found"] = found.found
         shown["at"] = {
@@ -144,7 +143,12 @@ class Engine:
         return Answer(shown, answered)
 
     def _near(
-        self, study: Study, progress: Progress, reference: dict[str, float] | None, keep: Keep, objectives: Sequence[str]
+        self,
+        study: Study,
+        progress: Progress,
+        reference: dict[str, float] | None,
+        keep: Keep,
+        objectives: Sequence[str],
     ) -> Solution:
         """The optimum from where the last one is; every start where that is none."""
         if self._last is not None and not study.robust:
@@ -175,4 +179,3 @@ def _listed(study: Study, state: State) -> dict[str, str]:
 def refused(error: TvimError) -> Shown:
     """What is sent where a state has no answer."""
     return {"status": str(error), "found": False}
-

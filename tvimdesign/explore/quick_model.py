@@ -18,7 +18,8 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.batch.batch_model import SLOW
-from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace, Steps
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
+from tvimdesign.solve.batch.phase_kernel import Steps
 from tvimdesign.study import Study, given
 
 Array = NDArray[np.float64]
@@ -28,6 +29,7 @@ _STEPS = Steps(of_pace=10, in_window=4, close=4, first=0.125)
 _FREEZING = Steps(of_pace=14, in_window=4, close=4, first=0.125)
 """Half as many steps as tolerances take: half the time, and times within 0.2 % still (a test holds that)."""
 _LOOSE, _SAMPLES = 1e-3, 10
+_PHASES: tuple[str, ...] = ("softening", "stiffening")
 _SHOWN = 24
 """Moments of a phase that are drawn."""
 
@@ -51,7 +53,7 @@ class QuickModel:
         self._simulator = Simulator(self.model, _LOOSE, _SAMPLES)
         self._kernel: CycleKernel | None = None
         self._pace: Pace | None = None
-        self._maps = {name: _Drawn(self.model, name) for name in ("softening", "stiffening") if name in self.model.phases}
+        self._maps = {name: _Drawn(self.model, name) for name in _PHASES if name in self.model.phases}
         self.set_pace(self.model.start)
         self._thread = threading.Thread(target=self._compile, daemon=True)
         if compiled:
@@ -90,7 +92,7 @@ class QuickModel:
             switch = {name: some.get(name, np.inf) for name in self.model.switch_names}
             lines = {name: _line(course) for name, course in courses.items() if course}
         ends = {name: phase.phase.ends for name, phase in self.model.phases.items()}
-        curves = {
+        curves: Curves = {
             name: drawn.curves(inputs, *lines[name], switch[ends[name]])
             for name, drawn in self._maps.items() if name in lines
         }  # fmt: skip

@@ -29,7 +29,11 @@ class DesignFolder(ResultsFolder):
 
 def design_name(design: Design) -> str:
     """The name of a design's folder: the same for the same choices and numbers, however they were found."""
-    numbers = {name: f"{design.values[name]:.9g}" for name in sorted(design.values) if name.partition("@")[0] in _inputs(design)}
+    numbers = {
+        name: f"{design.values[name]:.9g}"
+        for name in sorted(design.values)
+        if name.partition("@")[0] in _inputs(design)
+    }
     told = json.dumps([design.mode, design.choices, numbers], sort_keys=True)
     return hashlib.sha256(told.encode()).hexdigest()[:16]
 

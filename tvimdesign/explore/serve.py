@@ -15,7 +15,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.explore.history import FILE, open_kept
 from tvimdesign.explore.server import HOST, Server
 from tvimdesign.explore.source import open_source
-from tvimdesign.report.output.console import wide_console
+from tvimdesign.report.output.progress import wide_console
 
 
 def serve(source: Path, folder: Path, port: int, *, overwrite: bool, browse: bool, settings: Sequence[str]) -> None:

@@ -228,5 +228,3 @@ def _quantity(study: Study, name: str) -> dict[str, Any]:
     row = study.table.output(name.partition("@")[0])
     return {"name": name, "unit": pretty(study.table.unit(name)), "means": row.description, "group": row.group,
             "headline": row.headline}  # fmt: skip
-
-

@@ -14,6 +14,8 @@ from tvimdesign.solve.optimizer.ratings import exceeded, kept
 from tvimdesign.solve.result import ConstraintCheck
 from tvimdesign.study import Study, given
 
+_ROUNDING = 1e-6
+"""Margin that is what a solver leaves of zero."""
 Shown = dict[str, Any]
 """Plain data, as JSON has it."""
 
@@ -60,10 +62,11 @@ def _limit(limit: Constraint, value: float, table: Table, presses: bool) -> Show
         absolute=limit.absolute, kept=is_kept, worst=margin, origin=limit.origin, part_of=limit.part_of,
     )  # fmt: skip
     unit = table.unit(limit.output)
+    got = value if abs(margin) > _ROUNDING else limit.limit
     stands = "broken" if not is_kept else "binds" if presses or margin <= NOTHING else "kept"
     return {
         "name": limit.name, "of": limit.part_of or limit.output, "sense": limit.sense, "text": check.text,
-        "got": f"{number(from_si(value, unit))} {pretty(unit)}".rstrip(), "margin": margin_text(check, table),
+        "got": f"{number(from_si(got, unit))} {pretty(unit)}".rstrip(), "margin": margin_text(check, table),
         "stands": stands, "origin": limit.origin,
     }  # fmt: skip
 

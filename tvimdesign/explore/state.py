@@ -111,7 +111,7 @@ def _start_within(change: SetRange, study: Study) -> dict[str, str]:
 
 def _in_module(name: str, study: Study) -> str:
     """Inputs and choices alone; sections, such as the folder of records, stay as the file has them."""
-    known = [row.name for row in (*study.table.inputs, *study.table.choices)]
+    known = {row.name for row in study.table.inputs} | {row.name for row in study.table.choices}
     if name not in known:
         raise InputError(f"{name}: no input or choice of this module; `tvimdesign rows --mode {study.mode}` lists them")
     return name

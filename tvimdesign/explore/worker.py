@@ -49,7 +49,9 @@ def main() -> None:
         _say(answers, {"number": job["number"], **_done(engine, job, folder, interrupts, answers)})
 
 
-def _done(engine: Engine, job: dict[str, Any], folder: Path, interrupts: _Interrupts, answers: TextIO) -> dict[str, Any]:
+def _done(
+    engine: Engine, job: dict[str, Any], folder: Path, interrupts: _Interrupts, answers: TextIO
+) -> dict[str, Any]:
     """What a job comes to; of one that was interrupted nothing is kept, whatever a library made of the interrupt."""
 
     def progress(text: str) -> None:

@@ -96,9 +96,7 @@ class ParametricOptimizer:
         first = optimizer.problem.equation_count
         prices = run.multipliers[first : first + len(optimizer.problem.limits)]
         least = _PRESSES * abs(run.start.objective or 1.0)
-        return tuple(
-            limit.name for limit, price in zip(optimizer.problem.limits, prices, strict=True) if price > least
-        )
+        return tuple(limit.name for limit, price in zip(optimizer.problem.limits, prices, strict=True) if price > least)
 
 
 def _within(free: Free, study: Study) -> Free:
