@@ -26,7 +26,7 @@ BEND, BEND_ACROSS, BEND_IN_PLANE = 2.0, 1.1, (4.0 * 4.0**2 - 4.0 - 1.0) / (4.0 *
 E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
 LOSS = 0.03 + 0.01  # of PETG and of what is clamped
-SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, FLOOR_SPREAD, FOOT_SPREAD = 0.1, 0.15, 0.6, 2.735, 1.55
+SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, FOOT_TILT = 0.1, 0.15, 0.6, 1.4
 WALL_LEAST, FEATURE_LEAST, CORNER, POCKET_RATIO = 1.2e-3, 2e-3, 0.2e-3, 50.0
 PIN_RATIO, PIN, CORE, WALL, FLOOR, ROTOR, LINK = 0.5, 4e-3, 10e-3, 3e-3, 4e-3, 4e-3, 4e-3
 RADIAL, AXIAL, RUNNING, RIM, HUB_WALL, FOOT, NOTCH = 1e-3, 1e-3, 0.4e-3, 1.5e-3, 3e-3, 6e-3, 12e-3
@@ -249,12 +249,16 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     sideways = 1.0 / (
         FOOT**3 / (3.0 * PI * E_PETG * (BOSS**4 - hole**4)) + FOOT / (0.9 * PI * G_PETG * (BOSS**2 - hole**2))
     )
+    web_sheet = driven / (G_PETG * (FLOOR - PAD))
+    lag = (outer - INNER) * math.sqrt((driven / (G_PETG * ROTOR) + web_sheet) / (t / G_FROZEN + PAD / G_PAD))
     support = 1.0 / (
         2.0 * free / (G_PETG * PI * CORE**4)
         + ((1.0 + PLATE_ENTRY * (ROTOR / CORE) ** 2) / CORE**2 - INNER**-2) / (4.0 * PI * G_PETG * ROTOR)
         + (INNER**-2 - middle**-2) / driven / (4.0 * PI * G_PETG * ROTOR)
-        + FLOOR_SPREAD * (outer**-2 - r**-2) / (4.0 * PI * G_PETG * FLOOR)
-        + FOOT_SPREAD / (SPRINGS * sideways * r**2)
+        + (middle**-2 - outer**-2) * math.tanh(lag) / lag / driven**2 / (4.0 * PI * G_PETG * (FLOOR - PAD))
+        + (outer**-2 - r**-2) / (4.0 * PI * G_PETG * FLOOR)
+        + (3.0 - NU_PETG) * math.log(PI * r / SPRINGS / BOSS) / (4.0 * PI * G_PETG * FLOOR * SPRINGS * r**2)
+        + FOOT_TILT / (SPRINGS * sideways * r**2)
         + PAD / (G_PAD * held)
     )
     cold, _ = joint(COLD_STORAGE, COLD_LOSS, polar / t, support)

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
@@ -24,8 +25,8 @@ BESIDE, FLOOR = slice(PLATE.stop, PLATE.stop + 4), slice(PLATE.stop + 4, PLATE.s
 SINK = FLOOR.stop
 UPPER, LOWER, LEDGES, CORNER, HOUSING = np.arange(3), np.arange(3, 6), 6, 7, 8
 """Places in the floor: beside the pads in three widths, below those, below the pads, next to their hot sides."""
-STRIPS, TO_EDGE, FINEST = np.array([0.1, 0.25, 0.65]), 0.18, 6.0
-"""Widths of the three bodies a strip is divided into, as shares, the way to its edge and where a series ends."""
+STRIPS, TO_EDGE = np.array([0.1, 0.25, 0.65]), 0.23
+"""Widths of the three bodies a strip is divided into, as shares, and the way to its edge."""
 
 
 def value_of(model: DeviceFunctions) -> Callable[[str], float]:
@@ -88,10 +89,12 @@ class AnotherStack:
         widths, way = STRIPS * self.rest / self.edge, TO_EDGE * self.area / self.edge
         far = (v("rotor_mass") + v("link_mass") + v("retainer_mass")) / v("structure_density") - disc * height
         near = STRIPS * self.rest
-        apart = 0.5 * (np.append(0.0, widths[:-1]) + widths) / self.edge
+        # Heat ends in the last body, and passes the others.
+        apart = (0.5 * np.append(0.0, widths[:-1]) + widths * [0.5, 0.5, 1.0 / 3.0]) / self.edge
         inner = v("pcl_inner_radius") / v("core_radius")
         along = way / self.edge
-        ways = np.append(apart / (k * height), np.log(inner) / (2.0 * np.pi * k * height))
+        to_core = 2.0 / 3.0 * widths[2] / self.edge + np.log(inner) / (2.0 * np.pi)
+        ways = np.append(apart, to_core) / (k * height)
         self.to_beside = 1.0 / (ways + np.array([along / (k * height), 0.0, 0.0, 0.0]))
         self.uneven = k * height * self.edge / (way + height / np.pi)
         self.strips = np.append(near, 0.0)
@@ -134,18 +137,29 @@ class AnotherStack:
         for i, half in enumerate((0.25 * pad, 0.5 * pad, 0.5 * pad)):
             join(UPPER[i], LOWER[i], k * widths[i] * edge / (half + web / 3.0))
         ledge = (self.area - self.window) / edge
-        join(LEDGES, LOWER[0], k * web * edge / (0.5 * (ledge + widths[0])))
+        join(LEDGES, LOWER[0], k * web * edge / (ledge / 3.0 + 0.5 * widths[0]))
         side = 0.5 * pad * edge
         wall = (
             way / (v("pad_conductivity") * side) + 1.0 / (v("pad_edge_contact") * side) + 0.5 * widths[0] / (k * side)
         )
         self.from_cold, self.from_hot = np.zeros(9), np.zeros(9)
-        self.from_cold[UPPER[0]] = self.from_hot[CORNER] = 1.0 / wall
-        self.from_cold[LEDGES] = k * ledge * edge / (web / 3.0)
+        self.from_legs = np.zeros(9)
+        self.from_cold[UPPER[0]] = self.from_hot[CORNER] = 0.5 / wall
+        self.from_legs[[UPPER[0], CORNER]] = 0.5 / wall
+        # A slab of the web's depth heated evenly over a part of its face that ends free: cosines over its depth.
+        waves = np.pi * np.arange(1, 2001) / web
+        falling = 2.0 * ledge / waves - (1.0 - np.exp(-2.0 * waves * ledge)) / waves**2
+        self.from_cold[LEDGES] = k * edge / np.sum(falling / (waves * web * ledge**2))
         # The end of the gap, as warm as the pads below: heat to its lower and to its upper wall.
-        sines = FINEST * v("pcl_thickness") * v("hot_contact") / (np.pi * v("pcl_conductivity_melt"))
-        through = edge / (1.0 / v("air_conductivity") + 1.0 / v("pcl_conductivity_melt"))
-        down = 2.0 / np.pi * (np.log(sines) + np.euler_gamma)
+        gap, slot = v("pcl_thickness"), v("air_conductivity") / v("pad_edge_contact")
+        warm, cool = v("pcl_melting_end"), v("ambient_temperature")
+        shine = v("surface_emissivity") / (2.0 - v("surface_emissivity")) * STEFAN_BOLTZMANN * gap
+        radiated = shine * (warm**2 + cool**2) * (warm + cool) / v("air_conductivity")
+        mean = v("air_conductivity") * np.sqrt(1.0 + radiated)
+        through = edge / (1.0 / mean + 1.0 / v("pcl_conductivity_melt"))
+        mouth = brentq(lambda u: np.sqrt(1.0 + u) - np.arctanh(1.0 / np.sqrt(1.0 + u)), 0.1, 1.0)
+        stretched = slot * np.sqrt(1.0 + radiated) / gap
+        down = np.log((1.0 + 0.25 / stretched**2) / mouth) / np.pi
         self.from_hot[CORNER] += 1.0 / (1.0 / (down * through) + down / (3.0 * k * edge))
         self.up = 2.0 / np.pi * np.log(2.0) * through
 
@@ -203,17 +217,18 @@ class AnotherStack:
         aside = (self.to_beside[0] * (mean - y[BESIDE.start]) + self.uneven * (y[PLATE] - mean)) / PLATE_CELLS
         cold, hot = self.from_cold * (y[0] - y[FLOOR]), self.from_hot * (y[1] - y[FLOOR])
         up = self.up * (y[1] - y[BESIDE.start])
+        legs = self.from_legs * (0.5 * (y[0] + y[1]) + amps**2 * self.ohms / (12.0 * self.leak) - y[FLOOR])
         watts[1 + CELLS :] -= aside
-        watts[0] -= np.sum(hot) + up
+        watts[0] -= np.sum(hot) + 0.5 * np.sum(legs) + up
         beside = self._chain(y[BESIDE], self.to_beside, np.sum(aside) + up) - self.strips * self._flux(
             y[BESIDE], self.value("rotor_coefficient")
         )
-        floor = cold + hot + self.among @ y[FLOOR] - np.sum(self.among, axis=1) * y[FLOOR]
+        floor = cold + hot + legs + self.among @ y[FLOOR] - np.sum(self.among, axis=1) * y[FLOOR]
         floor -= self.below * self._flux(y[FLOOR], self.value("housing_coefficient"))
         gap = self._gap(y)
         beside[:3] -= gap
         floor[[CORNER, *UPPER[1:]]] += gap
-        everything = np.concatenate([[self._cold(y, amps) - np.sum(cold)], watts, beside, floor])
+        everything = np.concatenate([[self._cold(y, amps) - np.sum(cold) - 0.5 * np.sum(legs)], watts, beside, floor])
         if self.sink:
             given = self.window * self.value("sink_contact") * (y[0] - y[SINK])
             lost = self.value("sink_area") * self._flux(y[SINK], self.value("sink_coefficient"))

@@ -7,16 +7,7 @@ from pathlib import Path
 from tvimdesign.study import read_study
 from tvimdesign.study.conditions import Entrant
 
-SHEAR = """mode: shear
-module:
-  response_criterion: softening
-  current: 1.5 A
-  stroke: 0.104 rad
-vary:
-  wire_diameter: [2 mm, 3 mm]
-  pcl_outer_radius: [32 mm, 42 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-require:
+_TASK = """require:
   spring_stiffness: ">= 5 N.m/rad"
   holding_torque: ">= 5 N.m"
 accept:
@@ -30,9 +21,23 @@ operating_points:
   hot: {temperature: 100 degC, frequency: 1 Hz}
 solver: {starts: 1}
 """
+SHEAR = (
+    """mode: shear
+module:
+  response_criterion: softening
+  current: 1.5 A
+  stroke: 0.104 rad
+vary:
+  wire_diameter: [2 mm, 3 mm]
+  pcl_outer_radius: [32 mm, 42 mm]
+  pcl_thickness: [0.6 mm, 2 mm]
+"""
+    + _TASK
+)
 COARSE = SHEAR.replace("{starts: 1}", "{starts: 1, cells: 6, elements: 2}")
 """The first on half the cells, for what does not hang on how exact its times are: half the work."""
-COMPRESSION = """mode: compression
+COMPRESSION = (
+    """mode: compression
 module:
   response_criterion: softening
   current: 1.5 A
@@ -51,20 +56,9 @@ vary:
   wire_diameter: [2 mm, 3 mm]
   block_height: [5 mm, 13 mm]
   block_depth: [3.5 mm, 6 mm]
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  holding_torque: ">= 5 N.m"
-accept:
-  - structure_temperature_margin
-  - stiffening_structure_margin
-  - peltier_temperature_margin
-  - cold_side_temperature_margin
-minimize: {module_mass: 1, response_time: 1}
-operating_points:
-  cold: {temperature: 30 degC, frequency: 1 Hz}
-  hot: {temperature: 100 degC, frequency: 1 Hz}
-solver: {starts: 1}
 """
+    + _TASK
+)
 
 
 def written(folder: Path, **texts: str) -> list[Path]:

@@ -105,9 +105,9 @@ def _told() -> dict[str, Any]:
             for i, name in enumerate(names)
         ],
         "steps": [
-            {"text": "Deburr all parts.", "parts": ["housing"]},
-            {"text": "Lay the pad and the arc into it.", "parts": ["peltier_pad", "pcl_arc_1"]},
-            {"text": "Set the rotor, spring and link.", "parts": ["rotor", "spring_right_1", "link"]},
+            {"text": "Deburr all parts.", "parts": ["housing"], "from": "above"},
+            {"text": "Lay the pad and the arc into it.", "parts": ["peltier_pad", "pcl_arc_1"], "from": "above"},
+            {"text": "Set the rotor, spring and link.", "parts": ["rotor", "spring_right_1", "link"], "from": "below"},
         ],
         "wires": {"ring": RING, "shares": [-1.0, -0.5, 0.5, 1.0], "moved": {"spring_right": moved}},
     }  # fmt: skip

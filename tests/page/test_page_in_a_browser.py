@@ -8,7 +8,7 @@ from pathlib import Path
 
 import axe_playwright_python
 import pytest
-from conftest import Opened
+from opened_page import Opened
 
 from tvimdesign.page.page_file import MOST
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from conftest import Opened
+from opened_page import Opened
 from sample_pages import LEG_MOVED, RING
 
 VIEWER = "document.getElementById('figure-solids').viewer"

@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+from small_studies import COMPRESSION_BLOCKS
 
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
 
-SMALL = """
+SMALL = (
+    """
 mode: compression
 module:
   response_criterion: mean
@@ -23,19 +25,10 @@ module:
 vary:
   coil_diameter: [10 mm, 16 mm]
   coil_count: [4, 9]
-  pcl_outer_radius: [18 mm, 30 mm]
-  block_height: [4 mm, 14 mm]
-  block_depth: [2 mm, 8 mm]
-  vane_thickness: [2 mm, 6 mm]
-  current: [0.5 A, 2.5 A]
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  holding_torque: ">= 5 N.m"
-  peak_power: "<= 9 W"
-accept: [peltier_temperature_margin]
-minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 7, seed: 1}
 """
+    + COMPRESSION_BLOCKS
+    + "solver: {starts: 7, seed: 1}\n"
+)
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from answers import shipped_answer
 from scipy.integrate import solve_ivp
+from small_studies import FOUR_SIZES_IN_SHEAR
 from support import ROOT
 
 from tvimdesign.base.errors import InfeasibleError, InputError
@@ -17,13 +18,9 @@ from tvimdesign.solve.search import optimize
 from tvimdesign.study import Range, Study, given, read_study, read_study_text
 
 TABLE = table_for("shear")
-SMALL = """
-mode: shear
-vary:
-  wire_diameter: [1.5 mm, 3 mm]
-  coil_diameter: [12 mm, 30 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.5 A, 2 A]
+SMALL = (
+    FOUR_SIZES_IN_SHEAR
+    + """
 require:
   spring_stiffness: ">= 5 N.m/rad"
   peak_power: "<= 9 W"
@@ -31,6 +28,7 @@ require:
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 solver: {starts: 1}
 """
+)
 
 
 def _solve(study: Study) -> Solution:

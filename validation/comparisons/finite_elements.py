@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import yaml
-from fe_structure.models import model_values
+from fe_structure.models import DESIGN, designed, model_values
 
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.springs import drawn_spring, spring
@@ -61,10 +61,10 @@ def _joints() -> Mapping[str, Mapping[str, float]]:
     """What today's model says of every design in the table, by study and quantity."""
     with (VALIDATION / "fe_structure/results.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    designs: dict[str, dict[str, float]] = {row["study"]: {} for row in rows}
+    designs: dict[str, dict[str, float | str]] = {row["study"]: {} for row in rows}
     for row in rows:
-        if row["unit"] == "SI":
-            designs[row["study"]][row["quantity"]] = float(row["model"])
+        if row["unit"] in DESIGN:
+            designs[row["study"]][row["quantity"]] = designed(row["model"], row["unit"])
     return {
         study: {name: value for name, (_, value) in model_values(study, design).items()}
         for study, design in designs.items()

@@ -68,8 +68,19 @@ def solved(study: str, work: Path, fe_python: Path) -> tuple[dict[str, float], d
     if not (parts / "inputs.json").exists():
         export_parts(read_design(folder / "design.json"), parts)
     joint, spring = (found_by(name, parts, work / study / f"{name}.json", fe_python) for name in ("joint", "spring"))
-    case = case_of(study, json.loads((parts / "inputs.json").read_text()), joint)
-    return fe_values(joint, spring), case
+    inputs = json.loads((parts / "inputs.json").read_text())
+    return fe_values(joint, spring), case_of(study, inputs, varied_of(study, work), joint)
+
+
+def varied_of(study: str, work: Path) -> dict[str, float | str]:
+    """Values and records of what a study varies, of the design that was exported."""
+    return {row.quantity: row.model for row in design_of(study, work)}
+
+
+def design_of(study: str, work: Path) -> list[Row]:
+    """Rows of the design that was exported."""
+    design = json.loads((work / study / "run/design.json").read_text())
+    return design_rows(study, design["values"], design["choices"])
 
 
 def found_by(solver: str, parts: Path, found: Path, fe_python: Path) -> dict[str, float]:
@@ -85,11 +96,10 @@ def found_by(solver: str, parts: Path, found: Path, fe_python: Path) -> dict[str
 def rows_of(study: str, work: Path, fe_python: Path) -> tuple[list[Row], dict[str, Any]]:
     """The design of a study, and its model's values beside those of FE; its case of shipped.yaml."""
     fe, case = solved(study, work, fe_python)
-    values = json.loads((work / study / "run/design.json").read_text())["values"]
-    design = design_rows(study, values)
+    design = design_of(study, work)
     found = [
         Row(study, name, unit, value, fe[name])
-        for name, (unit, value) in model_values(study, {row.quantity: row.model for row in design}).items()
+        for name, (unit, value) in model_values(study, varied_of(study, work)).items()
         if name in fe
     ]
     return [*design, *found], case
@@ -104,7 +114,6 @@ def main() -> None:
     parser.add_argument("--check", action="store_true", help="hold what is found against the table, and write nothing")
     asked = parser.parse_args()
     failed = []
-    # The solver draws cut pads, and a design's row in the table is a number.
     shipped = {path.stem for path in (ROOT / "studies").glob("*.yaml")} - LEFT_OUT
     for study in asked.studies or sorted(shipped):
         try:

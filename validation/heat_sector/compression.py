@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from plane import STEFAN_BOLTZMANN, Body, Border, Material, Plane, Polymer, Pump, drawn, lines
+from plane import PAD_FILM, STEFAN_BOLTZMANN, Body, Border, Material, Plane, Polymer, Pump, drawn, lines
 
 from tvimdesign.device import Table
 
@@ -21,13 +21,10 @@ WANTED = ("pcl_area", "block_width", "pcl_mean_radius", "pcl_melting", "cold_are
 
 PAD_CONDUCTIVITY = 6.0
 """Of the pads in their plane [W/m K], the default in shear; the compression module's table does not have it."""
-PAD_FILM = 1.0 / 12.0
-"""Thickness of each side of a pad, over the pad's; assumed. Between them are the legs, which fall evenly in temperature
-and are heated evenly by the current."""
 
 
 def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
-    """The ring of a module, from its inputs in SI; `fine` multiplies the count of cells."""
+    """The ring of a module, from its inputs in SI; `fine` divides each cell into so many along either side."""
     v = {**values, **table.evaluate(values, WANTED)}
     gap, height, pad = v["running_clearance"], v["block_height"], v["peltier_thickness"]
     vane, block = 0.5 * v["vane_thickness"], 0.5 * v["vane_thickness"] + v["block_depth"]
@@ -35,15 +32,12 @@ def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
     low, high, plate = gap, gap + height, 2.0 * gap + height
     middle = 0.5 * (low + high)
 
-    def n(count: int) -> int:
-        return max(2, round(fine * count))
-
-    x = lines((0.0, vane, n(6), 0.85), (vane, block, n(24), 1.0), (block, block + film, n(2), 1.0),
-              (block + film, block + pad - film, n(5), 1.0), (block + pad - film, block + pad, n(2), 1.0),
-              (block + pad, end, n(6), 1.3))  # fmt: skip
-    y = lines((-v["floor_thickness"], 0.0, n(7), 0.75), (0.0, low, n(5), 1.0), (low, middle, n(9), 1.3),
-              (middle, high, n(9), 1.0 / 1.3), (high, plate, n(5), 1.0),
-              (plate, plate + v["rotor_thickness"], n(7), 1.3))  # fmt: skip
+    x = lines((0.0, vane, 6, 0.85), (vane, block, 24, 1.0), (block, block + film, 2, 1.0),
+              (block + film, block + pad - film, 5, 1.0), (block + pad - film, block + pad, 2, 1.0),
+              (block + pad, end, 6, 1.3), fine=fine)  # fmt: skip
+    y = lines((-v["floor_thickness"], 0.0, 7, 0.75), (0.0, low, 5, 1.0), (low, middle, 9, 1.3),
+              (middle, high, 9, 1.0 / 1.3), (high, plate, 5, 1.0),
+              (plate, plate + v["rotor_thickness"], 7, 1.3), fine=fine)  # fmt: skip
 
     def what(a: float, b: float) -> str:
         if b < 0.0:
@@ -107,8 +101,8 @@ def _with_borders(found: Plane, v: Mapping[str, Any]) -> Plane:
         found.borders.append(Border(last, shown, v["cold_side_coefficient"], v["surface_emissivity"]))
     else:
         found.borders.append(Border(last, shown, v["sink_contact"], body=4))
-    found.borders.append(Border(*found.facing("plate", "above"), v["rotor_coefficient"], v["surface_emissivity"]))
-    found.borders.append(Border(*found.facing("floor", "below"), v["housing_coefficient"], v["surface_emissivity"]))
+    found.meets("plate", "above", v["rotor_coefficient"], v["surface_emissivity"])
+    found.meets("floor", "below", v["housing_coefficient"], v["surface_emissivity"])
     # Inner and outer sides of what stands in the chamber, which give their heat to the housing around it.
     sides = v["housing_coefficient"] + 4.0 * STEFAN_BOLTZMANN * v["surface_emissivity"] * v["ambient_temperature"] ** 3
     for name in ("layer", "hot", "legs", "cold", "vane"):

@@ -17,6 +17,9 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, diags
 from scipy.sparse.linalg import splu
 
+PAD_FILM = 1.0 / 12.0
+"""Thickness of each side of a pad, over the pad's; assumed. Between them are the legs, which fall evenly in temperature
+and are heated evenly by the current."""
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
 STEFAN_BOLTZMANN = 5.670374419e-8
@@ -99,6 +102,8 @@ class Border:
     emissivity: float = 0.0
     body: int | None = None
     """Which body takes the heat; the air where none."""
+    behind: Array | float = 0.0
+    """Resistance of half of each cell, which heat passes to its face [m2 K/W]."""
 
 
 @dataclass
@@ -156,6 +161,13 @@ class Plane:
         free = own[padded[self.i[own] + 1 + di, self.j[own] + 1 + dj] < 0]
         return free, (self.dy if di else self.dx)[free]
 
+    def meets(self, name: str, side: str, coefficient: float, emissivity: float = 0.0, body: int | None = None) -> None:
+        """Add a border of all free faces of a solid at a side; heat comes to them through half of their cells."""
+        cells, areas = self.facing(name, side)
+        deep, own = (self.dx, "along") if side in ("left", "right") else (self.dy, "up")
+        behind = 0.5 * deep[cells] / getattr(self.materials[name], own)
+        self.borders.append(Border(cells, areas, coefficient, emissivity, body, behind))
+
     def _conductivity(self, t: Array) -> tuple[Array, Array]:
         along, up = np.empty(self.count), np.empty(self.count)
         for name, material in self.materials.items():
@@ -176,7 +188,8 @@ class Plane:
         for border in self.borders:
             if border.body is not None:
                 at = np.full(len(border.cells), self.count + border.body)
-                found.append((border.cells, at, border.coefficient * border.areas))
+                through = border.coefficient / (1.0 + border.coefficient * border.behind)
+                found.append((border.cells, at, through * border.areas))
         a, b, g = (np.concatenate(part) for part in zip(*found, strict=True))
         return a, b, g
 
@@ -204,7 +217,8 @@ class Plane:
             slope[own] += share * sign * p.seebeck * p.current
         for border in self.borders:
             if border.body is None:
-                self._lose(heat, slope, t, border.cells, border.areas, border.coefficient, border.emissivity)
+                lossy = (border.coefficient, border.emissivity, border.behind)
+                self._lose(heat, slope, t, border.cells, border.areas, *lossy)
         for k, body in enumerate(self.bodies):
             at = np.array([self.count + k])
             self._lose(heat, slope, t, at, np.array([body.surface]), body.coefficient, body.emissivity)
@@ -217,12 +231,15 @@ class Plane:
         return self.volume[own] / float(np.max(lines[at + 1]) - np.min(lines[at]))
 
     def _lose(
-        self, heat: Array, slope: Array, t: Array, at: Whole, areas: Array, coefficient: float, emissivity: float
-    ) -> None:
+        self, heat: Array, slope: Array, t: Array, at: Whole, areas: Array, coefficient: float, emissivity: float,
+        behind: Array | float = 0.0,
+    ) -> None:  # fmt: skip
         warm, air = t[at] + KELVIN, self.ambient + KELVIN
-        lost = coefficient * (warm - air) + emissivity * STEFAN_BOLTZMANN * (warm**4 - air**4)
-        np.add.at(heat, at, -areas * lost)
-        np.add.at(slope, at, -areas * (coefficient + 4.0 * emissivity * STEFAN_BOLTZMANN * warm**3))
+        shine = emissivity * STEFAN_BOLTZMANN
+        outside = coefficient + shine * (warm**2 + air**2) * (warm + air)
+        open_areas = areas / (1.0 + outside * behind)
+        np.add.at(heat, at, -open_areas * outside * (warm - air))
+        np.add.at(slope, at, -open_areas * (coefficient + 4.0 * shine * warm**3))
 
     def _content(self, t: Array) -> tuple[Array, Array]:
         """Heat of each cell and body [J], and its derivative."""
@@ -264,11 +281,14 @@ class Plane:
         raise RuntimeError(f"a step of {dt} s did not settle: last change {np.max(np.abs(change)):.3g} K")
 
 
-def lines(*parts: tuple[float, float, int, float]) -> Array:
-    """Ends of cells: of each part from, to, how many cells, how much wider each is than the one before."""
+def lines(*parts: tuple[float, float, int, float], fine: float = 1.0) -> Array:
+    """Ends of cells: of each part from, to, how many cells, how much wider each is than the one before.
+
+    With `fine` each cell is divided into so many, which widen as the cells did: wide ones are divided as narrow ones.
+    """
     ends: list[float] = [parts[0][0]]
     for start, end, count, ratio in parts:
-        widths = ratio ** np.arange(count)
+        widths = ratio ** (np.arange(max(1, round(fine * count))) / fine)
         ends.extend(start + (end - start) * np.cumsum(widths) / widths.sum())
     return np.array(ends)
 

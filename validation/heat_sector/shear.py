@@ -2,7 +2,8 @@
 
 A strip of half the width `half_width` (area of the arcs over the length of their edges) with plate and floor beside it,
 as drawn: the pads lie in pockets of the floor, on a ledge around their window; the layer's free side meets the air of
-the gap. Nothing passes the middle of the arc. Everything for one metre of edge.
+the gap. The contact of the pads' edges and their pockets' walls is a slot of still air as wide as conducts alike.
+Nothing passes the middle of the arc. Everything for one metre of edge.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from plane import Array, Body, Border, Material, Plane, Polymer, Pump, drawn, lines
+from plane import PAD_FILM, Array, Body, Border, Material, Plane, Polymer, Pump, drawn, lines
 
 from tvimdesign.device import Table
 
@@ -113,41 +114,45 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
 
 
 def plane(case: Case, fine: float = 1.0) -> Plane:
-    """The strip of a case; `fine` multiplies the count of cells."""
+    """The strip of a case; `fine` divides each cell into so many along either side."""
     c, w = case, case.half_width
-    inside, end, half = c.window_share * w, w + c.beside, 0.5 * c.pad_depth
+    inside, end, film = c.window_share * w, w + c.beside, PAD_FILM * c.pad_depth
     top, plate = c.layer_depth, c.layer_depth + c.plate_depth
 
-    def n(count: int) -> int:
-        return max(2, round(fine * count))
-
-    # Narrow towards the corner where hot pad, layer, floor and air of the gap meet: heat crowds there.
-    x = lines((0.0, inside, n(5), 0.8), (inside, w, n(13), 0.62), (w, end, n(20), 1.4))
-    y = lines((-c.floor_depth, -c.pad_depth, n(5), 0.85), (-c.pad_depth, -half, n(2), 1.0), (-half, 0.0, n(8), 0.55),
-              (0.0, top, n(32), 1.07), (top, plate, n(8), 1.15))  # fmt: skip
+    slot = c.air_conductivity / c.pad_edge_contact
+    # Narrow towards the edges of pad, layer and ledge and the corner of the floor, where heat crowds.
+    rim = inside + 0.3 * (w - inside)
+    x = lines((0.0, inside, 6, 0.6), (inside, rim, 6, 1.6), (rim, w, 10, 0.62), (w, w + 0.5 * slot, 5, 1.5),
+              (w + 0.5 * slot, w + slot, 5, 1.0 / 1.5), (w + slot, end, 22, 1.3), fine=fine)  # fmt: skip
+    low = 0.125 * top
+    y = lines((-c.floor_depth, -c.pad_depth, 9, 0.75), (-c.pad_depth, -c.pad_depth + film, 2, 1.5),
+              (-c.pad_depth + film, -film, 6, 1.0), (-film, 0.0, 4, 0.6), (0.0, low, 8, 1.5), (low, top, 24, 1.0),
+              (top, plate, 8, 1.15), fine=fine)  # fmt: skip
 
     def what(a: float, b: float) -> str | None:
         if b > top:
             return "plate"
-        if a > w:
-            return "air" if b > 0.0 else "floor"
         if b > 0.0:
-            return "layer"
+            return "air" if a > w else "layer"
+        if a > w:
+            return "slot" if b > -c.pad_depth and a < w + slot else "floor"
         if b < -c.pad_depth:
             return "ledge" if a > inside else None
-        return "hot" if b > -half else "cold"
+        return "hot" if b > -film else "legs" if b > film - c.pad_depth else "cold"
 
     solid = Material(c.structure_conductivity, c.structure_conductivity, c.structure_heat_capacity)
     pad = Material(c.pad_conductivity, 100.0, c.pad_heat_capacity / c.pad_depth)
     facing = c.gap * c.emissivity / (2.0 - c.emissivity)
     air = Material(c.air_conductivity, c.air_conductivity, 0.0, facing)
     contacts = {
-        frozenset(("hot", "cold")): c.conductance, frozenset(("hot", "layer")): c.hot_contact,
-        frozenset(("layer", "plate")): c.rotor_contact, frozenset(("hot", "floor")): c.pad_edge_contact,
-        frozenset(("cold", "floor")): c.pad_edge_contact,
+        frozenset(("hot", "layer")): c.hot_contact, frozenset(("layer", "plate")): c.rotor_contact,
     }  # fmt: skip
+    through = c.conductance * (1.0 - 2.0 * PAD_FILM) * c.pad_depth
+    legs = Material(c.pad_conductivity, through, pad.heat_capacity)
+    parts = {"plate": solid, "floor": solid, "ledge": solid, "hot": pad, "legs": legs, "cold": pad, "air": air,
+             "slot": Material(c.air_conductivity, c.air_conductivity, 0.0)}  # fmt: skip
     found = Plane(
-        x, y, drawn(x, y, what), {"plate": solid, "floor": solid, "ledge": solid, "hot": pad, "cold": pad, "air": air},
+        x, y, drawn(x, y, what), parts,
         Polymer(c.density, c.conductivity_solid, c.conductivity_melt, c.specific_heat_solid, c.specific_heat_melt,
                 c.latent_heat, c.melting_start, c.melting_end),
         Pump(c.seebeck, c.resistance, c.conductance, c.current), True, contacts, c.ambient,
@@ -168,12 +173,10 @@ def _borders(found: Plane, c: Case) -> None:
         found.borders.append(Border(cold, share * below, c.cold_coefficient, c.emissivity))
     for name, side, coefficient in (("plate", "above", c.rotor_coefficient), ("floor", "below", c.floor_coefficient),
                                     ("ledge", "below", c.floor_coefficient)):  # fmt: skip
-        found.borders.append(Border(*found.facing(name, side), coefficient, c.emissivity))
+        found.meets(name, side, coefficient, c.emissivity)
     ends = (("plate", c.core_conductance / c.plate_depth, 0), ("floor", c.housing_conductance / c.floor_depth, 1))
     for name, coefficient, body in ends:
-        cells, areas = found.facing(name, "right")
-        at_end = found.i[cells] == len(found.x) - 2
-        found.borders.append(Border(cells[at_end], areas[at_end], coefficient, body=body))
+        found.meets(name, "right", coefficient, body=body)
 
 
 def columns(found: Plane, name: str) -> tuple[Array, Array]:

@@ -174,3 +174,10 @@ def test_every_input_says_where_its_default_comes_from() -> None:
         assert row.record or row.lower <= row.default <= row.upper
 
     of_every(TABLE.inputs, check)
+
+
+def test_what_a_phase_supplies_depends_on_its_current_and_on_those_before_it() -> None:
+    # A yield counts a limit where something that spreads is behind it; the source spreads by 1 %.
+    assert "current" in TABLE.ancestors("current_margin")
+    assert "cooling_current" not in TABLE.ancestors("current_margin")
+    assert {"current", "cooling_current"} <= TABLE.ancestors("cooling_current_margin")

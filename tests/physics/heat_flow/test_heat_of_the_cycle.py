@@ -10,8 +10,6 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
-from scipy.sparse import lil_matrix
-from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import crystallization, polymer
@@ -139,34 +137,6 @@ def test_a_wall_before_a_gap_takes_its_share() -> None:
     radiated = 4.0 * STEFAN_BOLTZMANN * 0.01 / (2.0 / 0.9 - 1.0) * AMBIENT**3
     behind = lumps.link_conductance(lumps.behind(gap, 0.5, AMBIENT), AMBIENT, AMBIENT)
     assert behind == pytest.approx(1.0 / (1.0 / (0.28 + radiated) + 1.0 / 0.5), rel=1e-12)
-
-
-def test_the_end_of_a_gap_gives_its_walls_what_finite_differences_find() -> None:
-    # A gap 40 times as long as high, its end warmer by 1 at the lower wall and by 0 at the upper one. A grid of n
-    # cells over the height has sines to n; the wall's sum to that is finer by a constant than the grid's.
-    found = {n: _end_of_gap(n) for n in (40, 80)}
-    assert found[80][1] == pytest.approx(lumps.gap_end(1.0)[1], rel=0.02)
-    more = lumps.gap_end(160.0)[0] - lumps.gap_end(80.0)[0]
-    assert found[80][0] - found[40][0] == pytest.approx(more, rel=0.02)
-
-
-def _end_of_gap(n: int) -> tuple[float, float]:
-    """Heat into the lower and upper wall of a gap with n cells over its height, by finite volumes."""
-    long = 4 * n
-    number = np.arange(long * n).reshape(long, n)
-    matrix, right = lil_matrix((long * n, long * n)), np.zeros(long * n)
-    middle = (np.arange(n) + 0.5) / n
-    for i, j in np.ndindex(long, n):
-        for k, m in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
-            inside = 0 <= m < n and 0 <= k < long
-            conductance = 1.0 if inside else 0.0 if k == long else 2.0
-            matrix[number[i, j], number[i, j]] += conductance
-            if inside:
-                matrix[number[i, j], number[k, m]] -= conductance
-            elif k < 0:
-                right[number[i, j]] += conductance * (1.0 - middle[j])
-    warm = spsolve(matrix.tocsc(), right).reshape(long, n)
-    return float(2.0 * np.sum(warm[:, 0])), float(2.0 * np.sum(warm[:, -1]))
 
 
 def test_links_heat_what_they_touch(bare_stack: Callable[..., heat.Stack]) -> None:

@@ -55,7 +55,7 @@ def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
     # A mean over the first millimetre above the sharp corner, per newton metre.
     mm, _, _ = read(SHIPPED[name])
     mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], foot_rise(mm))
-    assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=0.11)
+    assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=0.08)
 
 
 @pytest.mark.parametrize("name", JOINTS)
@@ -91,10 +91,24 @@ def coverage(mm: dict[str, float]) -> float:
     return mm["arc_count"] * mm["arc_span"] / (2.0 * np.pi)
 
 
-def footed_floor(mm: dict[str, float], youngs: float, shear: float, feet: int) -> float:
+def footed_floor(case: dict[str, Any]) -> float:
+    """Floor of a case from the PCL's rim to the ground."""
+    mm, youngs, shear = read(case)
     ring = structure.ring_stiffness(shear, mm["floor_thickness"], mm["pcl_outer_radius"], mm["placement_radius"])
     foot = structure.foot_stiffness(youngs, shear, mm["mount_boss_radius"], 0.5 * mm["mount_hole"], mm["foot_height"])
-    return float(structure.footed_floor_stiffness(ring, foot, feet, mm["placement_radius"]))
+    between = np.pi * mm["placement_radius"] / case["feet"]
+    around = case["poissons_ratio"], mm["floor_thickness"], mm["mount_boss_radius"], between
+    spot = structure.spot_stiffness(shear, *around)
+    return float(structure.footed_floor_stiffness(ring, spot, foot, case["feet"], mm["placement_radius"]))
+
+
+def lap(case: dict[str, Any]) -> tuple[float, float, float]:
+    """Layer and pads per area, and the sheets on both sides."""
+    mm, _, shear = read(case)
+    pad, pcl = case["pad_shear_modulus"] * 1e9, case["frozen_shear_modulus"] * 1e9
+    sheet = np.sqrt(coverage(mm)) / shear
+    layer = 1.0 / (mm["pcl_thickness"] / pcl + mm["peltier_thickness"] / pad)
+    return layer, sheet / mm["rotor_thickness"], sheet / mm["floor_web"]
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -107,9 +121,13 @@ def test_the_plate_is_as_stiff_as_in_fe(name: str) -> None:
 
 @pytest.mark.parametrize("name", SHEAR)
 def test_the_floor_on_its_feet_is_as_stiff_as_in_fe(name: str) -> None:
-    mm, youngs, shear = read(SHIPPED[name])
-    found = footed_floor(mm, youngs, shear, SHIPPED[name]["feet"])
-    assert found == pytest.approx(SHIPPED[name]["found"]["housing"], rel=0.11)
+    case = SHIPPED[name]
+    mm, _, shear = read(case)
+    ring = structure.ring_stiffness(shear, mm["floor_web"], middle(mm), mm["pcl_outer_radius"])
+    lag = shear_lag.lag(*lap(case), mm["pcl_outer_radius"] - mm["pcl_inner_radius"])
+    below = structure.ring_under_arcs_stiffness(ring, coverage(mm), lag)
+    found = structure.series(below, footed_floor(case))
+    assert found == pytest.approx(case["found"]["housing"], rel=0.085)
 
 
 @pytest.mark.parametrize(("name", "rel"), [("printed_shear", 0.16), ("milled_shear", 0.25)])
@@ -151,14 +169,11 @@ def test_pads_over_windows_add_the_compliance_they_do_in_fe(name: str) -> None:
 def test_the_layer_s_edge_bears_what_it_does_in_fe(name: str) -> None:
     # Highest over two millimetres of edge, a mean over one thickness in from it and over its height.
     case = SHIPPED[name]
-    mm, _, shear = read(case)
-    inner, outer, held = mm["pcl_inner_radius"], mm["pcl_outer_radius"], held_share(case, mm)
-    pad, pcl = case["pad_shear_modulus"] * 1e9, case["frozen_shear_modulus"] * 1e9
-    layer = 1.0 / (mm["pcl_thickness"] / pcl + mm["peltier_thickness"] / pad)
-    sheets = [np.sqrt(coverage(mm)) / (shear * mm[name]) for name in ("rotor_thickness", "floor_web")]
-    rise = shear_lag.arc_edge_rise(layer, *sheets, outer - inner, held)
+    mm, _, _ = read(case)
+    inner, outer = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
+    rise = shear_lag.arc_edge_rise(*lap(case), (inner, outer), held_share(case, mm))
     polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
-    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.13)
+    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.08)
 
 
 @pytest.mark.parametrize("name", BLOCKS)
@@ -169,13 +184,14 @@ def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     size = mm["rotor_thickness"], mm["core_radius"], mm["pcl_inner_radius"], middle(mm)
     hanging = mm["block_width"], mm["vane_thickness"], mm["block_height"], free
     standing = 2.0 * mm["slot_web"], mm["housing_vane_thickness"], mm["block_height"], free
-    hangs = arm * vane.stiffness(youngs, shear, *hanging, block, vane.on_plate(mm["rotor_thickness"]))
-    stands = arm * vane.stiffness(youngs, shear, *standing, block, vane.on_floor(mm["floor_thickness"]))
+    plate = vane.on_plate(mm["rotor_thickness"], vane.strip_beside(middle(mm), mm["vane_count"], hanging[1]))
+    ground = vane.on_floor(mm["floor_thickness"], vane.strip_beside(middle(mm), mm["vane_count"], standing[1]))
+    hangs = arm * vane.stiffness(youngs, shear, *hanging, block, plate)
+    stands = arm * vane.stiffness(youngs, shear, *standing, block, ground)
     rotor = structure.series(fe["plate"], fe["rotor_vanes"])
     housing = structure.series(fe["housing"], fe["housing_vanes"])
-    assert structure.series(structure.plate_stiffness(shear, *size), hangs) == pytest.approx(rotor, rel=0.11)
-    floor = footed_floor(mm, youngs, shear, SHIPPED[name]["feet"])
-    assert structure.series(floor, stands) == pytest.approx(housing, rel=0.095)
+    assert structure.series(structure.plate_stiffness(shear, *size), hangs) == pytest.approx(rotor, rel=0.04)
+    assert structure.series(footed_floor(SHIPPED[name]), stands) == pytest.approx(housing, rel=0.065)
 
 
 @pytest.mark.parametrize("name", LINKS)
@@ -197,3 +213,18 @@ def test_a_foot_between_two_floors_moves_as_timoshenkos_beam() -> None:
     # Steel pin of 10 mm, 300 mm long, both ends built in: 12 E I/h^3 = 4.494e4 N/m; the shear adds under 1 %.
     found = structure.foot_stiffness(206e9, 79e9, 5e-3, 0.0, 300e-3)
     assert found == pytest.approx(12.0 * 206e9 * 4.9087e-10 / 27e-3, rel=0.01)
+
+
+def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> None:
+    # Flamant, along the edge: u = 2 F ln(l/r)/(pi E h) but for what does not grow with l. The closed form is 14 %
+    # stiffer at nu 0.3, and half as stiff as what a force within a sheet meets, (3 - nu)(1 + nu) F ln(l/r)/(4 pi E h).
+    youngs, nu, h, spot, reach = 2.1e9, 0.3, 4e-3, 3.5e-3, 30e-3
+    found = structure.spot_stiffness(structure.shear_modulus(youngs, nu), nu, h, spot, reach)
+    assert found == pytest.approx(np.pi * youngs * h / (2.0 * np.log(reach / spot)), rel=0.15)
+    whole = 4.0 * np.pi * youngs * h / ((3.0 - nu) * (1.0 + nu) * np.log(reach / spot))
+    assert found == pytest.approx(0.5 * whole, rel=1e-9)
+
+
+def test_a_ring_below_stiff_sheets_is_the_ring_s_share_and_below_soft_ones_stiffer() -> None:
+    assert structure.ring_under_arcs_stiffness(1000.0, 0.6, 1e-4) == pytest.approx(600.0, rel=1e-6)
+    assert structure.ring_under_arcs_stiffness(1000.0, 0.6, 3.0) == pytest.approx(1800.0, rel=0.01)

@@ -54,3 +54,20 @@ def test_a_plate_let_into_a_sector_covers_what_points_count(thickness: float) ->
     r = np.hypot(x, y)
     counted = np.mean((r > inner) & (r < outer)) * outer * thickness
     assert radial_strip(thickness, inner, outer) == pytest.approx(counted, rel=1e-3)
+
+
+def test_a_root_s_moment_turns_the_plate_as_it_does_a_beam_on_which_six_alike_stand() -> None:
+    # Slope and no deflection at each vane, the ends of the beam joined: slope-deflection equations, 2 E I/L (2 a + b).
+    count, radius, height, thickness = 6, 18.5e-3, 4e-3, 4e-3
+    inertia, span = WIDTH * height**3 / 12.0, 2.0 * np.pi * radius / count - thickness
+    beam = (
+        2.0
+        * YOUNGS
+        * inertia
+        / span
+        * (4.0 * np.eye(count) + np.roll(np.eye(count), 1, 0) + np.roll(np.eye(count), -1, 0))
+    )
+    slope = np.linalg.solve(beam, np.ones(count))[0]
+    footing = vane.Footing(height, vane.strip_beside(radius, count, thickness), 0.0, 0.0, 2.0)
+    found = vane.stiffness(YOUNGS, SHEAR, WIDTH, thickness, HEIGHT, 0.4e-3, 0.0, footing)
+    assert 1.0 / found == pytest.approx(slope * (0.4e-3 + 0.5 * HEIGHT) ** 2, rel=1e-9)

@@ -43,6 +43,7 @@ def test_one_start_of_thirty_is_enough_for_what_check_refuses(
     (limit,) = reported["conflict_set"]["cannot_hold_together"]
     assert limit["limit"] == "envelope_diameter <= 120 mm"
     assert "envelope_diameter" in (out / "summary.txt").read_text()
+    assert "NO DESIGN FOUND" in (out / "report.html").read_text()
     assert (out / "study.yaml").read_text() == STUDY
     said = json.loads(capsys.readouterr().out)
     jsonschema.validate(said, results_schema())
@@ -65,6 +66,7 @@ def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(
     jsonschema.validate(reported, results_schema())
     assert (reported["status"], reported["reason"]) == ("infeasible", "no start keeps it")
     assert reported["reason"] in (out / "summary.txt").read_text()
+    assert reported["reason"] in (out / "report.html").read_text()
     assert json.loads((out / "study.resolved.json").read_text())["require"][0]["output"] == "envelope_diameter"
     manifest = json.loads((out / "manifest.json").read_text())
     assert manifest["status"] == "infeasible"

@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 from bonmin import best_by_bonmin
 from choosing import LISTED, by_brute_force, listed
+from small_studies import COMPRESSION_BLOCKS
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
@@ -31,7 +32,8 @@ WEIGHT_SETS = [
     "{envelope_volume: 1, response_time: 4}",
     "{module_mass: 1, switch_energy: 1}",
 ]
-COMPRESSION = """
+COMPRESSION = (
+    """
 mode: compression
 module: {response_criterion: mean, core_radius: 8 mm, link_dowel: iso_8734_2, rotor_rim: 8 mm, pcl_inner_radius: 13 mm,
          block_height: 11 mm}
@@ -40,19 +42,10 @@ vary:
   coil_count: {choose: [4, 4.5, 5]}
   vane_count: {from: 5, to: 6}
   coil_diameter: [10 mm, 16 mm]
-  pcl_outer_radius: [18 mm, 30 mm]
-  block_height: [4 mm, 14 mm]
-  block_depth: [2 mm, 8 mm]
-  vane_thickness: [2 mm, 6 mm]
-  current: [0.5 A, 2.5 A]
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  holding_torque: ">= 5 N.m"
-  peak_power: "<= 9 W"
-accept: [peltier_temperature_margin]
-minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 3, cells: 6, elements: 2}
 """
+    + COMPRESSION_BLOCKS
+    + "solver: {starts: 3, cells: 6, elements: 2}\n"
+)
 
 
 def _solve(study: Study) -> Solution:

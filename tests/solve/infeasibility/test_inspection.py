@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from small_studies import FOUR_SIZES_IN_SHEAR
 
 from tvimdesign.device import table_for
 from tvimdesign.solve.infeasibility.inspection import DERIVATIVE_TOLERANCE, Inspection
@@ -11,13 +12,9 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study_text
 
 TABLE = table_for("shear")
-TIMED = """
-mode: shear
-vary:
-  wire_diameter: [1.5 mm, 3 mm]
-  coil_diameter: [12 mm, 30 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.5 A, 2 A]
+TIMED = (
+    FOUR_SIZES_IN_SHEAR
+    + """
 require:
   spring_stiffness: ">= 2 N.m/rad"
   peak_power: "<= 12 W"
@@ -26,6 +23,7 @@ require:
 minimize: {module_mass: 1, response_time: 1}
 solver: {starts: 1, cells: 6, elements: 2}
 """
+)
 
 
 def _study(text: str) -> Study:

@@ -34,7 +34,7 @@ def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], place
             for name in placed
         ],
         "steps": [
-            {"text": step.text, "parts": _named(step.place, list(placed))}
+            {"text": step.text, "parts": _named(step.place, list(placed)), "from": _side(step.place)}
             for step in written_steps(design, dims, items)
         ],
         "wires": {"ring": RING, "shares": SHARES, "moved": {kind: _moved(dims, kind) for kind in SPRINGS}},
@@ -53,6 +53,11 @@ def _part(item: Item) -> dict[str, Any]:
 def _named(place: Sequence[Mapping[str, str]], names: Sequence[str]) -> list[str]:
     """The parts that come into their place, in order."""
     return [name for one in place for name in names if one["part"] in (name, kind_of(name))]
+
+
+def _side(place: Sequence[Mapping[str, str]]) -> str:
+    """The side that the last of them comes from; none where nothing comes."""
+    return place[-1]["from"] if place else ""
 
 
 def _moved(dims: Dimensions, kind: str) -> list[list[float]]:

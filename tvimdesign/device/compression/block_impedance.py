@@ -105,8 +105,9 @@ def rotor_vane_stiffness(
     frozen_block_stiffness: Scalar,
 ) -> Scalar:
     """Stiffness of the rotor's vanes about the axis [N*m/rad], and of the plate under their roots."""
+    footing = vane.on_plate(rotor_thickness, vane.strip_beside(pcl_mean_radius, vane_count, vane_thickness))
     one = vane.stiffness(structure_youngs_modulus, structure_shear_modulus, block_width, vane_thickness, block_height,
-                         running_clearance, frozen_block_stiffness, vane.on_plate(rotor_thickness))  # fmt: skip
+                         running_clearance, frozen_block_stiffness, footing)  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
 
 
@@ -139,9 +140,10 @@ def housing_vane_stiffness(
 
     Of the vanes what stands on either side of their slots.
     """
+    footing = vane.on_floor(floor_thickness, vane.strip_beside(pcl_mean_radius, vane_count, housing_vane_thickness))
     one = vane.stiffness(
         structure_youngs_modulus, structure_shear_modulus, vane_webs, housing_vane_thickness, block_height,
-        running_clearance, frozen_block_stiffness, vane.on_floor(floor_thickness),
+        running_clearance, frozen_block_stiffness, footing,
     )  # fmt: skip
     return vane_count * one * pcl_mean_radius**2
 
@@ -156,6 +158,12 @@ def core_foot_rise(core_radius: Scalar, rotor_thickness: Scalar) -> Scalar:
 def driven_share() -> Scalar:
     """Share of the circle on which the plate drives the PCL [1]: all of it, its vanes' roots are counted with them."""
     return 1.0
+
+
+@quantities.helper()
+def under_arcs_compliance() -> Scalar:
+    """What the floor gives below the PCL [rad/(N*m)]: nothing, it is counted with the vanes that stand on it."""
+    return 0.0
 
 
 @quantities.helper()

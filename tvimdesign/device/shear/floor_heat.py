@@ -12,17 +12,20 @@ import itertools
 
 import numpy as np
 
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link
+from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
 UPPER, LOWER = (0, 1, 2), (3, 4, 5)
 """Places of the strips' bodies, from the pockets' walls on."""
 LEDGES, CORNER, HOUSING = 6, 7, 8
+LEGS = ("legs", 0)
 
 
 @quantities.helper()
@@ -95,6 +98,7 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 @quantities.helper()
 def stack_links(
+    heater_form: str,
     pad_edge: Scalar,
     pcl_area: Scalar,
     cold_area: Scalar,
@@ -104,16 +108,24 @@ def stack_links(
     floor_web: Scalar,
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
-    """From the pads' edges into the walls of their pockets, and by their cold sides through the ledges."""
-    first, ledge = 0.5 * STRIP[0] * beside_area / edge_length, 0.5 * (pcl_area - cold_area) / edge_length
+    """From the pads' edges into the walls of their pockets, and by their cold sides through the ledges.
+
+    A pad's upper half is on average a quarter colder than its hot side, as the legs between its sides fall evenly: half
+    of what it loses comes from that side, half from the legs' mean. So it is with its lower half. Tiles stand in air.
+    """
+    first, ledge = 0.5 * STRIP[0] * beside_area / edge_length, (pcl_area - cold_area) / edge_length
     wall = lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / first)
-    onto = 3.0 * structure_conductivity * (pcl_area - cold_area) / floor_web
-    onward = structure_conductivity * floor_web * edge_length / (ledge + first)
+    onto, to_root = (way / (structure_conductivity * edge_length) for way in lumps.ledge_ways(ledge / floor_web))
+    beyond = first / (structure_conductivity * floor_web * edge_length)
+    from_legs = 0.5 if heater_form == CUT else 0.0
+    upper, lower = ("around", CORNER), ("around", UPPER[0])
+    rims = [Link(side, half, (1.0 - from_legs) * wall) for side, half in ((("hot", 0), upper), (("cold", 0), lower))]
+    if from_legs:
+        rims += [Link(LEGS, half, from_legs * wall) for half in (upper, lower)]
     return (
-        Link(("hot", 0), ("around", CORNER), wall),
-        Link(("cold", 0), ("around", UPPER[0]), wall),
-        Link(("cold", 0), ("around", LEDGES), onto),
-        _link(LEDGES, LOWER[0], onward),
+        *rims,
+        Link(("cold", 0), ("around", LEDGES), 1.0 / onto),
+        _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)),
     )
 
 
@@ -122,17 +134,24 @@ def side_links(
     edge_length: Scalar,
     pcl_thickness: Scalar,
     pcl_conductivity_melt: Scalar,
-    hot_contact: Scalar,
+    pad_edge_contact: Scalar,
     air_conductivity: Scalar,
+    surface_emissivity: Scalar,
+    ambient_temperature: Scalar,
+    pcl_melting: polymer.Melting,
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
     """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
 
-    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner.
+    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. The gap
+    conducts better up than along, as its faces radiate, here as where the PCL is molten: it is an even one of the mean
+    conductivity sqrt(k_x k_y), x stretched by sqrt(k_y/k_x). The contact of the pads' edges is a slot of still air.
     """
-    finest = lumps.CORNER * pcl_thickness * hot_contact / (np.pi * pcl_conductivity_melt)
-    near, far = lumps.gap_end(finest)
-    through = edge_length / (1.0 / air_conductivity + 1.0 / pcl_conductivity_melt)
+    across = lumps.air_gap(1.0, pcl_thickness, air_conductivity, surface_emissivity, ("hot", 0), ("around", CORNER))
+    up = pcl_thickness * lumps.link_conductance(across, pcl_melting.end, ambient_temperature)
+    evenly = np.sqrt(air_conductivity * up)
+    near, far = lumps.gap_end(evenly / (pad_edge_contact * pcl_thickness))
+    through = edge_length / (1.0 / evenly + 1.0 / pcl_conductivity_melt)
     corner = structure_conductivity * edge_length * lumps.corner_shape(near)
     return (
         Link(("hot", 0), ("around", CORNER), lumps.in_series(near * through, corner)),

@@ -67,9 +67,17 @@ def beside_area(rotor_radius: Scalar, pcl_area: Scalar) -> Scalar:
 
 
 @quantities.helper()
-def core_share() -> Scalar:
-    """What of the conductance to the core begins at the last body of the plate: all of it."""
-    return 1.0
+def core_share(
+    core_and_link: lumps.Lump,
+    beside_area: Scalar,
+    edge_length: Scalar,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+) -> Scalar:
+    """What of the conductance to the core is left from the mean of the plate's last body, two thirds of it behind."""
+    across = structure_conductivity * rotor_thickness * edge_length**2 / beside_area
+    onward = 2.0 / 3.0 * lumps.STRIP[-1] * core_and_link.conductance / across
+    return 1.0 / (1.0 + onward)
 
 
 @quantities.helper()
@@ -91,6 +99,7 @@ def rotor_beside(
         rotor_thickness * structure_density * structure_specific_heat,
         sheet * edge_length**2 / beside_area,
         lumps.Surface(1.0, rotor_coefficient, surface_emissivity),
+        mean_of_last=1.0 / 3.0,
     )
     return (first._replace(conductance=lumps.in_series(sheet * to_edge, first.conductance)), *others)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -187,17 +187,26 @@ class Table:
         return {}
 
     def ancestors(self, name: str) -> frozenset[str]:
-        """Every quantity, by base name, that the named one depends on."""
+        """Every quantity, by base name, that the named one depends on; the input that is a phase's current included."""
         if name in self._ancestors:
             return self._ancestors[name]
         seen: set[str] = set()
         todo = [name.partition("@")[0]]
         while todo:
             quantity = self.by_name[todo.pop()]
-            for need in quantity.needs if isinstance(quantity, Output) else ():
+            for need in (*quantity.needs, *self._currents(quantity)) if isinstance(quantity, Output) else ():
                 base = need.partition("@")[0]
                 if base not in seen and base not in NOT_QUANTITIES:
                     seen.add(base)
                     todo.append(base)
         found = self._ancestors[name] = frozenset(seen)
         return found
+
+    def _currents(self, quantity: Output) -> Iterator[str]:
+        """The inputs that are the current of a supplied quantity's phase, and of those before it."""
+        following = quantity.phase if isinstance(quantity, Supplied) else None
+        while following:
+            phase = self.phase(following)
+            if phase.current_input in self.by_name:
+                yield phase.current_input
+            following = phase.after

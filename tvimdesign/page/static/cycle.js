@@ -1,5 +1,5 @@
 // The working cycle: curves over time with a cursor, and the temperatures through the layer at it.
-import { axis, chart, frame, lineOf, short } from "page/charts.js";
+import { axis, chart, frame, legendRows, lineOf, short } from "page/charts.js";
 import { button, make, player, slider } from "page/dom.js";
 import { moment, moveTo, onMoment, sampleAt, timeline } from "page/time.js";
 
@@ -70,8 +70,9 @@ export function draw(place, data) {
 
 /** One chart over the whole cycle, with the cursor; a click moves it. */
 function overTime(place, { says, height }, data, line, axes, lines) {
-  const build = (look) => ({
+  const build = (look, width) => ({
     ...frame(look),
+    grid: { ...frame(look).grid, top: 14 + 20 * legendRows(lines.map(({ name }) => name), width) },
     xAxis: axis("Time (s)", look, { scale: false, max: line.end, axisLabel: { color: look.quiet, formatter: short } }),
     yAxis: axes.map(({ name, log }, i) => axis(name, look, {
       type: log ? "log" : "value", nameGap: 42, position: i ? "right" : "left", splitLine: { show: !i, lineStyle: { color: look.line } },

@@ -12,28 +12,40 @@ from typing import Any
 import numpy as np
 
 
+def lag(layer: Any, first: Any, second: Any, width: Any) -> Any:
+    """How far from stiff the sheets of a lap are [1], p: p^2 = k (a_1 + a_2) w^2 [V].
+
+    `layer` is the stiffness k of the layer per area [Pa/m], `first` and `second` the compliance a of the sheets that
+    load comes in and goes out by, 1/(G h) [1/(Pa*m)].
+    """
+    return np.sqrt(layer * (first + second)) * width
+
+
 def edge_rise(layer: Any, first: Any, second: Any, width: Any) -> Any:
     """Traction where the second sheet leaves the lap, over its mean [1]: p ((1 - c) coth p + c/sinh p) [V].
 
-    p^2 = k (a_1 + a_2) w^2 and c = a_1/(a_1 + a_2). `layer` is the stiffness k of the layer per area [Pa/m], `first`
-    and `second` the compliance a of the sheets that load comes in and goes out by, 1/(G h) [1/(Pa*m)].
+    p is the `lag` and c = a_1/(a_1 + a_2).
     """
-    reach = np.sqrt(layer * (first + second)) * width
+    reach = lag(layer, first, second, width)
     share = first / (first + second)
     return reach * ((1.0 - share) / np.tanh(reach) + share / np.sinh(reach))
 
 
-WINDOWED = 1.19
+WINDOWED = 3.09
 """Rise of a floor's compliance as a sheet as windows cut it; calibrated to validation/fe_structure."""
 
 
-def arc_edge_rise(layer: Any, plate: Any, floor: Any, width: Any, held: Any) -> Any:
-    """Traction along the outer edge of an arc over its mean [1]: `edge_rise` over 1.19 `floor`, and 1/held - 1.
+def arc_edge_rise(layer: Any, plate: Any, floor: Any, radii: tuple[Any, Any], held: Any) -> Any:
+    """Traction along the outer edge of an arc over T r/J [1]: 1/held + (`edge_rise` - 1) (a/b)^3.
 
-    `held` is the share [1] of the layer that what lies below it holds: the rest is above windows and bears little.
-    `plate` and `floor` are sheets as of `edge_rise`.
+    The arc reaches from a to b, the `radii`. A torque turns a sheet by 1/r^3, so that at b it stretches less by (a/b)^3
+    than at a. `held` is the share [1] of the layer that what lies below it holds: the rest is above windows and bears
+    little. `plate` and `floor` are sheets as of `lag`; the floor's compliance counts 3.09 times. FE of 30 layers:
+    within 7 %.
     """
-    return edge_rise(held * layer, plate, WINDOWED * floor, width) + 1.0 / held - 1.0
+    inner, outer = radii
+    rise = edge_rise(held * layer, plate, WINDOWED * floor, outer - inner)
+    return 1.0 / held + (rise - 1.0) * (inner / outer) ** 3
 
 
 def borne_over_window(layer: Any, sheet: Any, half_width: Any) -> Any:

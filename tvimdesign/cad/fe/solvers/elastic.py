@@ -2,11 +2,14 @@
 
 import argparse
 import contextlib
+import ctypes
 import json
+import os
 import resource
 import sys
+import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -63,9 +66,44 @@ def write_field(path: Path, mesh: Any, field: Any, moved: Any) -> None:
     np.savez_compressed(path, points=points, triangles=triangles, values=values, ways=ways)
 
 
+ONE: dict[str, float] = {"segmentsperedge": 1.0}
+FINER: tuple[dict[str, float], ...] = ({}, ONE, {**ONE, "curvaturesafety": 2.0}, {**ONE, "grading": 0.3})
+"""What is asked of the mesher besides, one after the other, until it finds a mesh of all faces."""
+
+
 def meshed(geometry: Any, order: int, **sizes: float) -> Any:
-    """Curved mesh of a geometry."""
-    return Mesh(geometry.GenerateMesh(**sizes)).Curve(order)
+    """Curved mesh of a geometry; where some faces get none, a mesh of more elements. Raises ValueError."""
+    for finer in FINER:
+        with tempfile.TemporaryFile("w+") as said, _printing_into(said.fileno()):
+            mesh = _mesh_of(geometry, **{**sizes, **finer})
+            said.seek(0)
+            if mesh is not None and "NOT ALL FACES" not in said.read():
+                return Mesh(mesh).Curve(order)
+    raise ValueError(f"no mesh of all faces is found, not with {FINER[-1]} either")
+
+
+def _mesh_of(geometry: Any, **sizes: float) -> Any:
+    """The mesher's mesh, or None where it gives up; of some geometries it leaves faces out and says so in print."""
+    try:
+        return geometry.GenerateMesh(**sizes)
+    except NgException:
+        return None
+
+
+@contextlib.contextmanager
+def _printing_into(file: int) -> Iterator[None]:
+    """What compiled code prints on standard output goes into a file for a while."""
+    compiled = ctypes.CDLL(None)
+    sys.stdout.flush()
+    compiled.fflush(None)
+    usual = os.dup(1)
+    os.dup2(file, 1)
+    try:
+        yield
+    finally:
+        compiled.fflush(None)
+        os.dup2(usual, 1)
+        os.close(usual)
 
 
 def main(solve: Callable[..., Found], about: str | None) -> None:

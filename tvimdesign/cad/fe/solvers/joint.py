@@ -67,6 +67,9 @@ def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
     structure = values["structure_youngs_modulus"] * 1e-6 / 2 / (1 + own)
     shear = {"pcl": values["storage_modulus@cold"] * 1e-6, "pad": values["peltier_shear_modulus"] * 1e-6}
     poisson = {"pcl": values["pcl_poissons_ratio"], "pad": RUBBERLIKE, "rotor": own, "housing": own}
+    if "spreader_shear_modulus" in values:
+        shear["spreader"] = values["spreader_shear_modulus"] * 1e-6
+        poisson["spreader"] = values["spreader_youngs_modulus"] * 0.5e-6 / shear["spreader"] - 1.0
     mu = mesh.MaterialCF({**shear, "rotor": structure, "housing": structure})
     return mu, elastic.lame_of(mu, mesh.MaterialCF(poisson))
 
@@ -96,7 +99,8 @@ def _turned(mesh: Any, shear: Any, lame: Any) -> Any:
 def _energies(mesh: Any, density: Any, mm: elastic.Found) -> tuple[elastic.Found, float]:
     """Twice the strain energy of each part, and of all, which is the torque at one radian [N*mm]."""
     core = IfPos(mm["core_radius"] + 0.01 - sqrt(x * x + y * y), 1, 0)
-    shares = {name: Integrate(density, mesh, definedon=mesh.Materials(name)) for name in ("pcl", "pad", "housing")}
+    solids = {"pcl": "pcl", "pad": "pad|spreader", "housing": "housing"}
+    shares = {name: Integrate(density, mesh, definedon=mesh.Materials(of)) for name, of in solids.items()}
     rotor = mesh.Materials("rotor")
     if mm.get("vane_count"):
         shares["housing_vanes"] = Integrate(IfPos(z, 1, 0) * density, mesh, definedon=mesh.Materials("housing"))

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from netgen.occ import Cylinder, Dir, HalfSpace, OCCGeometry, Pnt, Vec
+from netgen.occ import Axis, Box, Cylinder, Dir, HalfSpace, OCCGeometry, Pnt, Vec
 
 FOOT, EDGE = 0.5, 2.0
 """Elements at the core's foot and along the arcs' edges [mm]."""
@@ -48,14 +48,20 @@ def parts(folder: Path, mm: dict[str, float], coarser: float) -> list[Any]:
     blocks = mm.get("vane_count", 0.0) > 0.0
     journal = mm["pcl_inner_radius"] - 0.3 if blocks else far
     rotor = read("rotor") - tube(0, journal, -far, bottom) - tube(mm["pin_radius"] - mm["pin_diameter"], far, top, far)
-    housing = _ring_housing(read("housing"), mm) if blocks else _arc_housing(read("housing"), mm)
+    rigid = not blocks and mm["spreader_depth"] > 0.0
+    if blocks:
+        housing = _ring_housing(read("housing"), mm)
+    else:
+        housing = _arc_housing(read("housing"), mm, _tile_pockets(mm) if rigid else _pad_pockets(mm))
     found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
     for path in sorted(folder.glob("*.step")):
         number = int(path.stem.split("_")[-1]) if path.stem[-1].isdigit() else 0
         for kind, label, parity in (("pcl", "pcl", 1), ("peltier_pad", "pad", 0)):
             if path.stem.startswith(kind) and (not blocks or number % 2 == parity):  # blocks of one sense are pressed
                 found.append((read(path.stem), label, SIZES["layer"]))
-    if not blocks:
+    if rigid:
+        found += [(one, "spreader", SIZES["layer"]) for one in sectors(mm, -mm["spreader_depth"], 0.0)]
+    elif not blocks:
         found = [part for part in found if part[1] != "pad"]
         found += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["peltier_thickness"], 0.0)]
     for shape, label, size in found:
@@ -70,20 +76,42 @@ def _ring_housing(whole: Any, mm: dict[str, float]) -> Any:
     return whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
 
 
-def _arc_housing(whole: Any, mm: dict[str, float]) -> Any:
-    """Housing of the shear module with a plain wall, and pockets and windows of sharp corners.
+def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
+    """Housing of the shear module with a plain wall, and the openings for its pads with sharp corners.
 
     Where a radius leaves a tenth of a millimetre straight no mesh is found.
     """
     far = 500.0
     wall = tube(mm["housing_inner_radius"], mm["housing_outer_radius"], 0.0, mm["rim_level"])
     housing = (whole - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
-    pads, floor = -mm["peltier_thickness"], -mm["floor_thickness"]
-    for filling in sectors(mm, pads - 0.2, 0.0, wider=PAD_GAP):  # else the rounded pockets' edges stay in its face
+    # Filled before it is cut, else the rounded openings' edges stay in its faces. Holes of leads are filled too.
+    deep = mm["floor_thickness"] if mm["spreader_depth"] else mm["peltier_thickness"] + 0.2
+    for filling in sectors(mm, -deep, 0.0, wider=PAD_GAP):
         housing += filling
-    for hole in (*sectors(mm, pads, 1.0, wider=PAD_GAP), *sectors(mm, floor - 1.0, pads, ledge=mm["window_ledge"])):
-        housing -= hole
+    for opening in openings:
+        housing -= opening
     return housing
+
+
+def _pad_pockets(mm: dict[str, float]) -> list[Any]:
+    """Pockets of pads cut to the PCL, and the windows below them."""
+    pads, floor = -mm["peltier_thickness"], -mm["floor_thickness"]
+    pockets = sectors(mm, pads, 1.0, wider=PAD_GAP)
+    return [*pockets, *sectors(mm, floor - 1.0, pads, ledge=mm["window_ledge"])]
+
+
+def _tile_pockets(mm: dict[str, float]) -> list[Any]:
+    """Pockets of rigid modules with the spreader on them, and the window below each module."""
+    low, top = -mm["floor_thickness"] - 1.0, -mm["pad_depth"]
+    deep, long = (0.5 * mm[f"peltier_{size}"] - mm["window_ledge"] for size in ("width", "length"))
+    count, found = round(mm["tiles_per_arc"]), sectors(mm, top, 1.0, wider=PAD_GAP)
+    for arc in range(round(mm["arc_count"])):
+        middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
+        for tile in range(count):
+            window = Box(Pnt(mm["tile_radius"] - deep, -long, low), Pnt(mm["tile_radius"] + deep, long, top))
+            turn = middle + mm["tile_pitch"] * (tile - 0.5 * (count - 1))
+            found.append(window.Rotate(Axis(Pnt(0, 0, 0), Dir(0, 0, 1)), np.degrees(turn)))
+    return found
 
 
 def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:

@@ -73,7 +73,9 @@ def plate_stiffness(
 @quantities.output("N*m/rad")
 def floor_stiffness(
     structure_youngs_modulus: Scalar,
+    structure_poissons_ratio: Scalar,
     structure_shear_modulus: Scalar,
+    under_arcs_compliance: Scalar,
     floor_flange: tuple[Scalar, Scalar] | None,
     floor_ring: Scalar,
     floor_thickness: Scalar,
@@ -89,8 +91,8 @@ def floor_stiffness(
 ) -> Scalar:
     """Stiffness of the floor from the PCL out to the ground under its feet, or in to its flange.
 
-    Feet are screwed down between the springs; the skirt only stands on the ground. The torque leaves the PCL at its
-    outer rim, where the floor is whole.
+    Feet are screwed down between the springs; the skirt only stands on the ground. Beyond the PCL's outer rim the floor
+    is whole.
     """
     if floor_flange is not None:
         bore, outer = floor_flange
@@ -102,7 +104,11 @@ def floor_stiffness(
     ring = structure.ring_stiffness(structure_shear_modulus, floor_thickness, pcl_outer_radius, placement_radius)
     foot = structure.foot_stiffness(structure_youngs_modulus, structure_shear_modulus, mount_boss_radius,
                                     0.5 * mount_hole, foot_height)  # fmt: skip
-    return structure.footed_floor_stiffness(ring, foot, spring_count, placement_radius)
+    between = np.pi * placement_radius / spring_count
+    spot = structure.spot_stiffness(structure_shear_modulus, structure_poissons_ratio, floor_thickness,
+                                    mount_boss_radius, between)  # fmt: skip
+    footed = structure.footed_floor_stiffness(ring, spot, foot, spring_count, placement_radius)
+    return 1.0 / (under_arcs_compliance + 1.0 / footed)
 
 
 @quantities.output("N*m/rad")

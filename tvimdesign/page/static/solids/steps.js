@@ -16,11 +16,14 @@ export async function addPictures(list) {
     if (!steps[i].parts.length) continue;
     viewer.showStep(i + 1);
     const names = steps[i].parts.join(", ").replaceAll("_", " ");
-    item.append(make("img", { src: viewer.stage.picture(WIDE, HIGH), width: WIDE, height: HIGH, alt: `The module after this step, which places ${names}` }));
-    item.firstElementChild.append(button("Show in 3-D", () => {
+    const src = viewer.stage.picture(WIDE, HIGH, steps[i].from === "below" ? "below" : "corner");
+    const picture = make("img", { src, width: WIDE, height: HIGH, alt: `The module after this step, which places ${names}` });
+    const text = make("div", {}, ...item.firstElementChild.childNodes, button("Show in 3-D", () => {
       viewer.showStep(i + 1);
       figure.scrollIntoView();
     }));
+    item.firstElementChild.className = "with-picture";
+    item.firstElementChild.append(text, picture);
     await new Promise(requestAnimationFrame);
   }
   viewer.showStep(steps.length);

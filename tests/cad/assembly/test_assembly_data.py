@@ -1,0 +1,60 @@
+"""What programs that show the assembly are told, held against the GLB, the note and the CAD kernel's own wire."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import cadquery as cq
+import numpy as np
+import pytest
+from cad_designs import design_of
+
+from tvimdesign.cad.assembly.assembly import installed_coils, spring_locations
+from tvimdesign.cad.assembly.assembly_data import SHARES, assembly_data
+from tvimdesign.cad.assembly.bill_of_materials import Item
+from tvimdesign.cad.export.mesh import CHORD, RING, Instance, Mesh, spring_mesh
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.kinds import SPRINGS
+from tvimdesign.cad.geometry.spring_solids import wire_edges
+
+
+@pytest.fixture(scope="module")
+def dims() -> Dimensions:
+    return dimensions(design_of("paper", {}))
+
+
+@pytest.fixture(scope="module")
+def told(dims: Dimensions) -> dict[str, Any]:
+    """The data of the paper's module; springs and a housing stand for all its parts."""
+    meshes = {kind: spring_mesh(coil) for kind, coil in installed_coils(dims).items()}
+    placed = {name: Instance(meshes[name.rpartition("_")[0]], np.eye(4)) for name in spring_locations(dims)}
+    box = cq.Workplane().box(60, 60, 20).val().tessellate(0.1)
+    placed["housing"] = Instance(Mesh(np.array([v.toTuple() for v in box[0]]), np.array(box[1])), np.eye(4))
+    kinds = {"housing": 1, **dict.fromkeys(SPRINGS, 2)}
+    items = [Item(kind, count, kind == "housing", "", f"what {kind} is of", 10.0, ()) for kind, count in kinds.items()]
+    found: dict[str, Any] = json.loads(assembly_data(design_of("paper", {}), dims, items, placed))
+    return found
+
+
+def test_every_part_has_its_kind_and_only_what_turns_turns(told: dict[str, Any]) -> None:
+    parts = {part["name"]: part for part in told["parts"]}
+    assert {part["kind"] for part in parts.values()} == {"housing", *SPRINGS}
+    assert not any(part["turns"] for part in parts.values())  # neither housing nor springs turn with the rotor
+    assert parts["spring_right_1"]["lift"] > parts["housing"]["lift"]
+
+
+@pytest.mark.parametrize("kind", SPRINGS)
+def test_a_wound_spring_lies_on_the_wire_that_the_kernel_sweeps(
+    told: dict[str, Any], dims: Dimensions, kind: str
+) -> None:
+    mirror = np.array([1.0, 1.0 if kind == "spring_right" else -1.0, 1.0])
+    mesh = spring_mesh(installed_coils(dims)[kind]).vertices * mirror
+    for share, flat in zip(SHARES, told["wires"]["moved"][kind], strict=True):
+        moved = np.array(flat).reshape(-1, 3)
+        rings = mesh[: RING * len(moved)].reshape(-1, RING, 3).mean(axis=1) + moved
+        wire = cq.Wire.assembleEdges(wire_edges(installed_coils(dims, share * dims.stroke)[kind]))
+        away = [cq.Vertex.makeVertex(*point).distance(wire) for point in rings * mirror]
+        assert max(away) < CHORD
+        assert np.abs(moved[-1]).max() > 0.5  # mm: the leg's end goes along with its pin
+        assert np.abs(moved[0]).max() < 0.25  # the tang stays in its hole, but for what the coil's diameter changes

@@ -1,0 +1,40 @@
+"""A page opened in a browser from the disk, with what it asked of the network and what it complained of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Browser, Page
+
+
+class Opened:
+    """A page in the browser, with what it asked of the network and what it complained of."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.requests: list[str] = []
+        self.complaints: list[str] = []
+        page.on("request", lambda request: self.requests.append(request.url))
+        page.on("console", lambda said: self.complaints.append(said.text) if said.type != "log" else None)
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+
+    def figure(self, name: str) -> Any:
+        """A figure, once it is drawn."""
+        figure = self.page.locator(f"#figure-{name}")
+        figure.scroll_into_view_if_needed()
+        self.page.wait_for_selector(f"#figure-{name}[data-state]", timeout=60_000)
+        assert figure.get_attribute("data-state") == "drawn", figure.inner_text()
+        return figure
+
+
+@contextmanager
+def opening(browser: Browser, path: Path, **settings: Any) -> Iterator[Opened]:
+    """A file opened as a reader does who has it on the disk; `settings` are those of a browser's context."""
+    context = browser.new_context(**{"viewport": {"width": 1280, "height": 900}, **settings})
+    found = Opened(context.new_page())
+    found.page.goto(path.as_uri())
+    yield found
+    context.close()

@@ -1,0 +1,74 @@
+"""Heat at the end of a gap over a slot, and through a ledge to its root, against conduction in two dimensions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix, diags
+from scipy.sparse.linalg import spsolve
+
+from tvimdesign.physics.heat_flow import lumps
+
+Array = NDArray[np.float64]
+
+
+def conducted(inside: NDArray[np.bool_], kept: NDArray[np.float64], source: Array) -> Array:
+    """Temperatures of square cells of a conductivity of one; those outside are walls where `kept` is a number.
+
+    Walls that are kept stand half a cell away; others let no heat pass. `source` is heat into each cell.
+    """
+    number = -np.ones(inside.shape, dtype=int)
+    number[inside] = np.arange(np.count_nonzero(inside))
+    size = np.count_nonzero(inside)
+    diagonal, right, rows, columns = np.zeros(size), source[inside].copy(), [], []
+    for di, dj in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        for i, j in np.argwhere(inside):
+            k, m = i + di, j + dj
+            if not (0 <= k < inside.shape[0] and 0 <= m < inside.shape[1]):
+                continue
+            if inside[k, m]:
+                diagonal[number[i, j]] += 1.0
+                rows.append(number[i, j])
+                columns.append(number[k, m])
+            elif np.isfinite(kept[k, m]):
+                diagonal[number[i, j]] += 2.0
+                right[number[i, j]] += 2.0 * kept[k, m]
+    off = coo_matrix((np.ones(len(rows)), (rows, columns)), shape=(size, size))
+    found = np.full(inside.shape, np.nan)
+    found[inside] = spsolve((diags(diagonal) - off).tocsc(), right)
+    return found
+
+
+@pytest.mark.parametrize(("cells", "slot"), [(48, 4), (48, 12)])
+def test_the_end_of_a_gap_over_a_slot_gives_what_conduction_in_two_dimensions_says(cells: int, slot: int) -> None:
+    # A gap of `cells` over its height; left of it a wall at 1 that falls to 0 from the slot's mouth to the upper wall,
+    # below it a floor at 0, which a slot keeps apart from that wall.
+    long, deep = 3 * cells, 3 * slot
+    inside = np.zeros((long + 2, deep + cells + 2), dtype=bool)
+    inside[1:-1, deep + 1 : -1] = True
+    inside[1 : slot + 1, 1 : deep + 1] = True
+    kept = np.full(inside.shape, np.nan)
+    height = (np.arange(cells) + 0.5) / cells
+    kept[0, 1 : deep + 1], kept[0, deep + 1 : -1] = 1.0, 1.0 - height
+    kept[slot + 1 :, deep] = kept[slot + 1, 1 : deep + 1] = kept[:, -1] = 0.0
+    found = conducted(inside, kept, np.zeros(inside.shape))
+    leaves = 2.0 * np.sum(1.0 - height - found[1, deep + 1 : -1])
+    assert sum(lumps.gap_end(slot / cells)) == pytest.approx(leaves, rel=0.01)
+
+
+@pytest.mark.parametrize("slenderness", [0.3, 0.6, 1.0, 1.7])
+def test_a_ledge_conducts_as_two_dimensions_say(slenderness: float) -> None:
+    # A slab of 30 cells, heated evenly over its upper face up to `wide` from its free end; a long way on it is cold.
+    high, wide = 30, round(30 * slenderness)
+    inside = np.zeros((wide + 3 * high + 1, high), dtype=bool)
+    inside[:-1] = True
+    kept, source = np.full(inside.shape, np.nan), np.zeros(inside.shape)
+    kept[-1], source[:wide, -1] = 0.0, 1.0 / wide
+    found = conducted(inside, kept, source)
+    face = np.mean(found[:wide, -1]) + 0.5 / wide
+    ledge = np.mean(found[:wide])
+    root = 0.5 * np.mean(found[wide - 1] + found[wide])
+    onto, onward = lumps.ledge_ways(wide / high)
+    assert onto == pytest.approx(face - ledge, rel=0.02)
+    assert onward == pytest.approx(ledge - root, rel=0.02)

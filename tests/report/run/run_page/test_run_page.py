@@ -1,0 +1,112 @@
+"""The page of a run says what summary.txt and results.json say, and what to do where there is nothing to show."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import Element
+
+import html5lib
+import pytest
+import sample_pages
+from support import ROOT, Command
+
+from tvimdesign.page.blocks import Grid
+from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.first_screen.screen import Told
+from tvimdesign.report.run.run_page.glance import facts_of, glance
+from tvimdesign.report.run.run_page.reasons import assumptions_section, moves
+
+
+def words(element: Element) -> str:
+    """All text of an element, blanks made one."""
+    return " ".join("".join(element.itertext()).split())
+
+
+def tree(path: Path) -> Element:
+    """The page as elements without a namespace."""
+    found: Element = html5lib.parse(path.read_text("utf-8"), namespaceHTMLElements=False)
+    return found
+
+
+def section(page: Element, name: str) -> Element:
+    found = page.find(f".//section[@id='{name}']")
+    assert found is not None
+    return found
+
+
+@pytest.fixture(scope="module")
+def answered() -> AnsweredStudy:
+    return sample_pages.answered_study()
+
+
+def test_lines_without_a_label_go_on_with_the_one_before() -> None:
+    lines = ["Held back by one   1 %", "             two   2 %", "Yield        63 %"]
+    assert facts_of(lines) == [("Held back by", "one 1 %; two 2 %"), ("Yield", "63 %")]
+
+
+def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_path: Path) -> None:
+    done = tvimdesign("run", sample_pages.STUDY, "--no-cad", "--no-plots", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert f"{tmp_path / 'out'}/report.html" in done.stdout
+    summary = " ".join((tmp_path / "out/summary.txt").read_text("utf-8").split())
+    first = section(tree(tmp_path / "out/report.html"), "first")
+    facts = [(words(one[0]), words(one[1])) for one in first.findall(".//dl/div")]
+    assert {"Weighs", "Soft after", "Stiff again", "Needs", "Idealized ~"} <= {label for label, _ in facts}
+    told = [part for _, text in facts for part in text.replace("; ", " · ").split(" · ")]
+    assert [part for part in told if part not in summary] == []
+    warnings = [words(one).removeprefix("Warning ").partition(";write ")[0] for one in first.findall(".//ul/li")]
+    assert len(warnings) == 6
+    assert [one for one in warnings if one not in summary] == []
+
+
+def test_a_run_without_parts_says_how_to_make_them(tmp_path: Path) -> None:
+    page = tree(sample_pages.run_page(tmp_path / "run", parts=False))
+    assert "`" not in words(section(page, "assembly"))
+    assert "tvimdesign run calibrated_shear.yaml --overwrite makes them" in words(section(page, "assembly"))
+    assert page.find(".//section[@id='checks']") is None
+
+
+def test_an_input_is_named_with_the_outputs_it_moves(answered: AnsweredStudy) -> None:
+    interval: dict[str, Any] = {
+        "value": 1.0, "low": 0.5, "high": 2.0, "unit": "s", "to_halve": [],
+        "one_at_a_time": {"low": 0.8, "high": 1.5}, "before": None,
+    }  # fmt: skip
+    shares = {"a": {"core_radius": 0.3, "wire_diameter": 0.01}, "b": {"core_radius": 0.6}}
+    intervals = {name: {**interval, "shares": share} for name, share in shares.items()}
+    assert moves("core_radius", intervals) == [("b", 0.6), ("a", 0.3)]
+    assert moves("wire_diameter", intervals) == []  # a hundredth is nothing to be told of
+    unmeasured = [{"name": name, "value": 9.0, "low": 8.0, "high": 10.0, "unit": "mm", "status": "assumed"}
+                  for name in ("wire_diameter", "core_radius")]  # fmt: skip
+    found = assumptions_section(answered, {"intervals": intervals, "unmeasured": unmeasured, "held": {"x >=": 0.5}})
+    grid = found.blocks[0]
+    assert isinstance(grid, Grid)
+    rows = [[cell.text for cell in row] for row in grid.rows]
+    assert [row[0] for row in rows] == ["core_radius", "wire_diameter"]  # what moves most comes first
+    assert rows[0][5] == "b 60 %, a 30 %"
+
+
+def test_where_nobody_asked_how_sure_it_is_the_page_says_who_tells(answered: AnsweredStudy) -> None:
+    said = assumptions_section(answered, {}).blocks[0]
+    assert "tvimdesign tolerate" in str(said)
+    assert all("Yield" not in str(block) for block in glance(answered, Told()))
+
+
+@pytest.mark.slow
+def test_requirements_and_reasons_are_those_of_the_results(tvimdesign: Command, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    done = tvimdesign("run", ROOT / "studies/paper_shear.yaml", "--no-cad", "--no-plots", "--out", out)
+    assert done.returncode == 0, done.stderr
+    page, results = tree(out / "report.html"), json.loads((out / "results.json").read_text("utf-8"))
+    table = section(page, "requirements").find(".//table")
+    assert table is not None
+    rows = {words(row[0]): [words(cell) for cell in row] for row in table.findall("./tbody/tr")}
+    assert set(rows) == {"spring_stiffness", "stiffness_over_stroke", "impedance_range", "joint_damping@hot",
+                         "holding_torque", "spring_fatigue_safety", "peak_power", "peltier_temperature_margin",
+                         "parts_inertia"}  # fmt: skip
+    assert rows["peak_power"][1] == "<= 15 W"
+    assert float(rows["peak_power"][2]) == pytest.approx(results["values"]["peak_power"]["value"], rel=1e-3)
+    assert rows["holding_torque"][4] == "BINDS"
+    reasons = words(section(page, "why"))
+    assert all(" ".join(sentence.split()) in reasons for sentence in results["why"]["sentences"])
