@@ -81,10 +81,13 @@ def test_what_is_typed_is_refused_in_the_words_of_a_study(tmp_path: Path) -> Non
         assert refused["name"] == message["name"]
 
 
+_LONG = '{"kind": "pin", "name": "' + "x" * 200_000 + '"}'
+
+
 @pytest.mark.parametrize(
     "text",
     ["no JSON", "{}", '{"kind": "delete"}', '{"kind": "set", "name": "x"}', '{"kind": "pin", "name": 3}',
-     '{"kind": "undo", "more": 1}', '{"kind": "unpin", "number": -1}', '{"kind": "pin", "name": "' + "x" * 200_000 + '"}'],
+     '{"kind": "undo", "more": 1}', '{"kind": "unpin", "number": -1}', _LONG],
 )  # fmt: skip
 def test_a_message_of_no_known_form_is_refused(text: str) -> None:
     with pytest.raises(InputError, match="message"):

@@ -65,9 +65,7 @@ def test_where_nothing_is_feasible_the_conflict_is_said_and_the_nearest_design_s
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             await page.answer("quick")
             await page.send(kind="require", name="response_time", texts=["<= 20 s"])
-            return await page.until(
-                lambda one: one["kind"] == "answer" and one["shown"]["stage"] == "exact" and one["number"] == 2
-            )
+            return await page.until(lambda one: one.get("number") == 2 and one["shown"]["stage"] == "exact")
 
     shown = asyncio.run(asked())["shown"]
     assert not shown["found"]
@@ -79,24 +77,29 @@ def test_where_nothing_is_feasible_the_conflict_is_said_and_the_nearest_design_s
 @pytest.mark.slow
 def test_two_pages_share_a_study_a_design_is_pinned_and_gone_back_to(tmp_path: Path) -> None:
     async def pinned() -> tuple[list[dict[str, Any]], dict[str, Any]]:
-        async with served(small_study(tmp_path), tmp_path / "out") as (_, client):
-            async with client.ws_connect(f"/{TOKEN}/socket") as one, client.ws_connect(f"/{TOKEN}/socket") as two:
-                first, second = Talk(one), Talk(two)
-                await first.kind("state")
-                await second.answer("quick")
-                await first.send(kind="pin", name="as it was")
-                pins = (await second.until(lambda told: told["kind"] == "state" and told["pins"] != []))["pins"]
-                await first.send(kind="way", way="evaluate")
-                await first.send(kind="set", name="current", text="1.1 A")
-                await second.until(lambda told: told["kind"] == "state" and _current(told) == "1.1 A")
-                await second.send(kind="recall", number=0)
-                back = await first.until(lambda told: told["kind"] == "state" and told["way"] == "optimize")
-                return pins, back
+        async with (
+            served(small_study(tmp_path), tmp_path / "out") as (_, client),
+            client.ws_connect(f"/{TOKEN}/socket") as one,
+            client.ws_connect(f"/{TOKEN}/socket") as two,
+        ):
+            first, second = Talk(one), Talk(two)
+            await first.kind("state")
+            await second.answer("quick")
+            await first.send(kind="pin", name="as it was")
+            pins = (await second.until(lambda told: told["kind"] == "state" and told["pins"] != []))["pins"]
+            await first.send(kind="way", way="evaluate")
+            await first.send(kind="set", name="current", text="1.1 A")
+            await second.until(lambda told: told["kind"] == "state" and _current(told) == "1.1 A")
+            await second.send(kind="recall", number=0)
+            back = await first.until(
+                lambda told: told["kind"] == "state" and told["undo"] and told["way"] == "optimize"
+            )
+            return pins, back
 
     pins, back = asyncio.run(pinned())
     assert pins[0]["name"] == "as it was"
     assert pins[0]["values"]["peak_power"].endswith("W")
-    assert back["undo"]
+    assert back["controls"]["variables"][0]["text"] == pins[0]["values"]["pcl_thickness"]
 
 
 def _current(state: dict[str, Any]) -> str:

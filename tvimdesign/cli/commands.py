@@ -308,6 +308,9 @@ def explore(
         Path | None, typer.Option("--out", help="Folder of what is done; results/<name>-explore unless given.")
     ] = None,
     port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port; a free one unless given.")] = 0,
+    token: Annotated[
+        str, typer.Option("--token", help="Secret in the address, for one that stays; drawn unless given.")
+    ] = "",
     browse: Annotated[bool, typer.Option("--open/--no-open", help="Open the page in the browser.")] = True,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Begin again, without what was done before.")] = False,
     settings: Settings = None,
@@ -316,7 +319,7 @@ def explore(
     from tvimdesign.explore.serve import serve
 
     folder = out or Path("results") / f"{name_of(source)}-explore"
-    serve(source, folder, port, overwrite=overwrite, browse=browse, settings=settings or ())
+    serve(source, folder, port, token, overwrite=overwrite, browse=browse, settings=settings or ())
 
 
 PaperOut = Annotated[

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import re
 import signal
 import webbrowser
 from collections.abc import Sequence
@@ -17,16 +18,25 @@ from tvimdesign.explore.server import HOST, Server
 from tvimdesign.explore.source import open_source
 from tvimdesign.report.output.progress import wide_console
 
+SHORTEST_TOKEN = 16
+_TOKEN = re.compile(r"[A-Za-z0-9_-]*")
 
-def serve(source: Path, folder: Path, port: int, *, overwrite: bool, browse: bool, settings: Sequence[str]) -> None:
-    """Serve until interrupted. Raises InputError for what cannot be opened, and for a port that is taken."""
+
+def serve(
+    source: Path, folder: Path, port: int, token: str, *, overwrite: bool, browse: bool, settings: Sequence[str]
+) -> None:
+    """Serve until interrupted. Raises InputError for what cannot be opened, a short token, and a port that is taken."""
+    if token and (len(token) < SHORTEST_TOKEN or not _TOKEN.fullmatch(token)):
+        raise InputError(
+            f"--token: needs {SHORTEST_TOKEN} or more letters, digits, - and _; leave it out to have one drawn"
+        )
     opened = open_source(source, settings)
     if overwrite:
         (folder / FILE).unlink(missing_ok=True)
     else:
         open_kept(folder, opened.text, opened.first)
     with contextlib.suppress(KeyboardInterrupt):
-        asyncio.run(_serve(Server(source, folder, settings), port, browse))
+        asyncio.run(_serve(Server(source, folder, settings, token), port, browse))
 
 
 async def _serve(server: Server, port: int, browse: bool) -> None:

@@ -102,7 +102,7 @@ class CycleKernel:
         return found
 
     def course(self, column: Array, pace: Pace) -> tuple[dict[str, float], dict[str, Course]]:
-        """Values of `names` for one design, and its states step by step through each phase to the event that ends it."""
+        """Values of `names` for one design, and its states step by step through each phase to what ends it."""
         kept: dict[str, Course] = {name: [] for name in self.phases}
         values = self._block(np.ascontiguousarray(column[:, None]), pace, None, kept)
         return {name: float(found[0]) for name, found in values.items()}, kept
