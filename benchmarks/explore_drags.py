@@ -98,18 +98,21 @@ async def measured(study: Path, drags: int, leak: int) -> None:
     """Time drags, then drag on at random."""
     with tempfile.TemporaryDirectory() as folder:
         server = Server(study, Path(folder) / "out", token=TOKEN)
-        async with TestServer(server.app(), host="127.0.0.1") as started, ClientSession() as client:
-            async with client.ws_connect(started.make_url(f"/{TOKEN}/socket"), max_msg_size=0) as socket:
-                assert server.session is not None
-                hand = Hand(socket, server.session.source.study)
-                await hand.until(stage="exact")
-                await _way(hand, "evaluate")
-                await hand.wait(COMPILED)
-                await _timed(hand, "evaluate", hand.variables(), drags)
-                await _way(hand, "optimize")
-                await _timed(hand, "optimise", hand.requirements(), drags)
-                if leak:
-                    await _leak(hand, server, leak)
+        async with (
+            TestServer(server.app(), host="127.0.0.1") as started,
+            ClientSession() as client,
+            client.ws_connect(started.make_url(f"/{TOKEN}/socket"), max_msg_size=0) as socket,
+        ):
+            assert server.session is not None
+            hand = Hand(socket, server.session.source.study)
+            await hand.until(stage="exact")
+            await _way(hand, "evaluate")
+            await hand.wait(COMPILED)
+            await _timed(hand, "evaluate", hand.variables(), drags)
+            await _way(hand, "optimize")
+            await _timed(hand, "optimise", hand.requirements(), drags)
+            if leak:
+                await _leak(hand, server, leak)
 
 
 async def _way(hand: Hand, way: str) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.explore.quick_model import Evaluated, QuickModel
-from tvimdesign.explore.shown import Shown, shown_design
+from tvimdesign.explore.shown import Shown, finite_data, shown_design
 from tvimdesign.explore.state import State, set_values, text_of, tree_of
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.infeasible_report import complaint
@@ -72,7 +72,7 @@ class Engine:
             study = self._read(tree_of(self._base, state))
             values = self._evaluated(study, {})
             return Answer({"status": "", **shown_design(study, free, values.values),
-                           "curves": values.curves})  # fmt: skip
+                           "curves": finite_data(values.curves)})  # fmt: skip
         study = self._read(set_values(tree_of(self._base, state), _listed(free, state)))
         if study.profile.pieces():
             return Answer({"status": WAITS})
@@ -84,7 +84,9 @@ class Engine:
         found = {name: float(moved.run.inputs[self._problem_index(name)]) for name in study.vary}
         evaluated = self._evaluated(study, found)
         shown = shown_design(study, free, evaluated.values, moved.binding, moved.ends)
-        return Answer({"status": "", **shown, "curves": evaluated.curves, "iterations": moved.run.start.iterations})
+        return Answer(
+            {"status": "", **shown, "curves": finite_data(evaluated.curves), "iterations": moved.run.start.iterations}
+        )
 
     def _problem_index(self, name: str) -> int:
         assert self._problem is not None

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.device import table_for
+from tvimdesign.explore.shown import finite_data
 from tvimdesign.page.page_fragment import page_fragment
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
@@ -48,4 +49,4 @@ def report_fragment(folder: Path, answered: AnsweredStudy) -> dict[str, Any]:
     told = Told(doubts=answered.reported["doubts"], front=answered.front.front)
     page = run_page(DesignFolder(own), answered, told)
     left_out = {"study", "versions", *(() if (own / "cad").is_dir() else ("assembly",))}
-    return {"folder": f"{PARTS}/{own.name}", **page_fragment(page, left_out)}
+    return {"folder": f"{PARTS}/{own.name}", **finite_data(page_fragment(page, left_out))}

@@ -79,6 +79,15 @@ def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
     ]
 
 
+def finite_data(data: Any) -> Any:
+    """Plain data with none in place of numbers that JSON does not have."""
+    if isinstance(data, Mapping):
+        return {name: finite_data(one) for name, one in data.items()}
+    if isinstance(data, list | tuple):
+        return [finite_data(one) for one in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
 def _finite(value: float) -> float | None:
     """A number JSON has; what never happens is none."""
     return float(f"{value:.7g}") if math.isfinite(value) else None
