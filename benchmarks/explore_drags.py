@@ -40,6 +40,7 @@ class Hand:
     """One page, without a browser."""
 
     def __init__(self, socket: ClientWebSocketResponse, study: Study, seed: int = 1) -> None:
+        """Talk to a socket of a study's explorer."""
         self.socket, self.study, self.random = socket, study, random.Random(seed)
         self.number = 0
 
@@ -83,7 +84,7 @@ class Hand:
 
     def requirements(self) -> Iterator[dict[str, Any]]:
         """Drags of requirements: each goes to and fro by some percent about what the study asks."""
-        names = [name for name in dict.fromkeys(one.output for one in self.study.require)]
+        names = list(dict.fromkeys(one.output for one in self.study.require))
         moved = dict.fromkeys(names, 0.0)
         while True:
             name = self.random.choice(names)

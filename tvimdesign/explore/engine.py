@@ -10,11 +10,13 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.units import from_si
 from tvimdesign.explore.quick_model import Evaluated, QuickModel
 from tvimdesign.explore.shown import Shown, finite_data, shown_design
 from tvimdesign.explore.state import State, set_values, text_of, tree_of
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -84,9 +86,9 @@ class Engine:
         found = {name: float(moved.run.inputs[self._problem_index(name)]) for name in study.vary}
         evaluated = self._evaluated(study, found)
         shown = shown_design(study, free, evaluated.values, moved.binding, moved.ends)
-        return Answer(
-            {"status": "", **shown, "curves": finite_data(evaluated.curves), "iterations": moved.run.start.iterations}
-        )
+        shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in found.items()}}
+        shown["curves"], shown["iterations"] = finite_data(evaluated.curves), moved.run.start.iterations
+        return Answer({"status": "", **shown})
 
     def _problem_index(self, name: str) -> int:
         assert self._problem is not None
@@ -110,8 +112,12 @@ class Engine:
         return {name: value or 1.0 for name, value in found.items()}
 
     def _evaluated(self, study: Study, found: Mapping[str, float]) -> Evaluated:
+        """Raises InputError in the study's words where there is no such module."""
         model = self._model(study)
-        return model.evaluate(model.inputs(study, found))
+        evaluated = model.evaluate(model.inputs(study, found))
+        if any(np.isnan(value) for value in evaluated.values.values()):
+            refuse_impossible(study)
+        return evaluated
 
     def _model(self, study: Study) -> QuickModel:
         for model in self._models:
@@ -176,6 +182,12 @@ class Engine:
 def _listed(study: Study, state: State) -> dict[str, str]:
     """What is chosen from lists, as the hand has it."""
     return {name: state.at[name] for name, one in study.vary.items() if isinstance(one, Options) and name in state.at}
+
+
+def _rounded(study: Study, name: str, value: float) -> str:
+    """A number of an optimum that is passed through, in as many digits as it is shown."""
+    unit = study.table.unit(name)
+    return f"{from_si(value, unit):.7g} {unit}".removesuffix(" 1")
 
 
 def refused(error: TvimError) -> Shown:

@@ -13,7 +13,7 @@ from tvimdesign.base.whole_files import write_whole
 from tvimdesign.explore.state import Pinned, State
 
 FILE = "explore.json"
-MOST_STEPS = 500
+MOST_STEPS = 200
 MOST_PINS = 12
 
 

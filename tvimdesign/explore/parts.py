@@ -1,8 +1,10 @@
-"""Exact CAD of the design that is shown, made beside in a thread, with its progress told to every page."""
+"""Exact CAD of the design that is shown, made in a thread beside, with its progress told to every page."""
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import threading
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -25,7 +27,6 @@ class PartsMaker:
         `made` is called when the parts of a design are there.
         """
         self._folder, self._send, self._made = folder, send, made
-        self._task: asyncio.Task[None] | None = None
         self.shown: dict[str, Any] = {"design": "", "text": "", "busy": False}
 
     def make(self, design: Mapping[str, str] | None) -> None:
@@ -35,29 +36,31 @@ class PartsMaker:
         if design is None:
             raise InputError("make CAD: the exact design is still being computed; ask again in a moment")
         self._tell(design["name"], "parts: begun", busy=True)
-        self._task = asyncio.create_task(self._make(design["name"], design["json"]))
+        # Whoever ends the server does not wait for it: what it leaves is whole, and its child processes end with it.
+        run = threading.Thread(target=self._make, args=(asyncio.get_running_loop(), dict(design)), daemon=True)
+        run.start()
 
     def _tell(self, design: str, text: str, *, busy: bool) -> None:
         self.shown = {"design": design, "text": text, "busy": busy}
         self._send({"kind": "parts", **self.shown})
 
-    async def _make(self, name: str, text: str) -> None:
-        loop = asyncio.get_running_loop()
+    def _make(self, loop: asyncio.AbstractEventLoop, design: dict[str, str]) -> None:
+        """In the thread: make them, and hand what is to be told to the loop."""
 
-        def progress(said: str) -> None:
-            if said:
-                loop.call_soon_threadsafe(lambda: self._tell(name, said, busy=True))
+        def tell(text: str, busy: bool) -> None:
+            with contextlib.suppress(RuntimeError):  # the loop is closed: nobody listens any more
+                loop.call_soon_threadsafe(lambda: self._tell(design["name"], text, busy=busy))
 
         try:
-            words = await asyncio.to_thread(self._written, name, text, progress)
+            words = self._written(design["name"], design["json"], lambda text: tell(text, True) if text else None)
         except TvimError as error:
             words = str(error)
-        await asyncio.sleep(0)  # what the thread told last comes first
-        self._tell(name, words, busy=False)
-        self._made()
+        tell(words, False)
+        with contextlib.suppress(RuntimeError):
+            loop.call_soon_threadsafe(self._made)
 
     def _written(self, name: str, text: str, progress: Callable[[str], None]) -> str:
-        """In the thread: the design's file and its parts; what the checks say."""
+        """The design's file and its parts; what the checks say."""
         own = self._folder / PARTS / name
         make_folder(own)
         write_whole(own / "design.json", text.encode())

@@ -99,7 +99,8 @@ class Server:
         session = self.session
         assert session is not None
         queue: asyncio.Queue[str] = asyncio.Queue()
-        for told in (session.state_shown(), *session.answers.values()):
+        answers = sorted(session.answers.values(), key=lambda one: int(one["number"]))
+        for told in (session.state_shown(), *answers):
             queue.put_nowait(json.dumps(told, allow_nan=False))
         self._pages.add(queue)
         sender = asyncio.create_task(_forward(queue, socket))

@@ -183,7 +183,7 @@ class Session:
 
     def _exact_now(self, number: int) -> None:
         if number == self._number and not self._is_exact:
-            if self.solver.idle:
+            if self.solver.under_way is None:
                 self.solver.ask(Job(number, "exact", self.kept.state))
             else:
                 self._wait()
@@ -217,11 +217,12 @@ class Session:
 
     def _follow(self, job: Job, shown: Told) -> None:
         """Let the hand's variables be the optimum's, so that it can be gone on from."""
-        if job.stage == "quick" or "at" not in shown or job.number != self._number:
+        if "at" not in shown or job.number != self._number or self.kept.state.way != "optimize":
             return
-        if self.kept.state.way == "optimize" and shown["at"] != self.kept.state.at:
+        if shown["at"] != self.kept.state.at:
             self.kept.state = self.kept.state.model_copy(update={"at": shown["at"]})
-            self._settle()
+            if job.stage != "quick":
+                self._settle()
 
 
 def _quantity(study: Study, name: str) -> dict[str, Any]:

@@ -59,9 +59,9 @@ class Solver:
             self._child.send_signal(signal.SIGINT)
 
     @property
-    def idle(self) -> bool:
-        """Whether nothing is asked."""
-        return self._under_way is None
+    def under_way(self) -> Stage | None:
+        """What is being answered, if anything is."""
+        return self._under_way.stage if self._under_way else None
 
     @property
     def process(self) -> int:
