@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 Curves = dict[str, dict[str, list[float]]]
 
 _STEPS = Steps(of_pace=10, in_window=4, close=4, first=0.125)
-_FREEZING = Steps(of_pace=14, in_window=4, close=4, first=0.125)
-"""Half as many steps as tolerances take: half the time, and times within 0.2 % still (a test holds that)."""
+_FREEZING = Steps(of_pace=28, in_window=4, close=4, first=0.125)
+"""Two thirds of the steps that tolerances take, at most: half the time, and times within 0.2 % still (a test)."""
 _LOOSE, _SAMPLES = 1e-3, 10
 _PHASES: tuple[str, ...] = ("softening", "stiffening")
 _SHOWN = 24
