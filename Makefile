@@ -57,7 +57,7 @@ bench-sweep: $(STAMP)  ## designs a second through compiled equations, and throu
 bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hypervolume
 	$(BENCH) benchmarks/front.py
 
-bench-explore: $(STAMP)  ## the explorer's drags: time to the answer, evaluated and optimised; beside a slider of trame and of Panel
+bench-explore: $(STAMP)  ## the explorer's drags: time to the answer, evaluated and optimised, on paper_shear; then 1,000 random drags
 	$(BENCH) benchmarks/explore_drags.py --leak 1000
 
 bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
