@@ -36,7 +36,7 @@ def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
 
 
 def test_a_foil_heater_cannot_cool_and_heats_whichever_way_its_current_flows() -> None:
-    alone, heated = module(FOIL), module(f"{FOIL}, cooling_current: 0.1 A")
+    alone, heated = module(FOIL), module(f"{FOIL}, peltier_seebeck: 1e-9 V/K, cooling_current: 0.1 A")
     assert alone.design.values["cooling_current"] == 0.0
     assert (alone.cooling.able, alone.cooling.used, alone.cooling.unpowered) == (False, False, {})
     assert "by the air alone: this heater cannot cool" in stiff(alone)

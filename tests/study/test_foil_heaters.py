@@ -1,15 +1,18 @@
-"""Foil heaters where Peltier pads are named: the air cools by default, and asking them to cool is told."""
+"""Foil heaters where Peltier pads are named: the air cools by default, and asking them to cool is refused."""
 
 import json
+from pathlib import Path
 
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.report.rows import print_rows
 from tvimdesign.study import given, read_study_text
 from tvimdesign.study.record_checks import record_checks
 
-FOILS = [name for name in Catalog().names("peltiers") if Catalog().record("peltiers", name).value("seebeck") == 0.0]
+RECORDS = {name: Catalog().record("peltiers", name) for name in Catalog().names("peltiers")}
+FOILS = [name for name, one in RECORDS.items() if one.value("seebeck") == 0.0 and one.word("heat_source") == "pads"]
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
@@ -21,10 +24,32 @@ def test_both_modes_take_them_and_leave_cooling_to_the_air(mode: str) -> None:
         assert record_checks(study) == []
 
 
-def test_a_cooling_current_through_a_foil_is_told() -> None:
-    module = "{peltier_module: silicone_9ar_04_12v, cooling_current: 0.3 A}"
-    (said,) = record_checks(read_study_text(f"mode: shear\nmodule: {module}\n", "a test"))
-    assert said.startswith("cooling_current of 0.3 A heats: Silicone heater 9AR")
+@pytest.mark.parametrize(
+    "asked",
+    ["module: {%s, cooling_current: 0.3 A}",
+     "module: {%s}\nvary: {cooling_current: [0.3 A, 0.5 A]}\nminimize: {module_mass: 1}"],
+)  # fmt: skip
+def test_a_study_cannot_ask_a_foil_to_cool(asked: str) -> None:
+    study = read_study_text(f"mode: shear\n{asked % 'peltier_module: silicone_9ar_04_12v'}\n", "a test")
+    said = "cooling_current of 0.3 A and peltier_module silicone_9ar_04_12v cannot stand together"
+    with pytest.raises(InputError, match=said):
+        given(study)
+
+
+def test_a_current_that_may_be_zero_is_left_to_the_search() -> None:
+    text = "module: {peltier_module: silicone_9ar_04_12v}\nvary: {cooling_current: [0 A, 0.5 A]}\n"
+    study = read_study_text(f"mode: shear\n{text}minimize: {{module_mass: 1}}\n", "a test")
+    assert given(study)["peltier_seebeck"] == 0.0
+
+
+def test_a_foil_whose_record_names_no_cooling_current_is_told(tmp_path: Path) -> None:
+    (tmp_path / "peltiers").mkdir()
+    own = "{value: 0.2, unit: A, source: forgotten, status: measured}"
+    text = f"title: Mine\nbased_on: silicone_9ar_04_12v\nvalues: {{cooling_current: {own}}}\n"
+    (tmp_path / "peltiers/mine.yaml").write_text(text, encoding="utf-8")
+    study = read_study_text(f"mode: shear\ncatalog: {tmp_path}\nmodule: {{peltier_module: mine}}\n", "a test")
+    (said,) = record_checks(study)
+    assert said.startswith("cooling_current of 0.2 A heats: Mine cannot cool")
 
 
 def test_a_peltier_module_keeps_the_default(capsys: pytest.CaptureFixture[str]) -> None:

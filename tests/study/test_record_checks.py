@@ -45,3 +45,22 @@ def test_a_sheet_that_agrees_is_not(shipped: Path, tmp_path: Path) -> None:
 def test_a_record_without_that_rating_is_not() -> None:
     study = read_study(Path(__file__).parents[2] / "studies" / "paper_shear.yaml")
     assert record_checks(study) == []
+
+
+def test_another_material_with_the_polymer_s_laws_is_told_on_the_page(tmp_path: Path) -> None:
+    """A metal described by a few numbers of its own, as a user would: until now its freezing was a polymer's."""
+    folder = tmp_path / "records/polymers"
+    folder.mkdir(parents=True)
+    own = "{value: 7900, unit: kg/m^3, source: a scale, status: measured}"
+    (folder / "metal.yaml").write_text(
+        f"title: My metal\nbased_on: pcl_80k\nvalues: {{density_solid: {own}}}\n", encoding="utf-8"
+    )
+    (tmp_path / "study.yaml").write_text(
+        "mode: shear\ncatalog: records\nmodule: {pcl_grade: metal}\n", encoding="utf-8"
+    )
+    study = read_study(tmp_path / "study.yaml")
+    said = record_checks(study)
+    assert [line.partition(" are those")[0].removeprefix("My metal: the ") for line in said] == [
+        "kinetics of freezing", "viscosity of the melt", "losses of the solid",
+    ]  # fmt: skip
+    assert said[0] in describe(study).splitlines()

@@ -10,6 +10,7 @@ from pathlib import Path
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.record import Record
 from tvimdesign.catalog.categories import CATEGORIES
+from tvimdesign.catalog.inherited_laws import meaningless_laws
 from tvimdesign.catalog.validate import build_record
 from tvimdesign.catalog.yaml_file import Tree, read_tree
 
@@ -76,7 +77,10 @@ class Catalog:
         if "based_on" not in tree:
             return record
         other = self._base(category, path, str(tree["based_on"]))
-        return replace(record, based_on=self._of_file(category, other.stem, other))
+        record = replace(record, based_on=self._of_file(category, other.stem, other))
+        if problems := meaningless_laws(record):
+            raise CatalogError("\n".join(problems))
+        return record
 
     def _tree(self, category: str, path: Path, before: tuple[Path, ...]) -> dict[str, Tree]:
         """What a record's file says, over what those it is based on say; raises CatalogError for a circle."""

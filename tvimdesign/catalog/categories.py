@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tvimdesign.catalog.category import Category, Columns, PowerLaw
+from tvimdesign.catalog.category import Category, Columns
+from tvimdesign.catalog.layer_materials import POLYMERS
 
 CATEGORIES: Mapping[str, Category] = {
     "spring_materials": Category(
@@ -183,68 +184,7 @@ CATEGORIES: Mapping[str, Category] = {
         },
         rising=(("magnet_diameter", "board_diameter"),),
     ),
-    "polymers": Category(
-        values={
-            "density_solid": "kg/m^3",
-            "density_melt": "kg/m^3",
-            "surface_tension": "N/m",
-            "specific_heat_solid": "J/kg/K",
-            "specific_heat_melt": "J/kg/K",
-            "conductivity_solid": "W/m/K",
-            "conductivity_melt": "W/m/K",
-            "latent_heat": "kJ/kg",
-            "melting_start": "degC",
-            "melting_end": "degC",
-            "flexural_modulus": "MPa",
-            "reference_temperature": "degC",
-            "softening_slope": "1/K",
-            "softening_onset": "degC",
-            "softening_width": "K",
-            "poissons_ratio": "1",
-            "linear_strain_solid": "1",
-            "linear_strain_melt": "1",
-            "tensile_yield": "MPa",
-            "bond_strength": "MPa",
-            "melt_strain_limit": "1",
-            "melt_fracture_stress": "MPa",
-            "melt_surface_tension": "N/m",
-            "normal_stress_ratio": "1",
-            "flow_activation_energy": "kJ/mol",
-            "melt_reference_temperature": "degC",
-            "zero_shear_viscosity": "Pa*s",
-            "plateau_modulus": "MPa",
-            "avrami_exponent": "1",
-            "crystallization_half_time": "s",
-            "crystallization_reference": "degC",
-            "nucleation_constant": "K^2",
-            "equilibrium_melting_temperature": "degC",
-            "glass_transition": "degC",
-            "transport_energy": "kJ/mol",
-            "decomposition_temperature": "degC",
-        },
-        tables={
-            "melt_spectrum": Columns({"relaxation_time": "s", "modulus": "Pa"}, falling=("relaxation_time",)),
-            "solid_spectrum": Columns({"relaxation_time": "s", "relative_modulus": "1"}, falling=("relaxation_time",)),
-        },
-        paired=("melt_spectrum", "solid_spectrum"),
-        instead={
-            "melt_spectrum": {
-                "plateau_modulus": ("modulus",),
-                "zero_shear_viscosity": ("modulus", "relaxation_time"),
-            }
-        },
-        follows={
-            "zero_shear_viscosity": PowerLaw(
-                "known_viscosity", "molar_mass", "known_molar_mass", "viscosity_exponent", "kg/mol"
-            )
-        },
-        rising=(
-            ("density_melt", "density_solid"),
-            ("reference_temperature", "melting_start", "melting_end", "decomposition_temperature"),
-            ("glass_transition", "crystallization_reference", "equilibrium_melting_temperature"),
-            ("melting_start", "equilibrium_melting_temperature"),
-        ),
-    ),
+    "polymers": POLYMERS,
     "heat_paths": Category(
         values={
             "cold_side_coefficient": "W/m^2/K",
@@ -271,9 +211,10 @@ CATEGORIES: Mapping[str, Category] = {
             "shear_modulus": "MPa",
             "max_temperature": "degC",
         },
-        words={"form": ("flexible", "rigid")},
+        words={"form": ("flexible", "rigid"), "heat_source": ("pads", "layer")},
+        usual_words={"heat_source": "pads"},
         may_be_zero=("seebeck",),  # a foil heater
-        values_of={"rigid": {"length": "mm", "width": "mm"}},
+        values_of={"rigid": {"length": "mm", "width": "mm"}, "layer": {"electrode_gap": "mm", "electrode_width": "mm"}},
     ),
     "spreaders": Category(
         values={

@@ -49,7 +49,12 @@ class Category:
     The rows of `paired` tables belong together, first to first: there must be as many in each. A table of `instead` may
     stand in place of values or they in its place: each is the sum over the rows of the product of some columns, and
     where a record has both they must agree to `AGREEMENT`. A value of `follows` may be left out where its law has what
-    it needs. `values_of` are further values that a record needs if it has a word.
+    it needs. `values_of` are further values that a record needs if it has a word, `rising_of` lists that rise then.
+    `usual_words` stand where a record has none, `may_have` are values it can leave out, with their units.
+
+    `laws` are groups of values and tables that belong to one material, by what people call them: a record that is based
+    on another material's and has none of a group has that one's law. Of those under a word of `own_laws` a record with
+    that word needs its own. `material` are the values by which two records are told to be of different materials.
     """
 
     values: Mapping[str, str] = field(default_factory=dict)
@@ -61,12 +66,19 @@ class Category:
     instead: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
     follows: Mapping[str, PowerLaw] = field(default_factory=dict)
     values_of: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    rising_of: Mapping[str, tuple[tuple[str, ...], ...]] = field(default_factory=dict)
+    usual_words: Mapping[str, str] = field(default_factory=dict)
+    may_have: Mapping[str, str] = field(default_factory=dict)
+    laws: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    own_laws: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    material: tuple[str, ...] = ()
 
     @property
     def units(self) -> dict[str, str]:
         """A unit of the kind each number needs: what a record must have, and what values of `follows` follow from."""
-        found = {**self.values, **{name: unit for needed in self.values_of.values() for name, unit in needed.items()}}
+        of_words = {name: unit for needed in self.values_of.values() for name, unit in needed.items()}
+        found = {**self.may_have, **self.values, **of_words}
         for name, law in self.follows.items():
-            found |= {law.known_value: self.values[name], law.exponent: "1"}
+            found |= {law.known_value: found[name], law.exponent: "1"}
             found |= dict.fromkeys((law.size, law.known_size), law.size_unit)
         return found

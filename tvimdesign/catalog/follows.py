@@ -15,10 +15,10 @@ def following(category: Category, entries: Mapping[str, Entry], tables: Mapping[
     for table, values in category.instead.items():
         for name, columns in values.items() if table in tables else ():
             if name not in entries:
-                found[name] = _sum(tables[table], columns, category.values[name])
+                found[name] = _sum(tables[table], columns, category.units[name])
     for name, law in category.follows.items():
         if name not in entries and name not in found and {*law.names} <= entries.keys():
-            found[name] = _power(law, entries, category.values[name])
+            found[name] = _power(law, entries, category.units[name])
     return found
 
 

@@ -31,8 +31,9 @@ def build_record(category: str, name: str, file: str, tree: dict[str, Tree]) -> 
     title = check.text("title", tree, "a line that says what this is")
     entries = {key: entry for key, item in check.section(tree, "values") if (entry := check.entry(key, item))}
     sheets = {key: sheet for key, item in check.section(tree, "tables") if (sheet := check.sheet(key, item))}
-    words = {key: item for key, item in check.section(tree, "words") if check.word(key, item) and isinstance(item, str)}
-    check.required(tree, entries)
+    told = {key: item for key, item in check.section(tree, "words") if check.word(key, item) and isinstance(item, str)}
+    words = {**check.category.usual_words, **told}
+    check.required(tree, entries, words)
     check.paired(sheets)
     check.agreeing(entries, sheets)
     if not check.problems:
@@ -124,7 +125,7 @@ class _Check:
                 numbers[part] = self.number(f"{field}.{part}", item.get(part, ""), unit, wanted)
         value, low, high = (numbers.get(part) for part in ("value", "low", "high"))
         is_too_small = value is not None and (value < 0.0 or (value == 0.0 and name not in self.category.may_be_zero))
-        if is_too_small and name in self.category.values:
+        if is_too_small and name in self.category.units:
             self.no(f"{field}.value", "must be greater than zero")
         if status == "assumed" and not {"low", "high"} <= set(item):
             self.no(field, "an assumed value needs its plausible range, low and high")
@@ -231,24 +232,22 @@ class _Check:
                         f"{found:g}; they must agree to {AGREEMENT:.0%}, in SI; leave one of them out",
                     )
 
-    def required(self, tree: dict[str, Tree], entries: dict[str, Entry]) -> None:
+    def required(self, tree: dict[str, Tree], entries: dict[str, Entry], said: dict[str, str]) -> None:
         """Name what the category wants and the file does not have at all; what is there but wrong is named already."""
+        of_words = [self.category.values_of.get(word, {}) for word in said.values()]
         wanted: dict[str, dict[str, Any]] = {
-            "values": dict(self.category.values),
+            "values": {**self.category.values, **{name: unit for more in of_words for name, unit in more.items()}},
             "tables": dict.fromkeys(self.category.tables, "see the shipped records"),
-            "words": {name: " or ".join(allowed) for name, allowed in self.category.words.items()},
+            "words": {name: " or ".join(allowed) for name, allowed in self.category.words.items() if name not in said},
         }
         for table, values in self.category.instead.items():
             tables = tree.get("tables")
             wanted["tables"].pop(table)
             for name in values if isinstance(tables, dict) and table in tables else ():
-                wanted["values"].pop(name)
+                wanted["values"].pop(name, None)
         for name, law in self.category.follows.items():
             if {*law.names} <= entries.keys():
                 wanted["values"].pop(name, None)
-        words = tree.get("words")
-        for word in words.values() if isinstance(words, dict) else ():
-            wanted["values"] |= self.category.values_of.get(word, {}) if isinstance(word, str) else {}
         for section, names in wanted.items():
             part = tree.get(section)
             present = part if isinstance(part, dict) else {}
@@ -257,7 +256,8 @@ class _Check:
                     close = get_close_matches(name, set(present) - set(names), n=1)
                     hint = f"; is {close[0]} meant to be it?" if close else ""
                     self.no(f"{section}.{name}", f"missing; expected {expected}{hint}")
-        for order in self.category.rising:
+        of_word = [order for word in said.values() for order in self.category.rising_of.get(word, ())]
+        for order in (*self.category.rising, *of_word):
             found = [(name, entries[name].value) for name in order if name in entries]
             for (one, low), (other, high) in pairwise(found):
                 if low >= high:

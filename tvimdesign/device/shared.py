@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.device.core import clearances, layout, mass_properties, materials, molten, motor_choice, shrinkage
-from tvimdesign.device.core.heat import heater_form, softening, stiffening, thermal_stack, viscous_heating
+from tvimdesign.device.core.heat import heater_form, layer_heater, softening, stiffening, thermal_stack, viscous_heating
 from tvimdesign.device.core.impedance import (
     creep_under_hold,
     joint_impedance,
@@ -62,6 +62,7 @@ BOOKS = (
     process.limits,
     *(room.quantities for room in ROOMS[1:]),
     *heater_form.groups,
+    *layer_heater.groups,
     *molten.groups,
     *screws.groups,
     *tang.groups,

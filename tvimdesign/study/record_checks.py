@@ -7,6 +7,7 @@ from typing import Any
 
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
+from tvimdesign.catalog.inherited_laws import inherited_law_warnings
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.peltier_ratings import contradiction
 from tvimdesign.study.resolve import given
@@ -14,7 +15,8 @@ from tvimdesign.study.study import Study
 
 
 def record_checks(study: Study) -> list[str]:
-    """A sentence for each chosen record that contradicts itself, cannot do what is asked of it, or names no limit."""
+    """A sentence for each chosen record that contradicts itself, has another material's law, cannot do what is asked of
+    it, or names no limit."""
     values = given(study)
     records = [record for record in values.values() if isinstance(record, Record)]
     said = [said for record in records if record.category == "peltiers" and (said := contradiction(record))]
@@ -22,7 +24,7 @@ def record_checks(study: Study) -> list[str]:
         heats = format_quantity(values["cooling_current"], study.table.unit("cooling_current"))
         title = values["peltier_module"].title
         said.append(f"cooling_current of {heats} heats: {title} cannot cool; leave it out, and the air cools")
-    return said + _pressed(study, values)
+    return said + [one for record in records for one in inherited_law_warnings(record)] + _pressed(study, values)
 
 
 def _pressed(study: Study, values: Mapping[str, Any]) -> list[str]:

@@ -9,6 +9,7 @@ from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Table
+from tvimdesign.study.incompatible import refuse_incompatible
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
 
@@ -17,7 +18,7 @@ def given(study: Study) -> dict[str, Any]:
 
     What the study varies gets its start: the range's, else the module's or the default value, moved into the range or
     to the nearest of the listed values, so that the result is a member of the search. Raises InputError naming what has
-    no value.
+    no value, and what cannot stand together.
     """
     found: dict[str, Any] = {}
     for choice in study.table.choices:
@@ -29,6 +30,7 @@ def given(study: Study) -> dict[str, Any]:
                 found[name] = _or_default(row, name, values.get(row.name), found)
         else:
             found[row.name] = _started(row, study, found)
+    refuse_incompatible(study, found)
     return found
 
 
@@ -105,18 +107,20 @@ def brought_along_by(study: Study) -> dict[str, str]:
 
 
 def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str, Any]) -> float:
-    """The study's own value of an input, else its record's, else its default."""
+    """The study's own value of an input, else its record's, else its default; zero for what the module lacks."""
     if own is not None:
         return float(own)
-    reason = ""
+    reason = "".join(f", needed as {one.choice} is {chosen[one.choice]}" for one in row.requires)
     if row.record is not None:
         choice, field = row.record
         try:
             return float(chosen[choice].value(field))
         except CatalogError as error:
-            reason = f" ({error})"
+            reason += f" ({error})"
     if row.default is not None:
         return row.default
+    if not row.exists(chosen):
+        return 0.0
     section = "operating_points" if row.per_point else "module"
     raise InputError(f"{name} has no value{reason}; give it under `{section}`, in {row.unit}")
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from comparisons.bare_stack import COLD, FIXED, bare_stack, integrate
 from comparisons.numbers import Array, si
-from tvimdesign.physics.heat_flow import heat, held_plate, lumps, spreader
+from tvimdesign.physics.heat_flow import electrodes, heat, held_plate, lumps, spreader
 from tvimdesign.physics.polymers import polymer
 
 Found = Mapping[str, Any]
@@ -148,8 +148,8 @@ def _layer_state(stack: heat.Stack, cells: int, far: float, face: float) -> Arra
 _MELTING_POINT, _SPECIFIC_HEAT = 330.0, 2000.0
 
 
-def melting_front(inputs: Found) -> Found:
-    """Depth of a melting front over 2 sqrt(a t) of the melt, over cases of phases and faces.
+def phase_front(inputs: Found) -> Found:
+    """Depth of a melting or freezing front over 2 sqrt(a t) of the phase that grows, over cases of phases and faces.
 
     Rows of conductivity of solid and melt, far and face temperature [K]; the mean while it goes through a millimetre.
     """
@@ -157,14 +157,33 @@ def melting_front(inputs: Found) -> Found:
     melting = polymer.Melting(_SPECIFIC_HEAT, _SPECIFIC_HEAT, latent, _MELTING_POINT, _MELTING_POINT + 0.02, 5.0)
     found = []
     for (solid, melt, far, face), speed in zip(inputs["cases"], inputs["about"], strict=True):
-        deep = 4e-3 if far < _MELTING_POINT else 1e-3
+        melts = face > _MELTING_POINT
+        deep = 1e-3 if abs(far - _MELTING_POINT) < 0.1 else 4e-3
         stack = bare_stack(
             hot_capacity=FIXED, melting=melting, conductivity_solid=solid, conductivity_melt=melt, thickness=deep
         )
         begin = _layer_state(stack, round(cells * deep / 1e-3), far, face)
-        scale = 4.0 * melt / (1145.0 * _SPECIFIC_HEAT)
+        scale = 4.0 * (melt if melts else solid) / (1145.0 * _SPECIFIC_HEAT)
         times = np.linspace(0.3e-3, 0.9e-3, 121) ** 2 / (scale * speed**2)
         seen = integrate(stack, begin, list(times), tolerance=1e-7).profiles()
-        molten = np.array([deep * (1.0 - np.mean(p.fractions)) for p in seen])
-        found.append(float(np.mean(molten / np.sqrt(scale * times))))
+        frozen = np.array([float(np.mean(p.fractions)) for p in seen])
+        grown = deep * (1.0 - frozen if melts else frozen)
+        found.append(float(np.mean(grown / np.sqrt(scale * times))))
     return {"front": found}
+
+
+def layer_that_heats_itself(inputs: Found) -> Found:
+    """Rise [K] of the insulated face of a layer its own current heats, the other face kept, over the Fourier number."""
+    stack = bare_stack(hot_capacity=FIXED, layer_resistance=inputs["resistance"])
+    begin = heat.initial_state(stack, inputs["cells"], COLD)
+    history = integrate(stack, begin, _fourier(inputs), current=inputs["current"])
+    power = heat.electrical_power(history.profiles()[-1], stack, inputs["current"])
+    return {"insulated": [p.far - COLD for p in history.profiles()], "power": power}
+
+
+def layer_over_a_comb(inputs: Found) -> Found:
+    """Resistance [ohm] of a layer between the fingers of a comb, over rows of gap and width in depths."""
+    depth, area, r = 1e-3, 1e-3, inputs["resistivity"]
+    return {
+        "resistance": [electrodes.comb_resistance(r, depth, area, g * depth, w * depth) for g, w in inputs["combs"]]
+    }

@@ -10,11 +10,16 @@ from typing import Any
 import numpy as np
 from judging.case import CASES
 
+from comparisons.numbers import Array
+from tvimdesign.catalog import Catalog
+from tvimdesign.device.core.impedance.joint_impedance import solid_modes
 from tvimdesign.physics.motions import laplace
-from tvimdesign.physics.polymers import large_strain, polymer, viscoelasticity
+from tvimdesign.physics.polymers import glass, large_strain, polymer, viscoelasticity
+from tvimdesign.physics.solids import structure
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
 
 Found = Mapping[str, Any]
+CELSIUS = polymer.ZERO_CELSIUS
 
 
 @cache
@@ -81,3 +86,42 @@ def back_from_laplace(inputs: Found) -> Found:
     found = [laplace.inverse(transforms, float(time)) for time in inputs["time"]]
     names = ("fading", "creeping", "flowing")
     return {name: [float(one[i]) for one in found] for i, name in enumerate(names)}
+
+
+def _glass(name: str) -> glass.Glass:
+    record = Catalog().record("polymers", name)
+    value = record.value
+    transition = glass.GlassTransition(
+        *(value(field) for field in ("glass_transition", "wlf_c1", "wlf_c2", "glass_activation_energy"))
+    )
+    modulus = structure.shear_modulus(value("flexural_modulus"), value("poissons_ratio"))
+    return glass.Glass(modulus, value("reference_temperature"), transition, solid_modes(record))
+
+
+def modulus_across_the_transition(inputs: Found) -> Found:
+    """Time [s] in which a glass relaxes to a share of its modulus at its transition, and its rubber's modulus [Pa]."""
+    record = Catalog().record("polymers", inputs["polymer"])
+    one, times = _glass(inputs["polymer"]), np.logspace(-3, 4, 701)
+
+    def youngs(celsius: float, time: Array) -> Array:
+        relaxed = viscoelasticity.relaxation_modulus(time, one.at(CELSIUS + celsius))
+        return 2.0 * (1.0 + record.value("poissons_ratio")) * relaxed
+
+    left = youngs(inputs["at"], times) / youngs(inputs["before"], times)
+    reached = float(np.interp(-inputs["share"], -left, times))
+    return {"time": reached, "rubber": float(youngs(inputs["beyond"], np.array([reached]))[0])}
+
+
+def transition_of_a_sweep(inputs: Found) -> Found:
+    """Temperature [degC] at which the loss modulus of a glass peaks at each frequency [Hz]."""
+    celsius, one = np.linspace(40.0, 110.0, 1401), _glass(inputs["polymer"])
+    spectrum = one.at(CELSIUS + celsius)
+    peaks = [np.argmax(polymer.maxwell_moduli(2.0 * np.pi * f, spectrum)[1]) for f in inputs["frequency"]]
+    return {"peak": celsius[peaks]}
+
+
+def relaxation_of_a_glass(inputs: Found) -> Found:
+    """Share of the relaxing modulus of a glass that is left at its transition, over time."""
+    modes = [mode for mode in _glass(inputs["polymer"]).modes if mode[0] < 1e10]
+    whole = sum(share for _, share in modes)
+    return {"left": viscoelasticity.relaxation_modulus(np.array(inputs["time"], float), modes) / whole}

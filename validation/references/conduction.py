@@ -63,14 +63,16 @@ def wall_in_series(inputs: Told) -> Told:
 
 
 def front(inputs: Told) -> Told:
-    """Neumann's root for a melt between a face above and a solid at or below the melting point of 330 K.
+    """Neumann's root for a phase that grows from a face into another one, which melts or freezes at 330 K.
 
-    Carslaw and Jaeger, section 11.2 (6); with the solid at its melting point Stefan's one phase. 2000 J/kg K.
+    Carslaw and Jaeger, section 11.2 (6); with the other phase at the melting point Stefan's one phase. 2000 J/kg K.
     """
     latent = float(inputs["latent_heat"].removesuffix(" kJ/kg")) * 1e3
     roots = []
     for solid, melt, far, face in inputs["cases"]:
-        ratio, above, below = np.sqrt(melt / solid), 2000.0 * (face - 330.0) / latent, 2000.0 * (330.0 - far) / latent
+        ratio = np.sqrt(melt / solid if face > 330.0 else solid / melt)
+        above = 2000.0 * abs(face - 330.0) / latent
+        below = 2000.0 * abs(330.0 - far) / latent if abs(far - 330.0) > 0.1 else 0.0
 
         def balance(x: float, ratio: float = ratio, above: float = above, below: float = below) -> float:
             into = above / (np.exp(x**2) * erf(x))
@@ -127,3 +129,52 @@ def plate_with_a_body_beside(inputs: Told, cells: int = 4000) -> Told:
     middles = (own + 0.5) / cells
     places = (0.125, 0.375, 0.625, 0.875)
     return {"plate": [float(np.interp(place, middles, found[:-1])) for place in places], "beside": [found[-1]]}
+
+
+def slab_that_heats_itself(inputs: Told) -> Told:
+    """Rise [K] of the insulated face of a slab with heat I^2 R in it, its other face kept; that heat and 1 ohm's [W].
+
+    q L^2/(2 k) (1 - 32/pi^3 sum (-1)^n/(2n+1)^3 exp(-((2n+1) pi/2)^2 Fo)), by separation of variables (Carslaw and
+    Jaeger, ch. III); 1 mm of 0.2 W/m K on 1000 mm^2.
+    """
+    power = inputs["current"] ** 2 * inputs["resistance"]
+    last = power / (1e-3 * 1e-3) * 1e-3**2 / (2.0 * 0.2)
+    odd = 2.0 * np.arange(400) + 1.0
+    signs = (-1.0) ** np.arange(400)
+    left = [
+        32.0 / np.pi**3 * np.sum(signs / odd**3 * np.exp(-((0.5 * odd * np.pi) ** 2) * fo)) for fo in inputs["fourier"]
+    ]
+    return {"insulated": [float(last * (1.0 - share)) for share in left], "power": power + inputs["current"] ** 2}
+
+
+def comb_by_differences(inputs: Told) -> Told:
+    """Resistance [ohm] of 1 mm on 1000 mm^2 over a comb by finite differences, extrapolated from two grids."""
+    found = []
+    for gap, width in inputs["combs"]:
+        coarse, fine = (_comb_cell(gap, width, cells) for cells in (20, 40))
+        # A finger's edge is a singularity: the error falls with the size of the cells.
+        found.append(inputs["resistivity"] * (2.0 * fine - coarse) * (gap + width) * 1e-3 / 1e-3)
+    return {"resistance": found}
+
+
+def _comb_cell(gap: float, width: float, cells: int) -> float:
+    """Resistance from finger to finger for a unit resistivity and length, of a layer one deep."""
+    across, foot = round(0.5 * (gap + width) * cells), round(0.5 * width * cells)
+    index = np.arange(across * cells).reshape(across, cells)
+    pairs = [(index[:-1], index[1:]), (index[:, :-1], index[:, 1:])]
+    diagonal = np.zeros(across * cells)
+    rows, columns = [], []
+    for one, other in pairs:
+        rows += [one.ravel(), other.ravel()]
+        columns += [other.ravel(), one.ravel()]
+        for side in (one, other):
+            np.add.at(diagonal, side.ravel(), 1.0)
+    feet, middle = index[:foot, 0], index[-1]
+    diagonal[feet] += 2.0
+    diagonal[middle] += 2.0  # half way to the next finger the potential is zero
+    places = np.concatenate([*rows, index.ravel()]), np.concatenate([*columns, index.ravel()])
+    values = np.concatenate([-np.ones(sum(len(row) for row in rows)), diagonal])
+    source = np.zeros(across * cells)
+    source[feet] = 2.0
+    potential = spsolve(coo_matrix((values, places)).tocsr(), source)
+    return 2.0 / float(np.sum(2.0 * (1.0 - potential[feet])))

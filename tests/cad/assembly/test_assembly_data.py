@@ -11,7 +11,8 @@ import pytest
 from cad_designs import design_of
 
 from tvimdesign.cad.assembly.assembly import installed_coils, spring_locations
-from tvimdesign.cad.assembly.assembly_data import SHARES, assembly_data
+from tvimdesign.cad.assembly.assembly_data import SHARES, assembly_data, brought
+from tvimdesign.cad.assembly.assembly_note import WrittenStep
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.export.mesh import CHORD, RING, Instance, Mesh, spring_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
@@ -42,6 +43,13 @@ def test_every_part_has_its_kind_and_only_what_turns_turns(told: dict[str, Any])
     assert {part["kind"] for part in parts.values()} == {"housing", *SPRINGS}
     assert not any(part["turns"] for part in parts.values())  # neither housing nor springs turn with the rotor
     assert parts["spring_right_1"]["lift"] > parts["housing"]["lift"]
+
+
+def test_a_step_brings_the_parts_there_are_from_the_side_of_the_first() -> None:
+    place = ({"part": "pcl_arc", "from": "above"}, {"part": "rotor", "from": "above"}, {"part": "nut", "from": "below"})
+    found = brought(WrittenStep("Set the rotor.", place), ["rotor", "pcl_arc_1", "pcl_arc_2", "link"])
+    assert found == {"text": "Set the rotor.", "parts": ["pcl_arc_1", "pcl_arc_2", "rotor"], "from": "above"}
+    assert brought(WrittenStep("Look.", ()), ["rotor"]) == {"text": "Look.", "parts": [], "from": ""}
 
 
 @pytest.mark.parametrize("kind", SPRINGS)

@@ -32,7 +32,7 @@ def largest_difference(module: peltier.PeltierModule, hot: float) -> float:
 def test_the_shelf_has_thirty_and_a_fifth_of_the_values_of_those_with_a_sheet_are_assumed() -> None:
     assert len(CATALOG.names("peltiers")) >= 30
     assert len(RIGID) >= 21
-    without_sheet = {"qc_17", "flexible_1600", "polyimide_foil_12v", "polyimide_foil_24v"}
+    without_sheet = {"qc_17", "flexible_1600", "polyimide_foil_12v", "polyimide_foil_24v", "comb_electrodes"}
     with_sheet = [CATALOG.record("peltiers", n) for n in CATALOG.names("peltiers") if n not in without_sheet]
     statuses = [[entry.status for entry in record.entries.values()] for record in with_sheet]
     assert sum(of.count("assumed") for of in statuses) <= 0.2 * sum(len(of) for of in statuses)

@@ -10,6 +10,7 @@ import pytest
 import yaml
 from support import ROOT
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.report.verify import comparison, verify_design
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
@@ -58,3 +59,13 @@ def test_the_worst_comes_first_and_is_named(tmp_path: Any) -> None:
     assert "![joint](joint.png)" in page
     table = verify_design.table_csv(rows).splitlines()
     assert len(table) == 1 + len(rows)
+
+
+@pytest.mark.parametrize(("study", "drawn"), [("rigid_modules", True), ("rigid_modules_compression", False)])
+def test_rigid_modules_are_refused_in_a_vane_alone(study: str, drawn: bool) -> None:
+    module = resolve_study(read_study(ROOT / f"studies/{study}.yaml"))
+    if drawn:
+        verify_design.refuse_other_parts(module)
+        return
+    with pytest.raises(InputError, match="heater_form is rigid"):
+        verify_design.refuse_other_parts(module)

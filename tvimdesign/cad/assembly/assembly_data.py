@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from tvimdesign.cad.assembly.assembly import installed_coils
-from tvimdesign.cad.assembly.assembly_note import written_steps
+from tvimdesign.cad.assembly.assembly_note import WrittenStep, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.assembly.exploded_lifts import lifts
 from tvimdesign.cad.export.mesh import RING, Instance, coil_points, wire_centre
@@ -33,10 +33,7 @@ def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], place
             {"name": name, **_part(by_kind[kind_of(name)]), "lift": round(apart[name], _DIGITS)}
             for name in placed
         ],
-        "steps": [
-            {"text": step.text, "parts": _named(step.place, list(placed)), "from": _side(step.place)}
-            for step in written_steps(design, dims, items)
-        ],
+        "steps": [brought(step, placed) for step in written_steps(design, dims, items)],
         "wires": {"ring": RING, "shares": SHARES, "moved": {kind: _moved(dims, kind) for kind in SPRINGS}},
     }  # fmt: skip
     return (json.dumps(data, separators=(",", ":")) + "\n").encode()
@@ -50,14 +47,10 @@ def _part(item: Item) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _named(place: Sequence[Mapping[str, str]], names: Sequence[str]) -> list[str]:
-    """The parts that come into their place, in order."""
-    return [name for one in place for name in names if one["part"] in (name, kind_of(name))]
-
-
-def _side(place: Sequence[Mapping[str, str]]) -> str:
-    """The side that the last of them comes from; none where nothing comes."""
-    return place[-1]["from"] if place else ""
+def brought(step: WrittenStep, names: Collection[str]) -> dict[str, Any]:
+    """A step's text, the parts among `names` that it brings into their place, and the side the first comes from."""
+    found = [(name, one["from"]) for one in step.place for name in names if one["part"] in (name, kind_of(name))]
+    return {"text": step.text, "parts": [name for name, _ in found], "from": found[0][1] if found else ""}
 
 
 def _moved(dims: Dimensions, kind: str) -> list[list[float]]:

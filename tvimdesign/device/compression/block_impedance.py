@@ -161,6 +161,15 @@ def driven_share() -> Scalar:
 
 
 @quantities.helper()
+def over_arcs_compliance(
+    structure_shear_modulus: Scalar, rotor_thickness: Scalar, pcl_inner_radius: Scalar, pcl_mean_radius: Scalar
+) -> Scalar:
+    """What the rotor plate gives from the PCL's inner edge to its vanes' middle [rad/(N*m)]."""
+    ring = structure.ring_stiffness(structure_shear_modulus, rotor_thickness, pcl_inner_radius, pcl_mean_radius)
+    return 1.0 / ring
+
+
+@quantities.helper()
 def under_arcs_compliance() -> Scalar:
     """What the floor gives below the PCL [rad/(N*m)]: nothing, it is counted with the vanes that stand on it."""
     return 0.0

@@ -75,11 +75,6 @@ def slot_top_level(running_clearance: Scalar, slot_height: Scalar) -> Scalar:
     return running_clearance + slot_height
 
 
-BESIDE_CORNER = 0.1 * MM
-"""How far from a corner of the slot above the rounded corner below it ends: no face is narrower than a tool or an
-element of a mesh sees."""
-
-
 @quantities.helper()
 def slot_reach_below(
     heater_form: str,
@@ -88,6 +83,7 @@ def slot_reach_below(
     pcl_mean_radius: Scalar,
     peltier_thickness: Scalar,
     lead_hole_diameter: Scalar,
+    slot_corner_offset: Scalar,
 ) -> Scalar:
     """How far the slots reach under the pads [m]: by their rounded corners; under tiles to the leads between their
     plates.
@@ -96,7 +92,7 @@ def slot_reach_below(
     at the depth a and the radius r.
     """
     if heater_form == CUT:
-        return corner_radius * (1.0 + pad_depth / pcl_mean_radius) + BESIDE_CORNER
+        return corner_radius * (1.0 + pad_depth / pcl_mean_radius) + slot_corner_offset
     return np.fmax(corner_radius, 0.5 * (peltier_thickness + lead_hole_diameter))
 
 

@@ -2,7 +2,27 @@
 
 from __future__ import annotations
 
+from tvimdesign.device.table.quantity import Feature
 from tvimdesign.device.table.quantity_group import QuantityGroup
+
+CRYSTALLIZING = (Feature("pcl_freezing", "equilibrium"),)
+MELTING = (Feature("pcl_softening", "glass"),)
+GLASS = (Feature("pcl_softening", "melting"),)
+_KINDS = {
+    CRYSTALLIZING: (
+        "avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
+        "equilibrium_melting_temperature", "transport_energy", "melt_fracture_stress", "melt_surface_tension",
+        "normal_stress_ratio",
+    ),
+    MELTING: (
+        "latent_heat", "softening_slope", "softening_onset", "softening_width", "zero_shear_viscosity",
+        "plateau_modulus", "flow_activation_energy", "melt_reference_temperature",
+    ),
+    GLASS: ("wlf_c1", "wlf_c2", "glass_activation_energy"),
+}  # fmt: skip
+"""The values of a record that only a material of some kind has."""
+_NO_LIMIT = 1e3
+"""Strain of a liquid that nothing limits [1]."""
 
 quantities = QuantityGroup("Materials")
 
@@ -21,7 +41,19 @@ quantities.record(
     ("process", "structure_material"),
     "Material of housing, rotor, link and retainer",
 )
-quantities.record("pcl_grade", "polymers", "pcl_80k", "Grade of polycaprolactone in the layer")
+quantities.record("pcl_grade", "polymers", "pcl_80k", "Grade of polycaprolactone, or other material, in the layer")
+quantities.option(
+    "pcl_freezing",
+    ("kinetics", "equilibrium"),
+    "How the layer's material freezes: a polymer late and supercooled, a metal or a wax where it melts",
+    record=("pcl_grade", "freezing"),
+)
+quantities.option(
+    "pcl_softening",
+    ("melting", "glass"),
+    "How the layer's material softens: by melting, or through a glass transition without latent heat",
+    record=("pcl_grade", "softening"),
+)
 quantities.record(
     "peltier_module",
     "peltiers",
@@ -118,15 +150,21 @@ for name, unit, field, description in (
     ("pcl_equilibrium_melting_temperature", "degC", "equilibrium_melting_temperature", "No PCL freezes above that"),
     ("pcl_glass_transition", "degC", "glass_transition", "Glass transition of the PCL"),
     ("pcl_transport_energy", "kJ/mol", "transport_energy", "Activation energy of transport to the growing crystal"),
+    ("pcl_wlf_c1", "1", "wlf_c1", "First WLF constant of a glassy layer, at its glass transition"),
+    ("pcl_wlf_c2", "K", "wlf_c2", "Second WLF constant of a glassy layer, at its glass transition"),
+    ("pcl_glass_activation_energy", "kJ/mol", "glass_activation_energy", "Activation energy below that transition"),
 ):
-    quantities.property(name, unit, ("pcl_grade", field), description)
+    kind = next((kind for kind, fields in _KINDS.items() if field in fields), ())
+    least = {"linear_strain_melt": _NO_LIMIT, "glass_transition": 0.0}.get(field)
+    quantities.property(name, unit, ("pcl_grade", field), description, requires=kind, default=least)
 
 for name, unit, field, description in (
     ("pcl_bond_strength", "MPa", "bond_strength", "Traction the bond of layer and faces bears"),
     ("pcl_surface_tension", "N/m", "surface_tension", "Surface tension of the molten PCL"),
     ("pcl_melt_strain_limit", "1", "melt_strain_limit", "Shear strain the molten layer bears without tearing"),
 ):
-    quantities.property(name, unit, ("pcl_grade", field), description, mode="shear")
+    unlimited = _NO_LIMIT if field == "melt_strain_limit" else None
+    quantities.property(name, unit, ("pcl_grade", field), description, mode="shear", default=unlimited)
 
 for name, unit, field, description in (
     ("peltier_seebeck", "V/K", "seebeck", "Seebeck coefficient of one Peltier module"),

@@ -20,7 +20,7 @@ HOUR = 3600.0
 
 
 @rheology.output("Pa*s", per_point=True)
-def pcl_viscosity(temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology) -> Scalar:
+def pcl_viscosity(temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.AnyRheology) -> Scalar:
     """Viscosity of the PCL in slow steady flow."""
     return viscoelasticity.zero_shear_viscosity(polymer.spectrum(temperature, solid_fraction, pcl_rheology))
 

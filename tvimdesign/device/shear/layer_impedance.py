@@ -76,60 +76,15 @@ def core_foot_rise() -> Scalar:
 
 
 @quantities.helper()
-def driven_share(arc_count: Scalar, arc_span: Scalar) -> Scalar:
-    """Share of the circle that the arcs cover [1]."""
-    return arc_count * arc_span / (2.0 * np.pi)
-
-
-@quantities.helper()
-def lap_of_arcs(
-    frozen_shear_modulus: Scalar,
-    pcl_thickness: Scalar,
-    peltier_shear_modulus: Scalar,
-    peltier_thickness: Scalar,
-    structure_shear_modulus: Scalar,
-    rotor_thickness: Scalar,
-    floor_web: Scalar,
-    driven_share: Scalar,
-) -> tuple[Scalar, Scalar, Scalar]:
-    """Frozen layer and pads per area [Pa/m], and the sheets on both sides, plate and floor [1/(Pa*m)]."""
-    per_area = 1.0 / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
-    sheet = np.sqrt(driven_share) / structure_shear_modulus  # of the circle the arcs take up a share: as in the plate
-    return per_area, sheet / rotor_thickness, sheet / floor_web
-
-
-@quantities.helper()
-def under_arcs_compliance(
-    lap_of_arcs: tuple[Scalar, Scalar, Scalar],
-    structure_shear_modulus: Scalar,
-    floor_web: Scalar,
-    arc_width: Scalar,
-    pcl_mean_radius: Scalar,
-    pcl_outer_radius: Scalar,
-    driven_share: Scalar,
-) -> Scalar:
-    """What the floor gives below the arcs, out to their rim [rad/(N*m)]."""
-    ring = structure.ring_stiffness(structure_shear_modulus, floor_web, pcl_mean_radius, pcl_outer_radius)
-    return 1.0 / structure.ring_under_arcs_stiffness(ring, driven_share, shear_lag.lag(*lap_of_arcs, arc_width))
-
-
-@quantities.helper()
 def structure_compliances(
     core_stiffness: Scalar,
     plate_stiffness: Scalar,
     floor_stiffness: Scalar,
-    structure_shear_modulus: Scalar,
-    rotor_thickness: Scalar,
-    pcl_inner_radius: Scalar,
-    pcl_mean_radius: Scalar,
-    driven_share: Scalar,
+    over_arcs_compliance: Scalar,
     pad_compliance: Scalar,
 ) -> Compliances:
     """What is in series with the layer: core, rotor plate inside the arcs and above them, floor, and pads."""
-    above = 1.0 / structure.covered_ring_stiffness(
-        structure_shear_modulus, rotor_thickness, pcl_inner_radius, pcl_mean_radius, driven_share
-    )
-    below = 1.0 / floor_stiffness
+    above, below = over_arcs_compliance, 1.0 / floor_stiffness
     return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, below, pad_compliance)
 
 
@@ -207,22 +162,6 @@ def holding_torque(
     """Torque the frozen joint holds: the least of what the layer, the core, what holds the link, and bearings bear."""
     held = np.fmin(np.fmin(layer_holding_torque, core_holding_torque), link_holding_torque)
     return with_bearings(bearing, held, bearing_holding_torque)
-
-
-@quantities.output("1")
-def layer_edge_rise(
-    lap_of_arcs: tuple[Scalar, Scalar, Scalar],
-    pcl_inner_radius: Scalar,
-    pcl_outer_radius: Scalar,
-    layer_polar_moment: Scalar,
-    held_polar_moment: Scalar,
-) -> Scalar:
-    """Traction of the frozen layer along the outer rim of its arcs over T r/J, a mean over one thickness.
-
-    Plate and floor stretch, so that the torque leaves at the rim; and what is above the windows bears little.
-    """
-    held = held_polar_moment / layer_polar_moment
-    return shear_lag.arc_edge_rise(*lap_of_arcs, (pcl_inner_radius, pcl_outer_radius), held)
 
 
 @quantities.output("MPa")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from tvimdesign.device.shared import BOOKS
 from tvimdesign.device.shear import (
     arc_clearances,
+    arc_laps,
     arc_volumes,
     floor_heat,
     keys,
@@ -22,6 +23,9 @@ from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (rotor_level, layer_impedance, layer_heat, floor_heat, arc_volumes, arc_clearances, melt_retention, tile_heat)
+ROOMS = (
+    rotor_level, layer_impedance, arc_laps, layer_heat, floor_heat, arc_volumes, arc_clearances, melt_retention,
+    tile_heat,
+)  # fmt: skip
 GROUPS = (*tiles.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)

@@ -51,6 +51,11 @@ class Feature:
     """The word of that choice for a module that lacks it."""
 
 
+def have_features(features: Sequence[Feature], chosen: Mapping[str, Any]) -> bool:
+    """Whether a module has features, with some options chosen, by name; an option left open may be any."""
+    return all(chosen.get(feature.choice) != feature.without for feature in features)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Input:
     """A number the study may set. Values are SI; `unit` is what people read and write."""
@@ -92,6 +97,10 @@ class Input:
     def falls_back(self) -> bool:
         """Whether records may lack it: then it has a default with a source of its own."""
         return self.record is not None and not self.source.startswith("record: ")
+
+    def exists(self, chosen: Mapping[str, Any]) -> bool:
+        """Whether it is of any effect with some options chosen, by name; an option left open may be any."""
+        return have_features(self.requires, chosen)
 
     @property
     def sizes_in(self) -> tuple[str, str, str]:
@@ -182,7 +191,7 @@ class Output:
 
     def exists(self, chosen: Mapping[str, Any]) -> bool:
         """Whether there is anything to limit with some options chosen, by name; an option left open may be any."""
-        return all(chosen.get(feature.choice) != feature.without for feature in self.requires)
+        return have_features(self.requires, chosen)
 
 
 @dataclass(frozen=True, kw_only=True)

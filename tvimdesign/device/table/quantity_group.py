@@ -87,14 +87,16 @@ class QuantityGroup:
         description: str,
         mode: str | None = None,
         default: float | None = None,
+        requires: tuple[Feature, ...] = (),
     ) -> None:
         """Add a number that comes from a chosen record, (choice, field), unless the study sets it.
 
-        `default` (SI) is for records that lack it; without one they are refused.
+        `default` (SI) is for records that lack it; without one they are refused where the module has what it
+        `requires`.
         """
         quantity = Input(
             name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record,
-            source=_of_record(record), mode=mode, default=default,
+            source=_of_record(record), mode=mode, default=default, requires=requires,
         )  # fmt: skip
         self.quantities.append(quantity)
 

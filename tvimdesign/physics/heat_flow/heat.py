@@ -75,6 +75,8 @@ class Stack(NamedTuple):
     """What else passes heat between the column and the bodies beside and around it."""
     motion_heat: Any = 0.0
     """Heat that the joint's motion makes in each polymer cell [W]."""
+    layer_resistance: Any = 0.0
+    """Of the polymer, where the heater's current passes it [ohm]; its heat is the same in each cell."""
     freezing: crystallization.Kinetics | None = None
     """Kinetics of freezing; without them the equilibrium melting curve holds."""
 
@@ -233,7 +235,8 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
         (linked["cold"][0] - cold_heat - from_cold) / stack.cold_capacity,
         (linked["hot"][0] + hot_heat - now.through_layer[0]) / stack.hot_capacity,
     )
-    layer = stack.motion_heat - np.diff(now.through_layer) + linked["layer"][0]
+    made = stack.motion_heat + current**2 * stack.layer_resistance / len(now.cells)
+    layer = made - np.diff(now.through_layer) + linked["layer"][0]
     sideways = _sideways(now, stack)
     plate = (linked["plate"][0] - np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
     beside, around = _bodies(now, stack, np.sum(sideways), linked)
@@ -322,7 +325,12 @@ def _bodies(now: Profile, stack: Stack, to_beside: Any, linked: Mapping[str, Seq
 
 def electrical_power(now: Profile, stack: Stack, current: Any) -> Any:
     """Power at the terminals [W], voltage times current; negative where the module generates."""
-    return current * peltier.voltage(stack.peltier, current, now.hot, now.cold)
+    return current * voltage(now, stack, current)
+
+
+def voltage(now: Profile, stack: Stack, current: Any) -> Any:
+    """Voltage over the pads and, where the current passes it, the polymer [V]."""
+    return peltier.voltage(stack.peltier, current, now.hot, now.cold) + current * stack.layer_resistance
 
 
 def stored_energy(state: Any, stack: Stack) -> Any:

@@ -11,7 +11,7 @@ Sources: [F] Ferry, Viscoelastic Properties of Polymers, 3rd ed. (generalised Ma
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -166,7 +166,17 @@ class Rheology(NamedTuple):
     melt_reference: Any
 
 
-def spectrum(temperature_kelvin: Any, fraction: Any, rheology: Rheology) -> list[tuple[Any, Any]]:
+class OneSpectrum(Protocol):
+    """A material whose spectrum follows from temperature alone, as a glass's does."""
+
+    def at(self, temperature_kelvin: Any) -> list[tuple[Any, Any]]:
+        """Relaxation spectrum (time [s], modulus [Pa]) at a temperature."""
+
+
+AnyRheology = Rheology | OneSpectrum
+
+
+def spectrum(temperature_kelvin: Any, fraction: Any, rheology: AnyRheology) -> list[tuple[Any, Any]]:
     """Relaxation spectrum (time [s], modulus [Pa]) at a temperature and a solid fraction X.
 
     Paired modes mix by their logarithms: ln G = X ln G_solid + (1 - X) ln G_melt, ln tau likewise. So moduli and times
@@ -174,6 +184,8 @@ def spectrum(temperature_kelvin: Any, fraction: Any, rheology: Rheology) -> list
     spectrum. Lichtenecker's rule, assumed: between the pure phases it is right in order of magnitude only. The melt's
     times shift with temperature, the solid's do not; the solid's moduli follow `solid_shear_modulus`.
     """
+    if not isinstance(rheology, Rheology):
+        return rheology.at(temperature_kelvin)
     pinned, _ = maxwell_moduli(PINNED_FREQUENCY, rheology.solid_modes)
     level = np.log(solid_shear_modulus(temperature_kelvin, rheology.solid)) - np.log(pinned)
     shift = np.log(arrhenius_shift(temperature_kelvin, rheology.melt_reference, rheology.activation_energy))
@@ -189,7 +201,7 @@ def spectrum(temperature_kelvin: Any, fraction: Any, rheology: Rheology) -> list
     ]
 
 
-def moduli(temperature_kelvin: Any, fraction: Any, angular_frequency: Any, rheology: Rheology) -> tuple[Any, Any]:
+def moduli(temperature_kelvin: Any, fraction: Any, angular_frequency: Any, rheology: AnyRheology) -> tuple[Any, Any]:
     """Storage and loss shear modulus [Pa] at a temperature, a solid fraction and an angular frequency."""
     return maxwell_moduli(angular_frequency, spectrum(temperature_kelvin, fraction, rheology))
 

@@ -112,17 +112,13 @@ PLATE_ENTRY = 0.6
 """How 1/a^2 rises with (h/a)^2 as the torque enters a plate from its face; calibrated to validation/fe_structure."""
 
 
-def plate_stiffness(
-    modulus: Any, thickness: Any, core_radius: Any, inner_radius: Any, middle_radius: Any, covered: Any = 1.0
-) -> Any:
-    """Plate turned by a core that stands on it, out to the middle of what it drives on its face [N*m/rad].
+def plate_stiffness(modulus: Any, thickness: Any, core_radius: Any, inner_radius: Any) -> Any:
+    """Plate turned by a core that stands on it, out to the inner edge of what it drives [N*m/rad].
 
-    1/K = ((1 + 0.6 (h/a)^2)/a^2 - 1/b^2 + (1/b^2 - 1/m^2)/sqrt(c))/(4 pi G h): the torque spreads over the plate's
-    thickness as it enters; from the inner edge b to the middle m it flows in the share c of the circle that is driven.
+    1/K = ((1 + 0.6 (h/a)^2)/a^2 - 1/b^2)/(4 pi G h): the torque spreads over the plate's thickness as it enters.
     """
     entry = 1.0 + PLATE_ENTRY * (thickness / core_radius) ** 2
-    inside = ring_stiffness(modulus, thickness, core_radius / np.sqrt(entry), inner_radius)
-    return series(inside, covered_ring_stiffness(modulus, thickness, inner_radius, middle_radius, covered))
+    return ring_stiffness(modulus, thickness, core_radius / np.sqrt(entry), inner_radius)
 
 
 def covered_ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, outer_radius: Any, covered: Any) -> Any:
@@ -164,6 +160,18 @@ def ring_under_arcs_stiffness(ring: Any, covered: Any, lag: Any) -> Any:
     `shear_lag.lag`, the nearer to the rim the torque comes over.
     """
     return covered * ring * lag / np.tanh(lag)
+
+
+def under_ledges_compliance(seats: tuple[Any, Any], between: Any, beyond: Any) -> Any:
+    """Floor below stiff tiles that lie on an inner and an outer ledge around a window [rad/(N*m)]: s^2 C_b + C_o.
+
+    The inner ledge bears the share s = c_2/(c_1 + c_2 + C_b) of the torque: its way out to the other ledge goes through
+    what gives by `between`, the ribs beside the windows. `seats` are the compliances c of the tiles on both ledges,
+    `beyond` is that from the outer ledge on. Source: statics of two ways in parallel.
+    """
+    inner, outer = seats
+    share = outer / (inner + outer + between)
+    return share**2 * between + beyond
 
 
 def footed_floor_stiffness(ring: Any, spot: Any, foot: Any, count: Any, foot_radius: Any) -> Any:

@@ -78,7 +78,7 @@ def impedance_sweep(resolved: ResolvedModule) -> Curves:
     found = resolved.table.evaluate(swept, [f"{name}@hot" for name in names])
     curves: Curves = {"temperature": celsius.tolist()}
     for name in names:
-        every = found[f"{name}@hot"]
+        every = np.broadcast_to(found[f"{name}@hot"], shares.shape)
         curves |= {name: every[0].tolist(), f"{name}_low": every.min(axis=0).tolist(),
                    f"{name}_high": every.max(axis=0).tolist()}  # fmt: skip
     return curves

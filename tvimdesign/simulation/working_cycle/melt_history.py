@@ -1,7 +1,8 @@
 """How much of the layer is frozen at a temperature: one number outside melting, an interval inside it.
 
-Inside the melting range the solid fraction depends on what came before. Cooled from the melt the layer is still liquid;
-heated it follows the equilibrium curve, which the record knows to some kelvin only.
+Inside the melting range the solid fraction of a polymer depends on what came before. Cooled from the melt the layer is
+still liquid; heated it follows the equilibrium curve, which the record knows to some kelvin only. A metal, a wax or a
+glass follows that curve both ways.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ class Fractions(NamedTuple):
     """Solid fractions [1] at one temperature."""
 
     low: float
-    """Cooled from the melt, still liquid."""
+    """Cooled from the melt, still liquid; of what freezes as it melts, melting as early as the record allows."""
     nominal: float
     """Heated, on the equilibrium curve."""
     high: float
@@ -48,15 +49,26 @@ def fractions_at(resolved: ResolvedModule, temperature: float) -> Fractions:
     first, last = melting_range(resolved)
     if not first <= temperature <= last:
         return Fractions(nominal, nominal, nominal)
-    late = melting._replace(
-        start=melting.start + _off(resolved, "melting_start")[1], end=melting.end + _off(resolved, "melting_end")[1]
+    (start, end), (last_start, last_end) = (
+        (_off(resolved, "melting_start")[i], _off(resolved, "melting_end")[i]) for i in (0, 1)
     )
-    return Fractions(0.0, nominal, max(nominal, _on_heating(temperature, late)))
+    late = melting._replace(start=melting.start + last_start, end=melting.end + last_end)
+    low = 0.0
+    if resolved.quantity("pcl_kinetics") is None:
+        early = melting._replace(start=melting.start + start, end=melting.end + end)
+        low = min(nominal, _on_heating(temperature, early))
+    return Fractions(low, nominal, max(nominal, _on_heating(temperature, late)))
 
 
 def frozen_on_cooling(resolved: ResolvedModule, rate: float) -> Callable[[float], float]:
-    """Solid fraction [1] at a temperature [K] that a melt comes down to at a steady rate [K/s]: Nakamura's integral."""
-    kinetics: crystallization.Kinetics = resolved.quantity("pcl_kinetics")
+    """Solid fraction [1] at a temperature [K] that a melt comes down to at a steady rate [K/s]: Nakamura's integral.
+
+    What has no kinetics freezes as it melts, at any rate.
+    """
+    kinetics: crystallization.Kinetics | None = resolved.quantity("pcl_kinetics")
+    if kinetics is None:
+        melting: polymer.Melting = resolved.quantity("pcl_melting")
+        return lambda temperature: _on_heating(temperature, melting)
     temperatures = np.linspace(kinetics.equilibrium_melting + 20.0, 240.0, 4001)
     slowness = crystallization.rate_constant(temperatures, kinetics) / rate
     steps = 0.5 * (slowness[1:] + slowness[:-1]) * -np.diff(temperatures)

@@ -50,7 +50,7 @@ def test_windows_lose_heat_below_and_the_plate_s_face_above(stack: heat.Stack) -
 EDGE = 4 * (2 * (OUTER - INNER) + SPAN * (INNER + OUTER))
 FIRST, SECOND, LAST = 0.1, 0.25, 0.65
 """Shares of a strip's width that its three bodies have."""
-TO_EDGE = 0.18 * AREA / EDGE
+TO_EDGE = 0.23 * AREA / EDGE
 PAD, WEB = 1.5e-3, 2.5e-3
 REST = PLATE - AREA
 
@@ -64,8 +64,8 @@ def test_plate_beside_the_arcs_is_a_strip_heated_at_its_edge(stack: heat.Stack) 
     bodies = stack.beside[:-1]
     assert sum(lump.capacity for lump in bodies) == pytest.approx(1270.0 * 1200.0 * 4e-3 * REST, rel=1e-9)
     assert sum(lump.surface.area for lump in bodies) == pytest.approx(REST, rel=1e-9)
-    # From the middle of the first to that of the last are all but half of the first and of the last.
-    middles = REST / EDGE * (1.0 - 0.5 * FIRST - 0.5 * LAST)
+    # Not on the way are half of the first and two thirds of the last, where heat ends.
+    middles = REST / EDGE * (1.0 - 0.5 * FIRST - 2.0 / 3.0 * LAST)
     along = sum(1.0 / lump.conductance for lump in bodies[1:])
     assert 1.0 / along == pytest.approx(0.24 * 4e-3 * EDGE / middles, rel=1e-9)
     half_of_first = 0.5 * FIRST * REST / EDGE
@@ -84,17 +84,28 @@ def test_floor_beside_the_pockets_is_two_strips_one_above_the_other(stack: heat.
     # A side of the pads conducts with 6 W/m K in its plane; its edge of 0.75 mm touches the wall with 150 W/m2 K, and
     # behind that is half of the first body of the floor.
     edge = TO_EDGE / (6.0 * 0.75e-3) + 1.0 / (150.0 * 0.75e-3) + 0.5 * FIRST * REST / EDGE / (0.24 * 0.75e-3)
+    # Half of that comes from the side itself, half from the mean of the legs between the sides.
     for side, place in (("hot", 7), ("cold", 0)):
-        assert between(stack, (side, 0), ("around", place)).conductance == pytest.approx(EDGE / edge, rel=1e-9)
+        for first in (side, "legs"):
+            found = between(stack, (first, 0), ("around", place)).conductance
+            assert found == pytest.approx(0.5 * EDGE / edge, rel=1e-9)
     down = 0.24 * LAST * REST / (0.5 * PAD + WEB / 3.0)
     assert between(stack, ("around", 2), ("around", 5)).conductance == pytest.approx(down, rel=1e-9)
 
 
-def test_cold_sides_lie_on_ledges_of_which_the_mean_is_a_third_of_their_depth_away(stack: heat.Stack) -> None:
+def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.Stack) -> None:
     ledges = AREA - stack.cold_surface.area
     assert stack.around[6].capacity == pytest.approx(1270.0 * 1200.0 * ledges * WEB, rel=1e-9)
+    # Carslaw and Jaeger, ch. V: a strip heated over its upper face up to its root, beyond which it goes on.
+    width = ledges / EDGE
+    waves = np.arange(1, 4001) * np.pi
+    reach = waves * width / WEB
+    above_mean = np.sum(2.0 / waves**2 * (1.0 - (1.0 - np.exp(-2.0 * reach)) / (2.0 * reach)))
     onto = between(stack, ("cold", 0), ("around", 6)).conductance
-    assert onto == pytest.approx(0.24 * ledges / (WEB / 3.0), rel=1e-9)
+    assert 0.24 * ledges / WEB / onto == pytest.approx(above_mean, rel=1e-3)
+    to_root = between(stack, ("around", 6), ("around", 3)).conductance
+    beyond = 0.5 * FIRST * REST / EDGE
+    assert to_root == pytest.approx(0.24 * WEB * EDGE / (width / 3.0 + beyond), rel=1e-9)
 
 
 def test_air_in_the_gap_conducts_and_its_walls_radiate(known: dict[str, Any]) -> None:
@@ -115,7 +126,10 @@ def test_all_of_the_housing_warms_up(known: dict[str, Any], stack: heat.Stack) -
 def test_core_and_link_hang_on_a_ring_and_hold_the_rest_of_what_turns(known: dict[str, Any], stack: heat.Stack) -> None:
     core = stack.beside[-1]
     radii = np.linspace(10e-3, INNER, 20001)
-    assert core.conductance == pytest.approx(1.0 / np.trapezoid(1.0 / (2.0 * np.pi * radii * 4e-3 * 0.24), radii))
+    ring = np.trapezoid(1.0 / (2.0 * np.pi * radii * 4e-3 * 0.24), radii)
+    # The plate's last body has its mean two thirds of its width before its end.
+    strip = 2.0 / 3.0 * LAST * REST / EDGE / (0.24 * 4e-3 * EDGE)
+    assert core.conductance == pytest.approx(1.0 / (ring + strip))
     masses = TABLE.evaluate(known, ["rotor_mass", "link_mass", "retainer_mass"]).values()
     plate = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     assert plate + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * sum(masses), rel=1e-9)

@@ -28,3 +28,4 @@ def test_a_layer_that_cools_again_or_never_softens_is_told_as_that() -> None:
     assert "never soft" in stalling_in_words(falling, 90.0)
     assert stalling_in_words(falling, float("inf")) == ""
     assert stalling_in_words(None, 10.0) == ""
+    assert stalling_in_words(falling, 0.0) == ""  # soft from the start: nothing is waited for

@@ -159,9 +159,9 @@ def current_margin(peltier_max_current: Scalar, heater_strings: Scalar, peak_cur
 
 
 @quantities.path(SOFTENING, "degC", "maximum")
-def peak_pcl_temperature(stack_profile: heat.Profile) -> Scalar:
-    """Highest temperature in the PCL during the switch, at its face to the pads."""
-    return stack_profile.near
+def peak_pcl_temperature(hottest_pcl: Scalar) -> Scalar:
+    """Highest temperature in the PCL during the switch, at its face to the pads unless it heats itself."""
+    return hottest_pcl
 
 
 @quantities.path(SOFTENING, "degC", "maximum")

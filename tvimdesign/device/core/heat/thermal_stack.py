@@ -6,7 +6,7 @@ Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`,
 `stack_links`, `side_links`), and by which of these the plate loses heat in the end (`plate_losses`); what of the
 layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer
 (`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `moment_now` what a partly molten layer
-is to the joint.
+is to the joint. `layer_heater.py` has the layer that its own current heats.
 """
 
 from __future__ import annotations
@@ -140,6 +140,7 @@ def stack(
     pcl_conductivity_melt: Scalar,
     pcl_melting: polymer.Melting,
     pads: peltier.PeltierModule,
+    layer_resistance: Scalar,
     peltier_mass: Scalar,
     peltier_specific_heat: Scalar,
     cold_side_coefficient: Scalar,
@@ -190,6 +191,7 @@ def stack(
         sink=sink,
         around=around_pads,
         links=heat_links,
+        layer_resistance=layer_resistance,
     )
 
 
@@ -227,9 +229,9 @@ def electrical_power(terminal_power: Scalar) -> Scalar:
 
 
 @quantities.output("V", instant=True)
-def supply_voltage(stack_profile: heat.Profile, pads: peltier.PeltierModule, drive_current: Scalar) -> Scalar:
+def supply_voltage(stack_profile: heat.Profile, stack_now: heat.Stack, drive_current: Scalar) -> Scalar:
     """Voltage over all pads as they are wired, in size."""
-    return np.fabs(peltier.voltage(pads, drive_current, stack_profile.hot, stack_profile.cold))
+    return np.fabs(heat.voltage(stack_profile, stack_now, drive_current))
 
 
 @quantities.output("degC", instant=True)
@@ -246,7 +248,7 @@ def frequency_now(phase: Phase, frequency_at_hot: Scalar, frequency_at_cold: Sca
 
 @quantities.helper(instant=True)
 def slice_moduli(
-    stack_profile: heat.Profile, pcl_rheology: polymer.Rheology, frequency_now: Scalar
+    stack_profile: heat.Profile, pcl_rheology: polymer.AnyRheology, frequency_now: Scalar
 ) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the phase leads."""
     return polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency_now, pcl_rheology)

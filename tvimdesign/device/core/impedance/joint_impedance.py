@@ -9,11 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.base.record import Record
+from tvimdesign.device.core.materials import CRYSTALLIZING, GLASS
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import dynamics, motion
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import crystallization, glass, polymer
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Impedance")
@@ -35,7 +36,7 @@ def pcl_melting(
                            pcl_melting_end, enthalpy_smoothing)  # fmt: skip
 
 
-@quantities.helper()
+@quantities.helper(requires=CRYSTALLIZING, default=None)
 def pcl_kinetics(
     pcl_avrami_exponent: Scalar,
     pcl_crystallization_half_time: Scalar,
@@ -46,7 +47,7 @@ def pcl_kinetics(
     pcl_transport_energy: Scalar,
     melting_time: Scalar,
 ) -> crystallization.Kinetics:
-    """Freezing and melting of the PCL in time."""
+    """Freezing and melting of the PCL in time; none where it freezes as it melts."""
     return crystallization.Kinetics(pcl_avrami_exponent, pcl_crystallization_half_time, pcl_crystallization_reference,
                                     pcl_nucleation_constant, pcl_equilibrium_melting_temperature, pcl_glass_transition,
                                     pcl_transport_energy, melting_time)  # fmt: skip
@@ -80,23 +81,44 @@ def melt_modes(pcl_grade: Record, viscosity: Scalar = None, plateau: Scalar = No
     return [(later * row["relaxation_time"], stiffer * row["modulus"]) for row in pcl_grade.table("melt_spectrum")]
 
 
+def solid_modes(pcl_grade: Record) -> polymer.Modes:
+    """Relaxation spectrum of a solid, its moduli relative to one another."""
+    return [(row["relaxation_time"], row["relative_modulus"]) for row in pcl_grade.table("solid_spectrum")]
+
+
+@quantities.helper(requires=GLASS, default=None)
+def pcl_glass(
+    pcl_solid_modulus: polymer.SolidModulus,
+    pcl_grade: Record,
+    pcl_glass_transition: Scalar,
+    pcl_wlf_c1: Scalar,
+    pcl_wlf_c2: Scalar,
+    pcl_glass_activation_energy: Scalar,
+) -> glass.Glass:
+    """Relaxation spectrum of a layer that softens through a glass transition, at any temperature."""
+    at_reference = structure.shear_modulus(pcl_solid_modulus.reference_modulus, pcl_solid_modulus.poissons_ratio)
+    transition = glass.GlassTransition(pcl_glass_transition, pcl_wlf_c1, pcl_wlf_c2, pcl_glass_activation_energy)
+    return glass.Glass(at_reference, pcl_solid_modulus.reference_temperature, transition, solid_modes(pcl_grade))
+
+
 @quantities.helper()
 def pcl_rheology(
     pcl_solid_modulus: polymer.SolidModulus,
+    pcl_glass: glass.Glass | None,
     pcl_grade: Record,
     pcl_zero_shear_viscosity: Scalar,
     pcl_plateau_modulus: Scalar,
     pcl_flow_activation_energy: Scalar,
     pcl_melt_reference: Scalar,
     melt_viscosity_factor: Scalar,
-) -> polymer.Rheology:
+) -> polymer.AnyRheology:
     """Relaxation spectrum of the PCL at any temperature and solid fraction.
 
     Chains of another length relax sooner or later; the melt's plateau modulus is the same (Ferry, ch. 13).
     """
-    solid = [
-        (quantity["relaxation_time"], quantity["relative_modulus"]) for quantity in pcl_grade.table("solid_spectrum")
-    ]
+    if pcl_glass is not None:
+        return pcl_glass
+    solid = solid_modes(pcl_grade)
     modes = melt_modes(pcl_grade, pcl_zero_shear_viscosity, pcl_plateau_modulus)
     melt = [(melt_viscosity_factor * time, modulus) for time, modulus in modes]
     return polymer.Rheology(pcl_solid_modulus, solid, melt, pcl_flow_activation_energy, pcl_melt_reference)
@@ -122,7 +144,11 @@ def linear_strain(solid_fraction: Scalar, pcl_linear_range: polymer.LinearRange)
 
 @quantities.helper(per_point=True)
 def pcl_modes(
-    temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology, pcl_moment: Scalar, pcl_depth: Scalar
+    temperature: Scalar,
+    solid_fraction: Scalar,
+    pcl_rheology: polymer.AnyRheology,
+    pcl_moment: Scalar,
+    pcl_depth: Scalar,
 ) -> motion.Modes:
     """Maxwell elements of the PCL as it loads the joint: relaxation times [s] and stiffnesses [N*m/rad]."""
     return motion.layer_modes(polymer.spectrum(temperature, solid_fraction, pcl_rheology), pcl_moment, pcl_depth)
@@ -130,7 +156,7 @@ def pcl_modes(
 
 @quantities.helper(per_point=True)
 def pcl_moduli(
-    temperature: Scalar, frequency: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.Rheology
+    temperature: Scalar, frequency: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.AnyRheology
 ) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the PCL [Pa]."""
     return polymer.moduli(temperature, solid_fraction, 2.0 * np.pi * frequency, pcl_rheology)

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.core.materials import CRYSTALLIZING
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
@@ -138,14 +139,16 @@ def melt_stress(largest_melt_strain: Scalar, storage_modulus_at_hot: Scalar, los
 
 
 @quantities.output(
-    "1", Rule(sense=">=", value=1.0, reason="the melt breaks, or slips on its faces, at the hot point's frequency")
+    "1",
+    Rule(sense=">=", value=1.0, reason="the melt breaks, or slips on its faces, at the hot point's frequency"),
+    requires=CRYSTALLIZING,
 )
 def melt_stress_safety(pcl_melt_fracture_stress: Scalar, melt_stress: Scalar) -> Scalar:
     """Shear stress at which the flowing melt breaks over the largest it sees."""
     return pcl_melt_fracture_stress / melt_stress
 
 
-@quantities.output("mrad")
+@quantities.output("mrad", requires=CRYSTALLIZING)
 def edge_fracture_angle(
     stroke: Scalar,
     largest_melt_strain: Scalar,

@@ -62,12 +62,11 @@ def plate_stiffness(
     rotor_thickness: Scalar,
     core_radius: Scalar,
     pcl_inner_radius: Scalar,
-    pcl_mean_radius: Scalar,
-    driven_share: Scalar,
+    over_arcs_compliance: Scalar,
 ) -> Scalar:
-    """Torsional stiffness of the rotor plate between the core and the middle of the PCL."""
-    return structure.plate_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_inner_radius,
-                                     pcl_mean_radius, driven_share)  # fmt: skip
+    """Torsional stiffness of the rotor plate from the core to where the PCL takes the torque over."""
+    inside = structure.plate_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_inner_radius)
+    return 1.0 / (1.0 / inside + over_arcs_compliance)
 
 
 @quantities.output("N*m/rad")

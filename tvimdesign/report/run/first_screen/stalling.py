@@ -23,8 +23,8 @@ def time_over_rise(softening: Curves, time: float) -> float:
 
 
 def stalling_in_words(softening: Curves | None, time: float) -> str:
-    """What to say of a layer that hardly warms any more when it is soft; empty where it does, or never is soft."""
-    if not softening or not math.isfinite(time):
+    """What to say of a layer that hardly warms any more when it is soft; empty where it does, or always or never is."""
+    if not softening or not 0.0 < time < math.inf:
         return ""
     steep = time_over_rise(softening, time)
     if steep < STALLS:

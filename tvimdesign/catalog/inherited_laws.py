@@ -1,0 +1,88 @@
+"""Laws that a record has from another material: it is based on a record of one, and its own values tell them apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from tvimdesign.base.record import Record
+from tvimdesign.catalog.categories import CATEGORIES
+from tvimdesign.catalog.category import Category
+
+SAME_MATERIAL = 0.03
+"""Share, in SI, by which values of two records of one material may differ: 10 K of a melting temperature, and more
+than the densities of a polymer's grades."""
+
+
+class InheritedLaw(NamedTuple):
+    """A law of one material in the record of another."""
+
+    law: str
+    """What people call it."""
+    owner: Record
+    """The record it comes from."""
+    differs: str
+    """The value by which that is told to be another material."""
+    names: tuple[str, ...]
+    """The values and tables of which the record needs one of its own."""
+    kind_differs: bool
+    """Whether the two freeze or soften in different ways, so that the law means nothing here."""
+
+
+def inherited_laws(record: Record) -> list[InheritedLaw]:
+    """The laws that a record takes from another material's record, of those its kind uses."""
+    category = CATEGORIES[record.category]
+    used = {law for word in record.words.values() for law in category.own_laws.get(word, ())}
+    found = []
+    for law, names in category.laws.items():
+        owner = _owner(record, names) if law in used else record
+        differs = "" if owner is record else _difference(record, owner, category)
+        if differs:
+            kind_differs = any(owner.words.get(word) != record.words.get(word) for word in category.usual_words)
+            found.append(InheritedLaw(law, owner, differs, names, kind_differs))
+    return found
+
+
+def meaningless_laws(record: Record) -> list[str]:
+    """A problem for each law that a record has from a material of another kind."""
+    return [
+        f"{record.file}: {one.law}: those of {one.owner.name} mean nothing here, where {_kind(record)}; "
+        f"give {' or '.join(one.names)} of its own"
+        for one in inherited_laws(record)
+        if one.kind_differs
+    ]
+
+
+def inherited_law_warnings(record: Record) -> list[str]:
+    """A sentence for each law that a record has from another material."""
+    return [
+        f"{record.title}: the {one.law} are those of {one.owner.title}, and its {one.differs} is another material's; "
+        f"give {' or '.join(one.names)} of its own"
+        for one in inherited_laws(record)
+    ]
+
+
+def _owner(record: Record, names: tuple[str, ...]) -> Record:
+    """The record in a chain of records that was the first to say any of some values and tables as they are."""
+
+    def said(one: Record) -> dict[str, Any]:
+        everything: Mapping[str, Any] = {**one.entries, **one.tables}
+        return {name: everything[name] for name in names if name in everything}
+
+    while record.based_on is not None and said(record) == said(record.based_on):
+        record = record.based_on
+    return record
+
+
+def _difference(record: Record, owner: Record, category: Category) -> str:
+    """The first value that says two records are of different materials; nothing where none does."""
+    for name in category.material:
+        own, other = record.value(name), owner.value(name)
+        if abs(own / other - 1.0) > SAME_MATERIAL:
+            return name
+    return ""
+
+
+def _kind(record: Record) -> str:
+    words = CATEGORIES[record.category].usual_words
+    return " and ".join(f"{word} is {record.words[word]}" for word in words)

@@ -1,0 +1,168 @@
+"""How the frozen layer takes the torque over along its arcs: what plate and floor give there, and the edges' traction.
+
+Pads cut to the PCL lie on the floor's ledges, so that plate and floor are the two sheets of the lap. On rigid modules
+lies a spreader of metal, stiffer than a printed plate, which is the lower sheet; the modules hand over to the ledges of
+their windows what the spreader has taken.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
+from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.layers import annular_lap, shear_lag
+from tvimdesign.physics.solids import structure
+
+quantities = QuantityGroup(shared.group)
+
+
+@quantities.helper()
+def driven_share(arc_count: Scalar, arc_span: Scalar) -> Scalar:
+    """Share of the circle that the arcs cover [1]."""
+    return arc_count * arc_span / (2.0 * np.pi)
+
+
+@quantities.helper()
+def lap_of_arcs(
+    frozen_shear_modulus: Scalar,
+    pcl_thickness: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    structure_shear_modulus: Scalar,
+    rotor_thickness: Scalar,
+    floor_web: Scalar,
+    driven_share: Scalar,
+) -> tuple[Scalar, Scalar, Scalar]:
+    """Frozen layer and pads per area [Pa/m], and the sheets on both sides, plate and floor [1/(Pa*m)]."""
+    per_area = 1.0 / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
+    sheet = np.sqrt(driven_share) / structure_shear_modulus  # of the circle the arcs take up a share: as in the plate
+    return per_area, sheet / rotor_thickness, sheet / floor_web
+
+
+@quantities.helper(requires=WITH_TILES)
+def tiled_share(heater_count: Scalar, peltier_length: Scalar, tile_radius: Scalar) -> Scalar:
+    """Share of the circle through their middles that rigid modules take up [1]."""
+    return heater_count * peltier_length / (2.0 * np.pi * tile_radius)
+
+
+@quantities.helper(requires=WITH_TILES)
+def windowed_share(heater_count: Scalar, peltier_length: Scalar, window_ledge: Scalar, tile_radius: Scalar) -> Scalar:
+    """Share of the same circle that the windows below rigid modules take up [1]."""
+    return heater_count * (peltier_length - 2.0 * window_ledge) / (2.0 * np.pi * tile_radius)
+
+
+@quantities.helper(requires=WITH_TILES, default=None)
+def lap_on_spreader(
+    frozen_shear_modulus: Scalar,
+    pcl_thickness: Scalar,
+    spreader_shear_modulus: Scalar,
+    spreader_depth: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    structure_shear_modulus: Scalar,
+    rotor_thickness: Scalar,
+    floor_web: Scalar,
+    driven_share: Scalar,
+    tiled_share: Scalar,
+    windowed_share: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+) -> annular_lap.AnnularLap:
+    """Frozen layer between the plate and what a spreader, modules and the floor below are together."""
+    plate = np.sqrt(driven_share) * structure_shear_modulus * rotor_thickness
+    metal = driven_share * spreader_shear_modulus * spreader_depth
+    modules = tiled_share * peltier_shear_modulus * peltier_thickness
+    floor = (1.0 - windowed_share) * structure_shear_modulus * floor_web
+    layer = driven_share * frozen_shear_modulus / pcl_thickness
+    radii = pcl_inner_radius, pcl_outer_radius
+    return annular_lap.annular_lap(layer, 1.0 / plate, 1.0 / (metal + modules + floor), radii)
+
+
+@quantities.helper()
+def over_arcs_compliance(
+    lap_on_spreader: annular_lap.AnnularLap | None,
+    structure_shear_modulus: Scalar,
+    rotor_thickness: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_mean_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    driven_share: Scalar,
+) -> Scalar:
+    """What the rotor plate gives above the arcs [rad/(N*m)]: to their middle, or as a spreader takes it over."""
+    sheet = structure_shear_modulus, rotor_thickness, pcl_inner_radius
+    if lap_on_spreader is None:
+        return 1.0 / structure.covered_ring_stiffness(*sheet, pcl_mean_radius, driven_share)
+    whole = structure.covered_ring_stiffness(*sheet, pcl_outer_radius, driven_share)
+    return annular_lap.upper_share(lap_on_spreader) / whole
+
+
+@quantities.helper(requires=WITH_TILES)
+def ledge_radii(tile_radius: Scalar, peltier_width: Scalar, window_ledge: Scalar) -> tuple[Scalar, Scalar]:
+    """Radii of the middles of the ledges that a rigid module lies on, inner and outer [m]."""
+    reach = 0.5 * (peltier_width - window_ledge)
+    return tile_radius - reach, tile_radius + reach
+
+
+@quantities.helper(requires=WITH_TILES)
+def under_tiles_compliance(
+    structure_shear_modulus: Scalar,
+    floor_web: Scalar,
+    ledge_radii: tuple[Scalar, Scalar],
+    window_ledge: Scalar,
+    pcl_outer_radius: Scalar,
+    tiled_share: Scalar,
+    windowed_share: Scalar,
+    heater_count: Scalar,
+    peltier_length: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+) -> Scalar:
+    """What the floor gives between the ledges of rigid modules, and from the outer one to the arcs' rim [rad/(N*m)]."""
+    inner, outer = ledge_radii
+    on_ledge = heater_count * peltier_length * window_ledge * peltier_shear_modulus / peltier_thickness
+    seats = 1.0 / (on_ledge * inner**2), 1.0 / (on_ledge * outer**2)
+    ribs = (1.0 - windowed_share) * structure.ring_stiffness(structure_shear_modulus, floor_web, inner, outer)
+    beyond = structure.covered_ring_stiffness(structure_shear_modulus, floor_web, outer, pcl_outer_radius, tiled_share)
+    return structure.under_ledges_compliance(seats, 1.0 / ribs, 1.0 / beyond)
+
+
+@quantities.helper()
+def under_arcs_compliance(
+    heater_form: str,
+    lap_of_arcs: tuple[Scalar, Scalar, Scalar],
+    under_tiles_compliance: Scalar,
+    structure_shear_modulus: Scalar,
+    floor_web: Scalar,
+    arc_width: Scalar,
+    pcl_mean_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    driven_share: Scalar,
+) -> Scalar:
+    """What the floor gives below the arcs, out to their rim [rad/(N*m)]."""
+    if heater_form != CUT:
+        return under_tiles_compliance
+    ring = structure.ring_stiffness(structure_shear_modulus, floor_web, pcl_mean_radius, pcl_outer_radius)
+    return 1.0 / structure.ring_under_arcs_stiffness(ring, driven_share, shear_lag.lag(*lap_of_arcs, arc_width))
+
+
+@quantities.output("1")
+def layer_edge_rise(
+    lap_on_spreader: annular_lap.AnnularLap | None,
+    lap_of_arcs: tuple[Scalar, Scalar, Scalar],
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    layer_polar_moment: Scalar,
+    held_polar_moment: Scalar,
+) -> Scalar:
+    """Highest traction of the frozen layer along the rims of its arcs over T r/J at the outer, a mean over a thickness.
+
+    Plate and floor stretch, so that the torque leaves at the outer rim, and what is above the windows bears little. On
+    a spreader that is stiffer than the plate it leaves at the inner rim.
+    """
+    if lap_on_spreader is not None:
+        return np.fmax(*annular_lap.edge_rises(lap_on_spreader))
+    held = held_polar_moment / layer_polar_moment
+    return shear_lag.arc_edge_rise(*lap_of_arcs, (pcl_inner_radius, pcl_outer_radius), held)
