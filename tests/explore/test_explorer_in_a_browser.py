@@ -7,7 +7,7 @@ from pathlib import Path
 
 import axe_playwright_python
 import pytest
-from conftest import Explorer, Served
+from served_explorer import Explorer, Served
 
 from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.study.tree import tree_of_file

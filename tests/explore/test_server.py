@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 from pathlib import Path
 from typing import Any
 
 import pytest
-from explored import SMALL, TOKEN, served, small_study, talking
+from explored import SMALL, TOKEN, awaited, served, small_study, talking
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.history import FILE
@@ -45,7 +44,7 @@ def test_only_who_has_the_token_gets_anything_and_nothing_outside_the_folder(tmp
     ]
     asked: list[tuple[str, dict[str, str]]] = [(path, {}) for path in given + outside]
     asked += [(given[0], {"Host": "example.com"}), (given[0], {"Origin": "http://example.com"})]
-    found = asyncio.run(_statuses(small_study(tmp_path), tmp_path / "out", asked))
+    found = awaited(_statuses(small_study(tmp_path), tmp_path / "out", asked))
     assert found == [200] * len(given) + [404] * len(outside) + [404, 403]
     assert HOST == "127.0.0.1"
 
@@ -70,7 +69,7 @@ def test_what_is_typed_is_refused_in_the_words_of_a_study(tmp_path: Path) -> Non
                 found.append(await page.kind("refused"))
             return found
 
-    for message, refused in zip(REFUSED, asyncio.run(talk()), strict=True):
+    for message, refused in zip(REFUSED, awaited(talk()), strict=True):
         written = SMALL.replace("{cover: none}", "{" + f'{message["name"]}: "{message["text"]}"' + "}")
         written = "\n".join(line for line in written.splitlines() if not line.startswith("  pcl_thickness: ["))
         (tmp_path / "other.yaml").write_text(written)
@@ -108,7 +107,7 @@ def test_sections_and_folders_are_out_of_reach(tmp_path: Path) -> None:
                 words.append((await page.kind("refused"))["words"])
             return words
 
-    assert all(asyncio.run(talk()))
+    assert all(awaited(talk()))
     assert not (tmp_path / "x.yaml").exists()
 
 
@@ -153,7 +152,7 @@ def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_pa
             assert server.session is not None
             return server.session.state_shown()
 
-    first, second, third = asyncio.run(change())
+    first, second, third = awaited(change())
     assert first["controls"]["requirements"][0]["text"] == "10 W"
     assert _input(second, "core_radius") == "9.5 mm"
     assert _input(third, "core_radius") == _input(first, "core_radius")
@@ -165,7 +164,7 @@ def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_pa
     assert kept.minimize == {"response_time": 1.0, "module_mass": 3.0}
     fixed = read_study(folder / "fixed.yaml")
     assert (fixed.vary, fixed.minimize, fixed.module["pcl_thickness"]) == ({}, {}, pytest.approx(0.9e-3))
-    reopened = asyncio.run(again())
+    reopened = awaited(again())
     assert (reopened["way"], reopened["controls"]["variables"][0]["text"]) == ("evaluate", "0.9 mm")
     assert json.loads((folder / FILE).read_text())["state"]["changes"]["core_radius"] == "9.5 mm"
 
@@ -177,15 +176,15 @@ def test_a_folder_of_something_else_and_a_study_that_changed_are_refused(tmp_pat
         async with served(study, folder):
             pass
 
-    asyncio.run(opened())
+    awaited(opened())
     small_study(tmp_path, SMALL.replace("12 W", "13 W"))
     with pytest.raises(InputError, match="before its file changed"):
-        asyncio.run(opened())
+        awaited(opened())
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "thesis.txt").write_text("years of work")
     folder = tmp_path / "other"
     with pytest.raises(InputError, match="no explorer's"):
-        asyncio.run(opened())
+        awaited(opened())
 
 
 def _input(state: dict[str, Any], name: str) -> str:

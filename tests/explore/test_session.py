@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from explored import TOKEN, Talk, served, small_study, talking
+from explored import TOKEN, Talk, awaited, served, small_study, talking
 
 from tvimdesign.explore.engine import Engine
 from tvimdesign.explore.source import open_source
@@ -30,7 +30,7 @@ def test_the_newest_of_a_drag_is_answered_and_those_between_are_passed_over(tmp_
             last = await page.until(lambda one: one["kind"] == "answer" and one["number"] == 61)
             return [one for one in page.heard if one["kind"] == "answer"], first, last
 
-    answers, first, last = asyncio.run(drag())
+    answers, first, last = awaited(drag())
     assert len(answers) < 50
     assert [one["number"] for one in answers] == sorted(one["number"] for one in answers)
     power = next(one for one in last["shown"]["limits"] if one["of"] == "peak_power")
@@ -51,7 +51,7 @@ def test_the_exact_answer_is_the_one_of_run_and_comes_with_the_report(tmp_path: 
             await page.kind("saved")
             return exact
 
-    exact = asyncio.run(settled())
+    exact = awaited(settled())
     again = answer_study(tree_of_file(tmp_path / "out" / "saved.yaml"), lambda _: None).result.design
     for name, shown in exact["shown"]["variables"].items():
         assert shown["value"] == pytest.approx(again.values[name] * (1e3 if name == "pcl_thickness" else 1.0), rel=1e-5)
@@ -76,7 +76,7 @@ def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) ->
             answers = [(one["number"], one["shown"]["stage"]) for one in page.heard if one["kind"] == "answer"]
             return answers, server.session.solver.process == process
 
-    answers, same = asyncio.run(superseded())
+    answers, same = awaited(superseded())
     assert answers == [(1, "quick"), (2, "quick"), (2, "exact")]
     assert same
 
@@ -87,9 +87,11 @@ def test_where_nothing_is_feasible_the_conflict_is_said_and_the_nearest_design_s
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             await page.answer("quick")
             await page.send(kind="require", name="response_time", texts=["<= 20 s"])
-            return await page.until(lambda one: one["kind"] == "answer" and one["number"] == 2 and one["shown"]["stage"] == "exact")
+            return await page.until(
+                lambda one: one["kind"] == "answer" and one["number"] == 2 and one["shown"]["stage"] == "exact"
+            )
 
-    shown = asyncio.run(asked())["shown"]
+    shown = awaited(asked())["shown"]
     assert not shown["found"]
     assert "no design found that keeps every limit" in shown["status"]
     assert shown["values"]
@@ -118,7 +120,7 @@ def test_two_pages_share_a_study_a_design_is_pinned_and_gone_back_to(tmp_path: P
             )
             return pins, back
 
-    pins, back = asyncio.run(pinned())
+    pins, back = awaited(pinned())
     assert pins[0]["name"] == "as it was"
     assert pins[0]["values"]["peak_power"].endswith("W")
     thickness = back["controls"]["variables"][0]["text"]
@@ -141,7 +143,7 @@ def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path: Pa
                 await page.send(kind="require", name="peak_power", texts=["<= 9 W"])
                 return await page.until(lambda one: one["kind"] == "answer" and one["number"] == 2)
 
-    shown = asyncio.run(killed())["shown"]
+    shown = awaited(killed())["shown"]
     assert any(one["text"] == "peak_power <= 9 W" for one in shown["limits"])
 
 
