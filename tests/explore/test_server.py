@@ -10,10 +10,10 @@ import pytest
 from explored import SMALL, TOKEN, awaited, served, small_study, talking
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.history import FILE
-from tvimdesign.explore.messages import read_message
 from tvimdesign.explore.server import HOST
-from tvimdesign.explore.source import open_source
+from tvimdesign.explore.states.history import FILE
+from tvimdesign.explore.states.messages import read_message
+from tvimdesign.explore.states.source import open_source
 from tvimdesign.study import read_study
 from tvimdesign.study.text.mistakes import StudyError
 

@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from explored import TOKEN, Talk, awaited, served, small_study, talking
 
-from tvimdesign.explore.engine import Engine
-from tvimdesign.explore.source import open_source
-from tvimdesign.explore.state import State
+from tvimdesign.explore.answers.engine import Engine
+from tvimdesign.explore.states.source import open_source
+from tvimdesign.explore.states.state import State
 from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.study.tree import tree_of_file
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.whole_files import make_folder, write_whole
-from tvimdesign.explore.report_fragment import PARTS
+from tvimdesign.explore.answers.report_fragment import PARTS
 from tvimdesign.report.run.parts_of_design import make_parts_of
 from tvimdesign.report.run.solid_checks import in_short
 

@@ -13,9 +13,9 @@ from pathlib import Path
 from aiohttp import web
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.history import FILE, open_kept
 from tvimdesign.explore.server import HOST, Server
-from tvimdesign.explore.source import open_source
+from tvimdesign.explore.states.history import FILE, open_kept
+from tvimdesign.explore.states.source import open_source
 from tvimdesign.report.output.progress import wide_console
 
 SHORTEST_TOKEN = 16

@@ -12,10 +12,10 @@ from typing import Any
 
 from aiohttp import WSMsgType, web
 
+from tvimdesign.explore.answers.report_fragment import PARTS
 from tvimdesign.explore.explore_page import STATIC, content_policy, explore_page
-from tvimdesign.explore.messages import MOST_BYTES
-from tvimdesign.explore.report_fragment import PARTS
 from tvimdesign.explore.session import Session
+from tvimdesign.explore.states.messages import MOST_BYTES
 
 HOST = "127.0.0.1"
 _LOCAL = {"127.0.0.1", "localhost", "[::1]"}

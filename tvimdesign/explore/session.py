@@ -11,17 +11,17 @@ from typing import Any
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.units import pretty
 from tvimdesign.base.whole_files import make_folder, write_whole
-from tvimdesign.explore import messages
-from tvimdesign.explore.controls import controls_shown
-from tvimdesign.explore.engine import Stage
-from tvimdesign.explore.history import Kept, open_kept, write_kept
-from tvimdesign.explore.messages import Change, Message
+from tvimdesign.explore.answers.engine import Stage
+from tvimdesign.explore.answers.shown import value_names
+from tvimdesign.explore.answers.solver import Job, Solver, Told
 from tvimdesign.explore.parts import PartsMaker
-from tvimdesign.explore.saved_study import saved_text
-from tvimdesign.explore.shown import value_names
-from tvimdesign.explore.solver import Job, Solver, Told
-from tvimdesign.explore.source import Source, open_source
-from tvimdesign.explore.state import Pinned, State, changed, tree_of
+from tvimdesign.explore.states import messages
+from tvimdesign.explore.states.controls import controls_shown
+from tvimdesign.explore.states.history import Kept, open_kept, write_kept
+from tvimdesign.explore.states.messages import Change, Message
+from tvimdesign.explore.states.saved_study import saved_text
+from tvimdesign.explore.states.source import Source, open_source
+from tvimdesign.explore.states.state import Pinned, State, changed, tree_of
 from tvimdesign.study import Study, read_tree
 
 QUIET = 0.35

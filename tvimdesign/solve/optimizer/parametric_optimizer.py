@@ -65,7 +65,10 @@ class ParametricOptimizer:
         ranges = {name: (r.lower, r.upper) for name, r in study.vary.items() if isinstance(r, Range)}
         own = {current.row for current in optimizer.currents}
         within = {name: ends for name, ends in ranges.items() if name not in own}
-        run = optimizer.solve(within, warm, objective=Objective(study.minimize))
+        goal = Objective(study.minimize)
+        run = optimizer.solve(within, warm, objective=goal)
+        if warm is not None and not run.start.converged:  # too far for its multipliers, but not for its unknowns
+            run = optimizer.solve(within, objective=goal, unknowns=warm.unknowns, beginning="near")
         return Moved(run, self._binding(run, optimizer), _ends(run, optimizer))
 
     def _moved(self, study: Study, reference: Mapping[str, float] | None) -> Optimizer:

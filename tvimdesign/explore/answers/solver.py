@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.base.child_process import start_child
-from tvimdesign.explore.engine import Stage
-from tvimdesign.explore.state import State
+from tvimdesign.explore.answers.engine import Stage
+from tvimdesign.explore.states.state import State
 
 Told = dict[str, Any]
 _STARTS = 2
@@ -77,7 +77,7 @@ class Solver:
 
     def _start(self) -> None:
         self._child = start_child(
-            "tvimdesign.explore.worker", self._arguments,
+            "tvimdesign.explore.answers.worker", self._arguments,
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8", bufsize=1,
             start_new_session=True,
         )  # fmt: skip

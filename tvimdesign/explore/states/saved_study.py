@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from tvimdesign.explore.state import State, set_values, tree_of
+from tvimdesign.explore.states.state import State, set_values, tree_of
 from tvimdesign.study.text.yaml_text import Text
 from tvimdesign.study.tree import StudyTree, tree_yaml
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.state import State, beginning, refuse_other_folders
+from tvimdesign.explore.states.state import State, beginning, refuse_other_folders
 from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import Design, read_design

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 
 from tvimdesign.base.errors import InputError, UnitError
 from tvimdesign.base.units import parse_quantity
-from tvimdesign.explore.messages import Change, SetLimits, SetRange, SetValue, Way
+from tvimdesign.explore.states.messages import Change, SetLimits, SetRange, SetValue, Way
 from tvimdesign.study import Range, Study, given, read_tree
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.text.python_values import node_of

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.device import table_for
-from tvimdesign.explore.shown import finite_data
+from tvimdesign.explore.answers.shown import finite_data
 from tvimdesign.page.page_fragment import page_fragment
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy

@@ -7,7 +7,7 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Choice, Input
-from tvimdesign.explore.state import State, text_of
+from tvimdesign.explore.states.state import State, text_of
 from tvimdesign.study import Options, Study, given
 from tvimdesign.study.resolve import words_of
 from tvimdesign.study.written_study import exactly

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.whole_files import write_whole
-from tvimdesign.explore.state import Pinned, State
+from tvimdesign.explore.states.state import Pinned, State
 
 FILE = "explore.json"
 MOST_STEPS = 200

@@ -1,7 +1,7 @@
 """The process that solves for a page: one job at a time, read as a line of JSON, answered as lines of JSON.
 
-Run as `python -m tvimdesign.explore.worker SOURCE FOLDER [SETTING...]`. An interrupt ends the job that is under way,
-as a newer one stands in its place; the process goes on.
+Run as `python -m tvimdesign.explore.answers.worker SOURCE FOLDER [SETTING...]`. An interrupt ends the job that is
+under way, as a newer one stands in its place; the process goes on.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from typing import Any, TextIO
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
-from tvimdesign.explore.engine import Answer, Engine, refused
-from tvimdesign.explore.report_fragment import design_name, report_fragment
-from tvimdesign.explore.source import open_source
-from tvimdesign.explore.state import State
+from tvimdesign.explore.answers.engine import Answer, Engine, refused
+from tvimdesign.explore.answers.report_fragment import design_name, report_fragment
+from tvimdesign.explore.states.source import open_source
+from tvimdesign.explore.states.state import State
 from tvimdesign.study.design import design_json
 
 
