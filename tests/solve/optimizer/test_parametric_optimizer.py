@@ -37,7 +37,7 @@ def built() -> ParametricOptimizer:
 def test_a_moved_problem_has_the_optimum_of_one_built_for_it(built: ParametricOptimizer, name: str) -> None:
     first, study = built.solve(built.study), _with(*MOVED[name])
     assert built.fits(study)
-    moved = built.solve(study, first.run.trace)
+    moved = built.solve(study, first.run)
     fresh = Optimizer(study, built.optimizer.reference).solve()
     assert moved.converged
     assert moved.run.start.objective == pytest.approx(fresh.start.objective, rel=1e-6)

@@ -97,8 +97,8 @@ class Engine:
     def _optimum(self, study: Study) -> Moved:
         if self._problem is None or not self._problem.fits(study):
             self._problem, self._last = ParametricOptimizer(study), None
-        warm = self._last.run.trace if self._last else None
-        return self._problem.solve(study, warm, self._reference(study, self._problem))
+        last = self._last.run if self._last else None
+        return self._problem.solve(study, last, self._reference(study, self._problem))
 
     def _reference(self, study: Study, problem: ParametricOptimizer) -> dict[str, float]:
         """What is minimised at the study's own start, where that is another than the one that was built."""

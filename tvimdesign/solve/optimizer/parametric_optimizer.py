@@ -15,7 +15,7 @@ from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Free
-from tvimdesign.solve.nlp.solver_run import Run, Trace
+from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Range, Study, given
 
@@ -55,21 +55,31 @@ class ParametricOptimizer:
         """Whether nothing but numbers differs from the study that was built."""
         return _shape(study) == self._shape
 
-    def solve(self, study: Study, warm: Trace | None = None, reference: Mapping[str, float] | None = None) -> Moved:
-        """The optimum of a study, from an earlier one's `warm` trace; what is minimised is divided by `reference`.
+    def solve(self, study: Study, last: Run | None = None, reference: Mapping[str, float] | None = None) -> Moved:
+        """The optimum of a study, from the `last` one; what is minimised is divided by `reference`.
 
         Limits that nothing free can change are no part of the problem, and whoever asks has to look after them.
         """
         optimizer = self._moved(study, reference)
         optimizer.deadline = Deadline(study.solver.time_limit)
-        ranges = {name: (r.lower, r.upper) for name, r in study.vary.items() if isinstance(r, Range)}
         own = {current.row for current in optimizer.currents}
-        within = {name: ends for name, ends in ranges.items() if name not in own}
+        ranges = {name: one for name, one in study.vary.items() if isinstance(one, Range) and name not in own}
+        within = {name: (one.lower, one.upper) for name, one in ranges.items()}
         goal = Objective(study.minimize)
-        run = optimizer.solve(within, warm, objective=goal)
-        if warm is not None and not run.start.converged:  # too far for its multipliers, but not for its unknowns
-            run = optimizer.solve(within, objective=goal, unknowns=warm.unknowns, beginning="near")
+        run = optimizer.solve(within, last, objective=goal)
+        if last is not None and not run.start.converged:
+            begin = self._clipped(last, optimizer, ranges)
+            run = optimizer.solve(within, objective=goal, begin=begin, beginning="near")
         return Moved(run, self._binding(run, optimizer), _ends(run, optimizer))
+
+    @staticmethod
+    def _clipped(last: Run, optimizer: Optimizer, ranges: Mapping[str, Range]) -> Array:
+        """An optimum within the ranges of now: where to begin that is too far from it for its multipliers."""
+        begin = optimizer.model.start.copy()
+        for name, value in last.start.end.items():
+            ends = ranges.get(name)
+            begin[optimizer.model.index[name]] = min(max(value, ends.lower), ends.upper) if ends else value
+        return begin
 
     def _moved(self, study: Study, reference: Mapping[str, float] | None) -> Optimizer:
         """The built optimizer with other parameters: nothing of what was compiled changes."""
