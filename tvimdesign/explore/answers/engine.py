@@ -116,7 +116,8 @@ class Engine:
         model = self._model(study)
         evaluated = model.evaluate(model.inputs(study, found))
         if any(np.isnan(value) for value in evaluated.values.values()):
-            refuse_impossible(study)
+            with np.errstate(invalid="ignore"):
+                refuse_impossible(study)
         return evaluated
 
     def _model(self, study: Study) -> QuickModel:
