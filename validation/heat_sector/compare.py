@@ -222,12 +222,15 @@ def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> d
 
 
 def studies() -> list[Path]:
-    """The shipped studies but those with modules below a spreader: the plane has pads alike all over."""
-    return [
-        path
-        for path in sorted(STUDIES.glob("*.yaml"))
-        if given(read_study(path)).get("heater_form", "flexible") == "flexible"
-    ]
+    """The shipped studies but those of compression with modules behind a spreader: its plane has pads alike all
+    over."""
+    return [path for path in sorted(STUDIES.glob("*.yaml")) if has_a_plane(path)]
+
+
+def has_a_plane(path: Path) -> bool:
+    """Whether the plane draws the heaters of a study."""
+    study = read_study(path)
+    return study.mode == "shear" or given(study).get("heater_form", "flexible") == "flexible"
 
 
 def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunctions]]:
@@ -280,8 +283,9 @@ def main() -> None:
 
 
 def _put(study: str, rows: list[list[str]]) -> None:
-    """Write a study's rows in place of those it had."""
+    """Write a study's rows in place of those it had; those of studies that are no more go."""
     before = list(csv.reader(RESULTS.open()))[1:] if RESULTS.exists() else []
+    before = [row for row in before if (STUDIES / f"{row[0]}.yaml").exists()]
     with RESULTS.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(HEADER)

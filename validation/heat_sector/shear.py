@@ -4,6 +4,10 @@ A strip of half the width `half_width` (area of the arcs over the length of thei
 as drawn: the pads lie in pockets of the floor, on a ledge around their window; the layer's free side meets the air of
 the gap. The contact of the pads' edges and their pockets' walls is a slot of still air as wide as conducts alike.
 Nothing passes the middle of the arc. Everything for one metre of edge.
+
+Rigid modules cover the middle of the strip, as much of its width as of the arcs' area; a spreader of its whole width
+lies on them, and beside them is still air over the floor. So each metre of edge has its share of modules, windows,
+ledges and air. How far heat goes along the spreader is less than as drawn: an arc has more edge than its modules.
 """
 
 from __future__ import annotations
@@ -48,9 +52,11 @@ class Case:
     hot_contact: float
     rotor_contact: float
     seebeck: float
-    """Of all pads in series over their whole area [V/K m2], as are the next two."""
+    """Of a pad or a module over its area [V/K m2], as are the next two."""
     resistance: float
     conductance: float
+    tile_share: float
+    """Of the strip's width that pads or modules cover; 1 for pads cut to the arcs."""
     window_share: float
     current: float
     ambient: float
@@ -69,6 +75,12 @@ class Case:
     housing_capacity: float
     housing_surface: float
     """Outside of the housing for a metre of strip [m]."""
+    spreader_depth: float = 0.0
+    spreader_conductivity: float = 0.0
+    spreader_heat_capacity: float = 0.0
+    """Per volume."""
+    spreader_contact: float = 0.0
+    """Of modules and spreader; layer and spreader have `hot_contact`."""
     sink_conductance: float = 0.0
     """From the cold side, where that has a sink in place of the air [W/m K]; none where it is zero."""
     sink_capacity: float = 1.0
@@ -80,11 +92,18 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
     """The strip of a shear module, from its inputs in SI."""
     v = values
     wanted = ("pcl_area", "edge_length", "rotor_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
-              "housing_ring", "peltier_mass", "pcl_depth", "sink")  # fmt: skip
+              "housing_ring", "peltier_mass", "pcl_depth", "sink", "heated_area", "heater_strings",
+              "spreader_depth")  # fmt: skip
     found = table.evaluate(v, wanted)
     area, edge, melting = found["pcl_area"], found["edge_length"], found["pcl_melting"]
     core, housing = found["core_and_link"], found["around_pads"][-1]
-    cooled = {}
+    cooled, spread = {}, {}
+    if v["heater_form"] != "flexible":
+        spread = {
+            "spreader_depth": found["spreader_depth"], "spreader_conductivity": v["spreader_conductivity"],
+            "spreader_heat_capacity": v["spreader_density"] * v["spreader_specific_heat"],
+            "spreader_contact": v["spreader_contact"],
+        }  # fmt: skip
     if found["sink"] is not None:
         cooled = {
             "sink_conductance": found["sink"].conductance / edge, "sink_capacity": found["sink"].capacity / edge,
@@ -100,34 +119,28 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         structure_conductivity=v["structure_conductivity"],
         structure_heat_capacity=v["structure_density"] * v["structure_specific_heat"],
         pad_conductivity=v["pad_conductivity"], pad_edge_contact=v["pad_edge_contact"],
-        pad_heat_capacity=found["peltier_mass"] * v["peltier_specific_heat"] / area, hot_contact=v["hot_contact"],
-        rotor_contact=v["rotor_contact"], seebeck=v["peltier_seebeck"] / v["peltier_area"],
+        pad_heat_capacity=found["peltier_mass"] * v["peltier_specific_heat"] / found["heated_area"],
+        hot_contact=v["hot_contact"], rotor_contact=v["rotor_contact"],
+        seebeck=v["peltier_seebeck"] / v["peltier_area"],
         resistance=v["peltier_resistance"] / v["peltier_area"],
-        conductance=v["peltier_conductance"] / v["peltier_area"], window_share=found["cold_area"] / area,
-        current=v["current"], ambient=v["ambient_temperature"] - 273.15, cold_coefficient=v["cold_side_coefficient"],
+        conductance=v["peltier_conductance"] / v["peltier_area"], tile_share=found["heated_area"] / area,
+        window_share=found["cold_area"] / area, current=v["current"] / found["heater_strings"],
+        ambient=v["ambient_temperature"] - 273.15, cold_coefficient=v["cold_side_coefficient"],
         rotor_coefficient=v["rotor_coefficient"], floor_coefficient=v["housing_coefficient"],
         emissivity=v["surface_emissivity"], air_conductivity=v["air_conductivity"],
         ledge=v["window_ledge"], core_conductance=core.conductance / edge,
         core_capacity=core.capacity / edge, housing_conductance=found["housing_ring"] / edge,
-        housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge, **cooled,
+        housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge, **spread, **cooled,
     )  # fmt: skip
 
 
 def plane(case: Case, fine: float = 1.0) -> Plane:
     """The strip of a case; `fine` divides each cell into so many along either side."""
     c, w = case, case.half_width
-    inside, end, film = c.window_share * w, w + c.beside, PAD_FILM * c.pad_depth
-    top, plate = c.layer_depth, c.layer_depth + c.plate_depth
-
-    slot = c.air_conductivity / c.pad_edge_contact
-    # Narrow towards the edges of pad, layer and ledge and the corner of the floor, where heat crowds.
-    rim = inside + 0.3 * (w - inside)
-    x = lines((0.0, inside, 6, 0.6), (inside, rim, 6, 1.6), (rim, w, 10, 0.62), (w, w + 0.5 * slot, 5, 1.5),
-              (w + 0.5 * slot, w + slot, 5, 1.0 / 1.5), (w + slot, end, 22, 1.3), fine=fine)  # fmt: skip
-    low = 0.125 * top
-    y = lines((-c.floor_depth, -c.pad_depth, 9, 0.75), (-c.pad_depth, -c.pad_depth + film, 2, 1.5),
-              (-c.pad_depth + film, -film, 6, 1.0), (-film, 0.0, 4, 0.6), (0.0, low, 8, 1.5), (low, top, 24, 1.0),
-              (top, plate, 8, 1.15), fine=fine)  # fmt: skip
+    film, slot = PAD_FILM * c.pad_depth, c.air_conductivity / c.pad_edge_contact
+    x, y = _grid(c, slot, fine)
+    inside, tile, top = c.window_share * w, c.tile_share * w, c.layer_depth
+    hot, cold = -c.spreader_depth, -c.spreader_depth - c.pad_depth
 
     def what(a: float, b: float) -> str | None:
         if b > top:
@@ -135,24 +148,23 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
         if b > 0.0:
             return "air" if a > w else "layer"
         if a > w:
-            return "slot" if b > -c.pad_depth and a < w + slot else "floor"
-        if b < -c.pad_depth:
+            return "slot" if b > cold and a < w + slot else "floor"
+        if b < cold:
             return "ledge" if a > inside else None
-        return "hot" if b > -film else "legs" if b > film - c.pad_depth else "cold"
+        return "beside tiles" if a > tile and b < hot else upright(b)
 
-    solid = Material(c.structure_conductivity, c.structure_conductivity, c.structure_heat_capacity)
-    pad = Material(c.pad_conductivity, 100.0, c.pad_heat_capacity / c.pad_depth)
-    facing = c.gap * c.emissivity / (2.0 - c.emissivity)
-    air = Material(c.air_conductivity, c.air_conductivity, 0.0, facing)
+    def upright(b: float) -> str:
+        heights = ((hot, "spreader"), (hot - film, "hot"), (cold + film, "legs"))
+        return next((name for low, name in heights if b > low), "cold")
+
     contacts = {
         frozenset(("hot", "layer")): c.hot_contact, frozenset(("layer", "plate")): c.rotor_contact,
     }  # fmt: skip
-    through = c.conductance * (1.0 - 2.0 * PAD_FILM) * c.pad_depth
-    legs = Material(c.pad_conductivity, through, pad.heat_capacity)
-    parts = {"plate": solid, "floor": solid, "ledge": solid, "hot": pad, "legs": legs, "cold": pad, "air": air,
-             "slot": Material(c.air_conductivity, c.air_conductivity, 0.0)}  # fmt: skip
+    if c.spreader_depth:
+        contacts[frozenset(("spreader", "layer"))] = c.hot_contact
+        contacts[frozenset(("spreader", "hot"))] = c.spreader_contact
     found = Plane(
-        x, y, drawn(x, y, what), parts,
+        x, y, drawn(x, y, what), _materials(c),
         Polymer(c.density, c.conductivity_solid, c.conductivity_melt, c.specific_heat_solid, c.specific_heat_melt,
                 c.latent_heat, c.melting_start, c.melting_end),
         Pump(c.seebeck, c.resistance, c.conductance, c.current), True, contacts, c.ambient,
@@ -160,6 +172,41 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
          Body(c.sink_capacity, c.sink_surface, c.sink_coefficient, c.emissivity)],
     )  # fmt: skip
     _borders(found, case)
+    return found
+
+
+def _grid(c: Case, slot: float, fine: float) -> tuple[Array, Array]:
+    """Ends of the cells: narrow towards the edges of pad, layer and ledge and the corner of the floor, where heat
+    crowds."""
+    w, inside, tile = c.half_width, c.window_share * c.half_width, c.tile_share * c.half_width
+    end = w + c.beside
+    beside = tile if tile < w else inside
+    rim = beside + 0.3 * (w - beside)
+    ledge = [(inside, tile, 8, 1.0)] if tile < w else []
+    x = lines((0.0, inside, 6, 0.6), *ledge, (beside, rim, 6, 1.6), (rim, w, 10, 0.62), (w, w + 0.5 * slot, 5, 1.5),
+              (w + 0.5 * slot, w + slot, 5, 1.0 / 1.5), (w + slot, end, 22, 1.3), fine=fine)  # fmt: skip
+    top, low, film, hot = c.layer_depth, 0.125 * c.layer_depth, PAD_FILM * c.pad_depth, -c.spreader_depth
+    cold, spreader = hot - c.pad_depth, [(hot, 0.0, 5, 1.0)] if c.spreader_depth else []
+    y = lines((-c.floor_depth, cold, 9, 0.75), (cold, cold + film, 2, 1.5), (cold + film, hot - film, 6, 1.0),
+              (hot - film, hot, 4, 0.6), *spreader, (0.0, low, 8, 1.5), (low, top, 24, 1.0),
+              (top, top + c.plate_depth, 8, 1.15), fine=fine)  # fmt: skip
+    return x, y
+
+
+def _materials(c: Case) -> dict[str, Material]:
+    """What the parts of the strip are made of."""
+    solid = Material(c.structure_conductivity, c.structure_conductivity, c.structure_heat_capacity)
+    pad = Material(c.pad_conductivity, 100.0, c.pad_heat_capacity / c.pad_depth)
+    through = c.conductance * (1.0 - 2.0 * PAD_FILM) * c.pad_depth
+    shine = c.emissivity / (2.0 - c.emissivity)
+    found = {"plate": solid, "floor": solid, "ledge": solid, "hot": pad, "cold": pad,
+             "legs": Material(c.pad_conductivity, through, pad.heat_capacity),
+             "air": Material(c.air_conductivity, c.air_conductivity, 0.0, c.gap * shine),
+             "slot": Material(c.air_conductivity, c.air_conductivity, 0.0)}  # fmt: skip
+    if c.spreader_depth:
+        sheet = Material(c.spreader_conductivity, c.spreader_conductivity, c.spreader_heat_capacity)
+        still = Material(c.air_conductivity, c.air_conductivity, 0.0, c.pad_depth * shine)
+        found |= {"spreader": sheet, "beside tiles": still}
     return found
 
 

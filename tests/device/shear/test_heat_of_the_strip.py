@@ -16,9 +16,11 @@ import pytest
 from support import ROOT
 
 sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
+sys.path.insert(0, str(ROOT / "docs" / "make"))
 
-from compare import STUDIES, compared, model_of, product_times, studies
+from compare import STUDIES, compared, inputs_of, model_of, plane_of, product_times, studies
 from fresh import designs
+from heat_tables import PAGE, written
 
 from tvimdesign.study import read_study
 
@@ -92,6 +94,24 @@ def test_the_theory_names_every_time_beyond_three_percent() -> None:
     fresh = [abs(float(row["difference [%]"])) for row in rows("fresh")]
     within = sum(one <= 100.0 * THREE_PERCENT for one in fresh)
     assert f"{within} of its {len(fresh)} times are within 3 %" in page
+
+
+def test_the_page_s_tables_and_counts_are_those_of_the_results() -> None:
+    page = PAGE.read_text(encoding="utf-8")
+    assert written(page, rows(), rows("fresh")) == page, "run python docs/make/heat_tables.py"
+
+
+def test_rigid_modules_and_their_spreader_are_drawn_as_large_as_they_are() -> None:
+    model = model_of(STUDIES / "elbow_printed.yaml")
+    found, known = plane_of(model), inputs_of(model)
+    sizes = model.table.evaluate(known, ["pcl_area", "edge_length", "spreader_volume", "heater_count"])
+    drawn = {name: np.sum(found.volume[found.cells(name)]) for name in found.materials}
+    tiles = sizes["heater_count"] * known["peltier_length"] * known["peltier_width"] * known["peltier_thickness"]
+    assert drawn["hot"] + drawn["legs"] + drawn["cold"] == pytest.approx(tiles / sizes["edge_length"], rel=1e-9)
+    around = sizes["pcl_area"] * known["peltier_thickness"] - tiles
+    assert drawn["beside tiles"] == pytest.approx(around / sizes["edge_length"], rel=1e-9)
+    # The arcs' corners, rounded as the spreaders are, take less than a hundredth of their volume.
+    assert drawn["spreader"] == pytest.approx(sizes["spreader_volume"] / sizes["edge_length"], rel=0.01)
 
 
 @pytest.mark.slow

@@ -184,3 +184,22 @@ def test_a_sheet_is_as_it_was() -> None:
         flat, ["heater_count", "heater_coverage", "spreader_mass", "spreader_depth", "tile_side_margin", "pad_depth"]
     )
     assert list(values.values()) == [4.0, 1.0, 0.0, 0.0, 0.0, flat["peltier_thickness"]]
+
+
+def test_spreaders_face_the_ledges_beside_the_tiles_and_only_their_edges_meet_the_walls() -> None:
+    rows = "stack pcl_area heated_area cold_area edge_length floor_web beside_area"
+    known = inputs_of(tiles_per_arc=1.0, arc_span=1.36)
+    values = TABLE.evaluate(known, rows.split())
+    links = {(link.first, link.second): link for link in values["stack"].links}
+    hot, cold, ledges, below_walls = ("hot", 0), ("cold", 0), ("around", 6), ("around", 3)
+    bare, length, web = values["pcl_area"] - values["heated_area"], values["edge_length"], values["floor_web"]
+    # Still air as thick as the tiles, 3.2 mm, between parallel grey plates of 0.9 (Incropera, ch. 13).
+    found = links[hot, ledges]
+    assert found.conductance == pytest.approx(known["air_conductivity"] * bare / 3.2e-3, rel=1e-9)
+    assert found.radiating_area == pytest.approx(bare / (2.0 / 0.9 - 1.0), rel=1e-9)
+    # From where the heated part of a ledge has its mean on to its root, along what no tile lies on, into the floor.
+    way = (values["heated_area"] - values["cold_area"]) / 3.0 + bare + 0.05 * values["beside_area"]
+    onward = known["structure_conductivity"] * web * length / (way / length)
+    assert links[ledges, below_walls].conductance == pytest.approx(onward, rel=1e-9)
+    # The tiles' own edges stand in air.
+    assert not {(cold, ("around", 0)), (("legs", 0), ("around", 0)), (("legs", 0), ("around", 7))} & links.keys()

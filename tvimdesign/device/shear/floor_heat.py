@@ -101,32 +101,38 @@ def stack_links(
     heater_form: str,
     pad_edge: Scalar,
     pcl_area: Scalar,
+    heated_area: Scalar,
     cold_area: Scalar,
     beside_area: Scalar,
     edge_length: Scalar,
     pad_depth: Scalar,
+    peltier_thickness: Scalar,
     floor_web: Scalar,
     structure_conductivity: Scalar,
+    air_conductivity: Scalar,
+    surface_emissivity: Scalar,
 ) -> tuple[Link, ...]:
     """From the pads' edges into the walls of their pockets, and by their cold sides through the ledges.
 
     A pad's upper half is on average a quarter colder than its hot side, as the legs between its sides fall evenly: half
-    of what it loses comes from that side, half from the legs' mean. So it is with its lower half. Tiles stand in air.
+    of what it loses comes from that side, half from the legs' mean. So it is with its lower half. Tiles stand in air:
+    of them the spreader's edge meets a wall, and its back beside them faces the ledge through air as thick as they are.
     """
-    first, ledge = 0.5 * STRIP[0] * beside_area / edge_length, (pcl_area - cold_area) / edge_length
+    first, ledge = 0.5 * STRIP[0] * beside_area / edge_length, (heated_area - cold_area) / edge_length
+    bare = (pcl_area - heated_area) / edge_length
     wall = lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / first)
     onto, to_root = (way / (structure_conductivity * edge_length) for way in lumps.ledge_ways(ledge / floor_web))
-    beyond = first / (structure_conductivity * floor_web * edge_length)
-    from_legs = 0.5 if heater_form == CUT else 0.0
-    upper, lower = ("around", CORNER), ("around", UPPER[0])
-    rims = [Link(side, half, (1.0 - from_legs) * wall) for side, half in ((("hot", 0), upper), (("cold", 0), lower))]
-    if from_legs:
-        rims += [Link(LEGS, half, from_legs * wall) for half in (upper, lower)]
-    return (
-        *rims,
-        Link(("cold", 0), ("around", LEDGES), 1.0 / onto),
-        _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)),
-    )
+    beyond = (bare + first) / (structure_conductivity * floor_web * edge_length)
+    upper, lower, ledges = ("around", CORNER), ("around", UPPER[0]), ("around", LEDGES)
+    hot, cold = ("hot", 0), ("cold", 0)
+    if heater_form == CUT:
+        rims = [Link(side, half, 0.5 * wall) for half, place in ((upper, hot), (lower, cold)) for side in (place, LEGS)]
+    else:
+        backs = lumps.air_gap(
+            pcl_area - heated_area, peltier_thickness, air_conductivity, surface_emissivity, hot, ledges
+        )
+        rims = [Link(hot, upper, wall), backs]
+    return (*rims, Link(cold, ledges, 1.0 / onto), _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)))
 
 
 @quantities.helper()

@@ -129,8 +129,7 @@ def pad_edge(
 ) -> Scalar:
     """Conductance from one side of the pads to the walls of their pockets [W/K]: along the pads, and into the wall.
 
-    Tiles stand in air there; the spreader on them touches the wall, and their cold sides are taken to give the ledges
-    below them as much.
+    Tiles stand in air there; the spreader on them touches the wall.
     """
     if heater_form != CUT:
         along = spreader_conductivity * spreader_depth * to_edge

@@ -70,9 +70,16 @@ def held_polar_moment(
 
 
 @quantities.helper()
-def core_foot_rise() -> Scalar:
-    """Rise of the core's stress at its foot [1]: on a plate that the arcs drive."""
-    return structure.FOOT_ON_PLATE
+def core_foot_rise(
+    core_radius: Scalar,
+    link_bottom_level: Scalar,
+    rotor_top_level: Scalar,
+    core_screw_bores: structure.Bores,
+    core_dowel_bores: structure.Bores,
+) -> Scalar:
+    """Rise of the core's stress at its foot [1]: on a plate that the arcs drive, with the holes of the link."""
+    length = link_bottom_level - rotor_top_level
+    return structure.foot_rise_on_plate(core_radius, length, core_screw_bores, core_dowel_bores)
 
 
 @quantities.helper()

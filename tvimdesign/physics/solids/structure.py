@@ -74,14 +74,27 @@ def bored_shaft_stiffness(modulus: Any, radius: Any, length: Any, first: Bores, 
     return shaft_stiffness(modulus, radius, length + longer)
 
 
-FOOT_ON_PLATE = 1.71
-"""Rise of a core's stress at its foot on a plate that drives arcs; FE of 30 cores as drawn within 8 %.
+FOOT_ON_PLATE = 1.66
+"""Rise of a core's stress at its foot on a plate that drives arcs, where no hole is near; calibrated to FE.
 
 The corner is sharp, so that stress at a point has no value there: it is a mean over the first millimetre.
-Holes that end above the foot raise it: 1.6 where they end 3 mm above, 1.8 where they reach it.
 """
+BORED_FOOT = 0.8
+"""How much of the share of the polar moment that holes through the foot cost comes on top; calibrated likewise."""
+NEAR_FOOT = 0.15
+"""Way above the foot, over the core's radius, within which the end of a hole is felt there; calibrated likewise."""
 FOOT_AMONG_VANES = 1.41
 """The same on a plate with vanes around it, for one as thick as the core's radius; FE of 13 cores within 8 %."""
+
+
+def foot_rise_on_plate(radius: Any, length: Any, *holes: Bores) -> Any:
+    """Rise [1] of a core's stress at its foot on a plate that drives arcs; FE of 14 cores as drawn within 6 %.
+
+    1.66 (1 + 0.8 sum w/(1 + exp((L - l)/(0.15 r)))): a hole of the depth l weakens the foot of a core of the length L
+    where it goes through it or ends near it.
+    """
+    felt = sum(bores.weakening / (1.0 + np.exp((length - bores.depth) / (NEAR_FOOT * radius))) for bores in holes)
+    return FOOT_ON_PLATE * (1.0 + BORED_FOOT * felt)
 
 
 def foot_rise_among_vanes(radius: Any, plate: Any) -> Any:

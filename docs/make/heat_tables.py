@@ -1,0 +1,106 @@
+"""Writes what docs/theory/heat.md tells of validation/heat_sector: its two tables and its counts, from the results.
+
+    python docs/make/heat_tables.py
+
+reads results.csv and fresh.csv, which `compare.py` and `fresh.py` there write, and replaces the tables and counts in
+the page; the words around them stay.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs" / "theory" / "heat.md"
+TIMES = ("softening_time", "mean_time", "far_face_time")
+MODES = ("shear", "compression")
+MOST = 3.0
+"""What a time may differ by before the page names it [%]."""
+
+Row = dict[str, str]
+
+
+def rows(name: str) -> list[Row]:
+    """Rows of a table of validation/heat_sector."""
+    with (ROOT / "validation" / "heat_sector" / f"{name}.csv").open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def mode_of(row: Row) -> str:
+    """Mode of a row's study."""
+    study = yaml.safe_load((ROOT / "studies" / f"{row['study']}.yaml").read_text(encoding="utf-8"))
+    return str(study["mode"])
+
+
+def difference(row: Row) -> float:
+    """Of the product's time [%]."""
+    return float(row["difference [%]"])
+
+
+def signed(number: float) -> str:
+    """A number with one digit and its sign, as the page writes it."""
+    return f"{number:+.1f}".replace("-", "−")
+
+
+def ranges(found: list[Row]) -> str:
+    """Least and largest difference of each time in each mode."""
+    lines = ["| time, mode | difference of the product [%], least and largest |", "|---|---|"]
+    for mode in MODES:
+        for time in TIMES:
+            own = [difference(row) for row in found if row["time"] == time and mode_of(row) == mode]
+            reached = [one for one in own if math.isfinite(one)]
+            lines.append(f"| `{time}`, {mode} | {signed(min(reached))} to {signed(max(reached))} |")
+    return "\n".join(lines)
+
+
+def counts(found: list[Row]) -> str:
+    """How many times of each mode are within the limit; a joint that neither softens is no time."""
+    told = []
+    for mode in MODES:
+        own = [abs(difference(row)) for row in found if mode_of(row) == mode and row["product [s]"] != "inf"]
+        told.append((sum(one <= MOST for one in own), len(own)))
+    (shear, of_shear), (compression, of_compression) = told
+    return f"{shear} of {of_shear} times in shear and {compression} of {of_compression} in compression are within 3 %."
+
+
+def beyond(found: list[Row]) -> str:
+    """The times beyond the limit, with how nearly they stall and how many kelvins the product is off."""
+    lines = ["| study, design | time | difference [%] | time over rise | warmer by [K] |", "|---|---|---|---|---|"]
+    for row in found:
+        if abs(difference(row)) > MOST:
+            cells = (f"`{row['study']}`, {row['design']}", f"`{row['time']}`", signed(difference(row)),
+                     f"{float(row['time over rise']):.1f}", signed(float(row["warmer by [K]"])))  # fmt: skip
+            lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def fresh(found: list[Row]) -> str:
+    """How many times of the random designs are within the limit."""
+    within = sum(abs(difference(row)) <= MOST for row in found)
+    return f"{within} of its {len(found)} times are within 3 %"
+
+
+def written(page: str, results: list[Row], drawn: list[Row]) -> str:
+    """The page with the tables and counts of these results. Raises ValueError where it has no place for one."""
+    table = r"\| {} \|[^\n]*\n\|---[^\n]*(\n\|[^\n]*)*"
+    places = (
+        (table.format("time, mode"), ranges(results)),
+        (r"\d+ of \d+ times in shear and \d+ of \d+ in compression are within 3 %\.", counts(results)),
+        (table.format("study, design"), beyond(results)),
+        (r"\d+ of its \d+ times are within 3 %", fresh(drawn)),
+    )
+    for pattern, text in places:
+        page, replaced = re.subn(pattern, lambda _, text=text: text, page)
+        if replaced != 1:
+            raise ValueError(f"{PAGE.name}: {replaced} places for {text.splitlines()[0]!r} where one is wanted")
+    return page
+
+
+if __name__ == "__main__":
+    told = written(PAGE.read_text(encoding="utf-8"), rows("results"), rows("fresh"))
+    PAGE.write_text(told, encoding="utf-8")
