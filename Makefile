@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units vendor cad clean
+.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -61,6 +61,9 @@ bench-cells: $(STAMP)  ## what a sweep of 2,000 cells costs beside its cells: pr
 
 bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hypervolume
 	$(BENCH) benchmarks/front.py
+
+bench-explore: $(STAMP)  ## the explorer's drags: time to the answer, evaluated and optimised, on paper_shear; then 1,000 random drags
+	$(BENCH) benchmarks/explore_drags.py --leak 1000
 
 bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
 	$(BENCH) benchmarks/random_designs.py

@@ -10,6 +10,7 @@ import typer
 
 from tvimdesign.base.errors import InputError, RenamedWarning
 from tvimdesign.cli import completions
+from tvimdesign.cli.explore_command import explore
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.cli.options import AsJson, Out, Overwrite, ResultOfRun, Settings, StudyFile, StudyOrDesign
 from tvimdesign.cli.sweep_command import sweep
@@ -296,6 +297,8 @@ def compare(
 
 
 app.command()(sweep)
+app.command()(explore)
+
 
 PaperOut = Annotated[
     Path | None,

@@ -24,7 +24,7 @@ _ALWAYS = ("main.js", "tables.js", "data.js", "figures.js")
 def page_html(page: Page) -> bytes:
     """The page as UTF-8. The same page gives the same bytes."""
     drawn = list(figures(page))
-    text: str = _template().render(
+    text: str = template("page.html.jinja").render(
         page=page,
         style="\n".join(_static(name) for name in _STYLES),
         imports=_json({"imports": _modules(drawn)}),
@@ -91,8 +91,8 @@ def packed(data: bytes) -> str:
 
 
 @cache
-def _template() -> Any:
-    """The template, compiled once; it escapes all text."""
+def template(name: str) -> Any:
+    """A template, compiled once; it escapes all text."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
@@ -101,4 +101,4 @@ def _template() -> Any:
     )  # fmt: skip
     environment.filters["packed"] = packed
     environment.filters["base64"] = lambda data: base64.b64encode(data).decode()
-    return environment.get_template("page.html.jinja")
+    return environment.get_template(name)

@@ -11,6 +11,7 @@ let onPaper = false;
 
 /** A chart in `place`: `build(look, width)` gives its options, at a width [px]; `says` is what a reader who cannot see it is told. */
 export function chart(place, { says, height = 260 }, build) {
+  forgetGone();
   const box = document.createElement("div");
   box.className = "chart";
   box.setAttribute("role", "img");
@@ -29,6 +30,15 @@ export function chart(place, { says, height = 260 }, build) {
     one.show();
   }).observe(box);
   return one;
+}
+
+/** Let go of charts whose place is no longer on the page. */
+function forgetGone() {
+  for (const one of every) {
+    if (one.box.isConnected) continue;
+    one.made.dispose();
+    every.delete(one);
+  }
 }
 
 dark.addEventListener("change", () => every.forEach((one) => one.show()));

@@ -16,3 +16,16 @@ export async function binaryOf(name) {
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
 }
+
+/** Take other data and meshes from now on: a page that is open was given another design. */
+export function replaceData(data, binaries) {
+  all = data;
+  for (const old of document.querySelectorAll("script[type='application/gzip']")) old.remove();
+  for (const [name, packed] of Object.entries(binaries)) {
+    const held = document.createElement("script");
+    held.type = "application/gzip";
+    held.id = `binary-${name}`;
+    held.textContent = packed;
+    document.body.append(held);
+  }
+}

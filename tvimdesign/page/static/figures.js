@@ -1,7 +1,7 @@
 // Draws the page's figures, each once, by the module that it names.
 import { binaryOf, dataOf } from "page/data.js";
 
-const drawn = new Map();
+const drawn = new WeakMap();
 const near = new IntersectionObserver((entries) => {
   for (const { isIntersecting, target } of entries) if (isIntersecting) draw(target);
 }, { rootMargin: "400px" });

@@ -4,25 +4,30 @@ import { makeSortable } from "page/tables.js";
 
 /** Bring the page to life; without it all text and tables are there as they are. */
 export function start() {
-  for (const table of document.querySelectorAll(".grid table")) makeSortable(table);
-  const figures = [...document.querySelectorAll(".drawn")];
-  figures.forEach(drawWhenNear);
+  const all = bring(document);
   document.documentElement.dataset.ready = "yes";
-  finish(figures, [...document.querySelectorAll(".steps")]);
+  all.then(() => { document.documentElement.dataset.ready = "all"; });
+}
+
+/** Bring to life what stands in an element, what is near the screen first. */
+export async function bring(root) {
+  for (const table of root.querySelectorAll(".grid table")) makeSortable(table);
+  const figures = [...root.querySelectorAll(".drawn")];
+  figures.forEach(drawWhenNear);
+  await finish(figures, [...root.querySelectorAll(".steps")]);
 }
 
 /** Draw what is left while the reader reads, so that all of it is there when the page is printed. */
 async function finish(figures, lists) {
   for (const figure of figures) {
     await idle();
-    await draw(figure);
+    if (figure.isConnected) await draw(figure);
   }
   for (const list of lists) {
     await idle();
     const { addPictures } = await import("page/solids/steps.js");
-    await addPictures(list);
+    if (list.isConnected) await addPictures(list);
   }
-  document.documentElement.dataset.ready = "all";
 }
 
 const idle = () => new Promise((resolve) => (window.requestIdleCallback ?? setTimeout)(resolve, { timeout: 2000 }));

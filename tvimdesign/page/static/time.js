@@ -11,6 +11,12 @@ export function onMoment(listener) {
   listeners.add(listener);
 }
 
+/** Tell nobody any more: the figures were of another design. */
+export function forgetListeners() {
+  listeners.clear();
+  now = 0;
+}
+
 /** Move to a moment [s]. */
 export function moveTo(seconds) {
   now = seconds;

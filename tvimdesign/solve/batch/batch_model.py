@@ -15,7 +15,7 @@ from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
 
 Array = NDArray[np.float64]
 
-_SLOW = 0.1
+SLOW = 0.1
 """Share of the horizon that a phase is paced by which never ends as drawn."""
 
 
@@ -41,7 +41,7 @@ class BatchModel:
             return None
         model = self._simulator.model
         cycle = self._simulator.run(inputs, phases=list(self.cycle.phases))
-        slow = _SLOW * float(inputs[model.index["horizon"]])
+        slow = SLOW * float(inputs[model.index["horizon"]])
         ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
         return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.solve.batch.phase_kernel import Passage, PhaseKernel, Steps
+from tvimdesign.solve.batch.phase_kernel import Course, Passage, PhaseKernel, Steps
 
 Array = NDArray[np.float64]
 
@@ -101,7 +101,15 @@ class CycleKernel:
                 pass
         return found
 
-    def _block(self, columns: Array, pace: Pace, only: Collection[str] | None) -> dict[str, Array]:
+    def course(self, column: Array, pace: Pace) -> tuple[dict[str, float], dict[str, Course]]:
+        """Values of `names` for one design, and its states step by step through each phase to what ends it."""
+        kept: dict[str, Course] = {name: [] for name in self.phases}
+        values = self._block(np.ascontiguousarray(column[:, None]), pace, None, kept)
+        return {name: float(found[0]) for name, found in values.items()}, kept
+
+    def _block(
+        self, columns: Array, pace: Pace, only: Collection[str] | None, keep: Mapping[str, Course] | None = None
+    ) -> dict[str, Array]:
         never = np.full(columns.shape[1], np.inf)
         values = dict.fromkeys(self.names, never)
         passed: dict[str, Passage] = {}
@@ -109,7 +117,8 @@ class CycleKernel:
             if only is not None and name not in only:
                 continue
             before = passed[phase.after].end if phase.after else None
-            passed[name] = phase.run(columns, before, pace.times[name], pace.balances.get(name))
+            course = keep[name] if keep else None
+            passed[name] = phase.run(columns, before, pace.times[name], pace.balances.get(name), course)
             ended = ~np.isnan(before[0]) if before is not None else np.ones(columns.shape[1], dtype=bool)
             values |= {row: np.where(ended, found, np.inf) for row, found in passed[name].values.items()}
         return {name: values[name] for name in self.names}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,8 @@ from tvimdesign.solve.batch.kernel import Kernel, stacked
 
 Array = NDArray[np.float64]
 
+Course: TypeAlias = list[tuple[float, Array]]
+"""Moments [s] with the states at each, a column a design."""
 GAMMA = 1.0 - np.sqrt(0.5)
 """Diagonal of SDIRK2 that makes it L-stable (Alexander, SIAM J. Numer. Anal. 14 (1977) 1006)."""
 _LATE = 2.0
@@ -115,8 +117,13 @@ class PhaseKernel:
         self._rest = _kernel([unknowns, free], newton_step(unknowns, equations))
         self._steady = _kernel([unknowns, free], _inlined(phase.watch(self.steadies), state, profile, inputs))
 
-    def run(self, columns: Array, before: Array | None, pace: float, balance: Array | None) -> Passage:
-        """Go through the phase; `before` are the states it starts from, where that is not everything at ambient."""
+    def run(
+        self, columns: Array, before: Array | None, pace: float, balance: Array | None, keep: Course | None = None
+    ) -> Passage:
+        """Go through the phase; `before` are the states it starts from, where that is not everything at ambient.
+
+        Every step on the way is added to `keep`.
+        """
         count = columns.shape[1]
         constants = self._constants(columns)
         state = self._begin(columns if before is None else stacked(columns, before))
@@ -134,6 +141,8 @@ class PhaseKernel:
         step = self.steps.first * usual
         while integrate.time < self.horizon and not np.all(np.isfinite(times) | lost):
             window = integrate.window(min(step, (self.horizon - integrate.time) / self.steps.in_window))
+            if keep is not None:
+                keep += [(window.begin + i * window.step, one) for i, one in enumerate(window.states[:-1])]
             for event in range(len(self.events)):
                 here = np.flatnonzero(np.isinf(times[event]) & ~lost & (window.gaps[event] >= 0.0))
                 if not here.size:

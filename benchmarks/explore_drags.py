@@ -1,0 +1,178 @@
+"""Drag to answer in the explorer: a page's messages over the real socket, one after the other, as a hand sends them.
+
+`python benchmarks/explore_drags.py [STUDY] [--drags 100] [--leak 1000]` prints the median and the ninth of ten of the
+time from sending a drag to its answer, for evaluating and for optimising. With `--leak` as many random drags follow,
+the server's and the worker's memory is read before and after, and the last state is held against a fresh evaluation.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import contextlib
+import os
+import random
+import statistics
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from aiohttp import ClientSession, ClientWebSocketResponse
+from aiohttp.test_utils import TestServer
+
+from tvimdesign.base.units import from_si
+from tvimdesign.explore.answers.shown import value_names
+from tvimdesign.explore.server import Server
+from tvimdesign.explore.states.state import State, tree_of
+from tvimdesign.solve.result import answer
+from tvimdesign.study import Range, Study, read_tree
+
+TOKEN = "benchmark-of-drags"
+COMPILED = 45.0
+"""Seconds that kernels are given to compile, before drags are timed."""
+_STEP = 0.02
+"""What a drag moves by, as a share: a slider's few pixels."""
+
+
+class Hand:
+    """One page, without a browser."""
+
+    def __init__(self, socket: ClientWebSocketResponse, study: Study, seed: int = 1) -> None:
+        """Talk to a socket of a study's explorer."""
+        self.socket, self.study, self.random = socket, study, random.Random(seed)
+        self.number = 0
+
+    async def until(self, *, stage: str = "", number: int = 0) -> dict[str, Any]:
+        """The next answer of that number or a later one, and of that stage."""
+        while True:
+            told = await self.socket.receive_json()
+            if told["kind"] == "refused":
+                raise RuntimeError(told["words"])
+            if told["kind"] != "answer":
+                continue
+            self.number = max(self.number, told["number"])
+            if told["number"] >= number and (not stage or told["shown"]["stage"] == stage):
+                return dict(told)
+
+    async def wait(self, seconds: float) -> None:
+        """Do nothing, as a page does that is only looked at."""
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(seconds):
+                while True:
+                    await self.socket.receive()
+
+    async def drag(self, message: dict[str, Any]) -> tuple[float, dict[str, Any]]:
+        """Seconds to the answer of a drag, and the answer."""
+        asked = self.number + 1
+        began = time.perf_counter()
+        await self.socket.send_json({**message, "final": False})
+        told = await self.until(stage="quick", number=asked)
+        return time.perf_counter() - began, told
+
+    def variables(self) -> Iterator[dict[str, Any]]:
+        """Drags of variables: a random walk of each within its range."""
+        at = {name: 0.5 for name, one in self.study.vary.items() if isinstance(one, Range)}
+        while True:
+            name = self.random.choice(list(at))
+            at[name] = min(max(at[name] + self.random.uniform(-3.0, 3.0) * _STEP, 0.3), 0.7)
+            vary, unit = self.study.vary[name], self.study.table.unit(name)
+            assert isinstance(vary, Range)
+            value = from_si(vary.lower + at[name] * (vary.upper - vary.lower), unit)
+            yield {"kind": "set", "name": name, "text": f"{value:.5g} {unit}".removesuffix(" 1")}
+
+    def requirements(self) -> Iterator[dict[str, Any]]:
+        """Drags of requirements: each goes to and fro by some percent about what the study asks."""
+        names = list(dict.fromkeys(one.output for one in self.study.require))
+        moved = dict.fromkeys(names, 0.0)
+        while True:
+            name = self.random.choice(names)
+            moved[name] = min(max(moved[name] + self.random.uniform(-1.0, 1.0) * _STEP, -0.1), 0.1)
+            unit = self.study.table.unit(name)
+            own = [one for one in self.study.require if one.output == name]
+            texts = [f"{one.sense} {from_si(one.limit, unit) * (1.0 + moved[name]):.6g} {unit}" for one in own]
+            yield {"kind": "require", "name": name, "texts": [text.removesuffix(" 1") for text in texts]}
+
+
+async def measured(study: Path, drags: int, leak: int) -> None:
+    """Time drags, then drag on at random."""
+    with tempfile.TemporaryDirectory() as folder:
+        server = Server(study, Path(folder) / "out", token=TOKEN)
+        async with (
+            TestServer(server.app(), host="127.0.0.1") as started,
+            ClientSession() as client,
+            client.ws_connect(started.make_url(f"/{TOKEN}/socket"), max_msg_size=0) as socket,
+        ):
+            assert server.session is not None
+            hand = Hand(socket, server.session.source.study)
+            await hand.until(stage="exact")
+            await _way(hand, "evaluate")
+            await hand.wait(COMPILED)
+            await _timed(hand, "evaluate", hand.variables(), drags)
+            await _way(hand, "optimize")
+            await _timed(hand, "optimise", hand.requirements(), drags)
+            if leak:
+                await _leak(hand, server, leak)
+
+
+async def _way(hand: Hand, way: str) -> None:
+    asked = hand.number + 1
+    await hand.socket.send_json({"kind": "way", "way": way})
+    await hand.until(stage="exact", number=asked)
+
+
+async def _timed(hand: Hand, what: str, drags: Iterator[dict[str, Any]], count: int) -> None:
+    times, without = [], 0
+    for _ in range(count):
+        seconds, told = await hand.drag(next(drags))
+        times.append(1e3 * seconds)
+        without += "values" not in told["shown"]
+    ninth = statistics.quantiles(times, n=10)[8]
+    print(f"{what}: median {statistics.median(times):.0f} ms, nine of ten under {ninth:.0f} ms, worst "
+          f"{max(times):.0f} ms, of {count} drags; {without} without a quick answer", flush=True)  # fmt: skip
+
+
+def _memory(server: Server) -> dict[str, float]:
+    """Megabytes of the server, and of its worker, as Linux counts them."""
+    assert server.session is not None
+    found = {"server": os.getpid(), "worker": server.session.solver.process}
+    pages = {name: int(Path(f"/proc/{one}/statm").read_text().split()[1]) for name, one in found.items()}
+    return {name: count * os.sysconf("SC_PAGE_SIZE") / 1e6 for name, count in pages.items()}
+
+
+async def _leak(hand: Hand, server: Server, count: int) -> None:
+    assert server.session is not None
+    process, ways = server.session.solver.process, {"evaluate": hand.variables(), "optimize": hand.requirements()}
+    before, began = _memory(server), time.perf_counter()
+    for way in ("optimize", "evaluate") * 2:
+        await _way(hand, way)
+        for _ in range(count // 4):
+            await hand.drag(next(ways[way]))
+    await hand.socket.send_json({**next(ways["evaluate"]), "final": True})
+    told = await hand.until(stage="exact", number=hand.number + 1)
+    after = _memory(server)
+    state: State = server.session.kept.state
+    fresh = read_tree(tree_of(server.session.source.tree, state))
+    values = answer(fresh).design.values
+    exact = [from_si(values[name], fresh.table.unit(name)) for name in value_names(fresh)]
+    pairs = [(a, b) for a, b in zip(told["shown"]["values"], exact, strict=True) if a is not None]
+    worst = max(abs(a - b) / max(abs(b), 1e-9) for a, b in pairs)
+    grown = ", ".join(f"{name} {before[name]:.0f} to {after[name]:.0f} MB" for name in before)
+    alive = "the same worker to the end" if server.session.solver.process == process else "the worker died"
+    print(f"{count} random drags in {time.perf_counter() - began:.0f} s: {grown}; {alive}; the last state is a fresh "
+          f"evaluation of {len(pairs)} values to {worst:.1e}", flush=True)  # fmt: skip
+
+
+def main() -> None:
+    """Read the arguments, measure."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("study", nargs="?", type=Path, default=Path("studies/paper_shear.yaml"))
+    parser.add_argument("--drags", type=int, default=100)
+    parser.add_argument("--leak", type=int, default=0)
+    asked = parser.parse_args()
+    asyncio.run(measured(asked.study, asked.drags, asked.leak))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,191 @@
+"""The server: who may ask, what it gives, what it refuses in the study's own words, and what it keeps."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from explored import SMALL, TOKEN, awaited, served, small_study, talking
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.explore.server import HOST
+from tvimdesign.explore.states.history import FILE
+from tvimdesign.explore.states.messages import read_message
+from tvimdesign.explore.states.source import open_source
+from tvimdesign.study import read_study
+from tvimdesign.study.text.mistakes import StudyError
+
+
+async def _statuses(study: Path, folder: Path, asked: list[tuple[str, dict[str, str]]]) -> list[int]:
+    async with served(study, folder) as (_, client):
+        (folder / "parts").mkdir()
+        (folder / "parts" / "bom.csv").write_text("a part")
+        (folder / "parts" / "link").symlink_to(study)
+        found = []
+        for path, headers in asked:
+            async with client.get(path, headers=headers, allow_redirects=False) as response:
+                found.append(response.status)
+        return found
+
+
+def test_only_who_has_the_token_gets_anything_and_nothing_outside_the_folder(tmp_path: Path) -> None:
+    outside = [
+        f"/{TOKEN}/parts/..%2fexplore.json", f"/{TOKEN}/parts/%2e%2e/explore.json", f"/{TOKEN}/parts/link",
+        f"/{TOKEN}/parts//etc/passwd", f"/{TOKEN}/static/page/..%2fpage_file.py", f"/{TOKEN}/static/other/x",
+        f"/{TOKEN}/explore.json", "/", "/wrong/", f"/{TOKEN}x/", "/wrong/socket",
+    ]  # fmt: skip
+    given = [
+        f"/{TOKEN}/",
+        f"/{TOKEN}/static/page/theme.css",
+        f"/{TOKEN}/static/explore/main.js",
+        f"/{TOKEN}/parts/bom.csv",
+    ]
+    asked: list[tuple[str, dict[str, str]]] = [(path, {}) for path in given + outside]
+    asked += [(given[0], {"Host": "example.com"}), (given[0], {"Origin": "http://example.com"})]
+    found = awaited(_statuses(small_study(tmp_path), tmp_path / "out", asked))
+    assert found == [200] * len(given) + [404] * len(outside) + [404, 403]
+    assert HOST == "127.0.0.1"
+
+
+REFUSED: list[dict[str, Any]] = [
+    {"kind": "set", "name": "pcl_thickness", "text": "1,5 mm"},
+    {"kind": "set", "name": "pcl_thickness", "text": "5 kg"},
+    {"kind": "set", "name": "pcl_thickness", "text": "-1 mm"},
+    {"kind": "set", "name": "core_radius", "text": "ten"},
+    {"kind": "set", "name": "cover", "text": "plat"},
+]
+
+
+def test_what_is_typed_is_refused_in_the_words_of_a_study(tmp_path: Path) -> None:
+    study = small_study(tmp_path)
+
+    async def talk() -> list[dict[str, Any]]:
+        async with talking(study, tmp_path / "out") as page:
+            found = []
+            for message in REFUSED:
+                await page.send(**message)
+                found.append(await page.kind("refused"))
+            return found
+
+    for message, refused in zip(REFUSED, awaited(talk()), strict=True):
+        written = SMALL.replace("{cover: none}", "{" + f'{message["name"]}: "{message["text"]}"' + "}")
+        written = "\n".join(line for line in written.splitlines() if not line.startswith("  pcl_thickness: ["))
+        (tmp_path / "other.yaml").write_text(written)
+        with pytest.raises(StudyError) as error:
+            read_study(tmp_path / "other.yaml")
+        (problem,) = error.value.problems
+        assert refused["words"].removeprefix("explore: ") == str(problem).partition(": ")[2]
+        assert refused["name"] == message["name"]
+
+
+_LONG = '{"kind": "pin", "name": "' + "x" * 200_000 + '"}'
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["no JSON", "{}", '{"kind": "delete"}', '{"kind": "set", "name": "x"}', '{"kind": "pin", "name": 3}',
+     '{"kind": "undo", "more": 1}', '{"kind": "unpin", "number": -1}', _LONG],
+)  # fmt: skip
+def test_a_message_of_no_known_form_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match="message"):
+        read_message(text)
+
+
+def test_sections_and_folders_are_out_of_reach(tmp_path: Path) -> None:
+    async def talk() -> list[str]:
+        async with talking(small_study(tmp_path), tmp_path / "out") as page:
+            words = []
+            for message in (
+                {"kind": "set", "name": "catalog", "text": ".."}, {"kind": "set", "name": "write.cad", "text": "true"},
+                {"kind": "range", "name": "catalog", "low": "1", "high": "2"}, {"kind": "save", "file": "../x.yaml"},
+                {"kind": "save", "file": "explore.json"}, {"kind": "point", "number": 1}, {"kind": "cad"},
+                {"kind": "undo"}, {"kind": "recall", "number": 0},
+            ):  # fmt: skip
+                await page.send(**message)
+                words.append((await page.kind("refused"))["words"])
+            return words
+
+    assert all(awaited(talk()))
+    assert not (tmp_path / "x.yaml").exists()
+
+
+def test_a_catalogue_outside_the_studys_folder_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "records").mkdir()
+    (tmp_path / "inner").mkdir()
+    study = small_study(tmp_path / "inner", f"catalog: ../records\n{SMALL}")
+    with pytest.raises(InputError, match="lies outside the study's folder"):
+        open_source(study)
+
+
+def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_path: Path) -> None:
+    study, folder = small_study(tmp_path), tmp_path / "out"
+
+    async def change() -> list[dict[str, Any]]:
+        async with talking(study, folder) as page:
+            await page.send(kind="require", name="peak_power", texts=["<= 10 W"])
+            first = await page.kind("state")
+            await page.send(kind="set", name="core_radius", text="9 mm", final=False)
+            await page.send(kind="set", name="core_radius", text="9.5 mm")
+            second = await page.kind("state")
+            await page.send(kind="undo")
+            third = await page.kind("state")
+            await page.send(kind="redo")
+            await page.kind("state")
+            await page.send(kind="range", name="current", low="1 A", high="2 A")
+            await page.kind("state")
+            await page.send(kind="weight", name="module_mass", text="3")
+            await page.kind("state")
+            await page.send(kind="save", file="kept.yaml")
+            await page.kind("saved")
+            await page.send(kind="way", way="evaluate")
+            await page.kind("state")
+            await page.send(kind="set", name="pcl_thickness", text="0.9 mm")
+            await page.kind("state")
+            await page.send(kind="save", file="fixed.yaml")
+            await page.kind("saved")
+            return [first, second, third]
+
+    async def again() -> dict[str, Any]:
+        async with served(study, folder) as (server, _):
+            assert server.session is not None
+            return server.session.state_shown()
+
+    first, second, third = awaited(change())
+    assert first["controls"]["requirements"][0]["text"] == "10 W"
+    assert _input(second, "core_radius") == "9.5 mm"
+    assert _input(third, "core_radius") == _input(first, "core_radius")
+    assert third["redo"]
+    kept = read_study(folder / "kept.yaml")
+    assert (kept.require[0].limit, kept.module["core_radius"]) == (10.0, pytest.approx(9.5e-3))
+    current = kept.vary["current"]
+    assert (current.lower, current.upper, current.start) == (1.0, 2.0, 1.5)  # type: ignore[union-attr]
+    assert kept.minimize == {"response_time": 1.0, "module_mass": 3.0}
+    fixed = read_study(folder / "fixed.yaml")
+    assert (fixed.vary, fixed.minimize, fixed.module["pcl_thickness"]) == ({}, {}, pytest.approx(0.9e-3))
+    reopened = awaited(again())
+    assert (reopened["way"], reopened["controls"]["variables"][0]["text"]) == ("evaluate", "0.9 mm")
+    assert json.loads((folder / FILE).read_text())["state"]["changes"]["core_radius"] == "9.5 mm"
+
+
+def test_a_folder_of_something_else_and_a_study_that_changed_are_refused(tmp_path: Path) -> None:
+    study, folder = small_study(tmp_path), tmp_path / "out"
+
+    async def opened() -> None:
+        async with served(study, folder):
+            pass
+
+    awaited(opened())
+    small_study(tmp_path, SMALL.replace("12 W", "13 W"))
+    with pytest.raises(InputError, match="before its file changed"):
+        awaited(opened())
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "thesis.txt").write_text("years of work")
+    folder = tmp_path / "other"
+    with pytest.raises(InputError, match="no explorer's"):
+        awaited(opened())
+
+
+def _input(state: dict[str, Any], name: str) -> str:
+    return str(next(one["text"] for one in state["controls"]["inputs"] if one["name"] == name))

@@ -1,0 +1,163 @@
+"""Answers as they come: a drag's newest wins, the optimum follows, pins stand, the worker may die."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+from pathlib import Path
+from typing import Any
+
+import pytest
+from explored import TOKEN, Talk, awaited, served, small_study, talking
+
+from tvimdesign.explore.answers.engine import Engine
+from tvimdesign.explore.states.source import open_source
+from tvimdesign.explore.states.state import State
+from tvimdesign.report.run.answered_study import answer_study
+from tvimdesign.study.tree import tree_of_file
+
+
+def test_the_newest_of_a_drag_is_answered_and_those_between_are_passed_over(tmp_path: Path) -> None:
+    async def drag() -> tuple[list[dict[str, Any]], dict[str, Any], dict[str, Any]]:
+        async with talking(small_study(tmp_path), tmp_path / "out") as page:
+            first = await page.answer("quick")
+            page.heard.clear()
+            for step in range(60):
+                await page.send(
+                    kind="require", name="peak_power", texts=[f"<= {11.9 - 0.05 * step} W"], final=step == 59
+                )
+            last = await page.until(lambda one: one["kind"] == "answer" and one["number"] == 61)
+            return [one for one in page.heard if one["kind"] == "answer"], first, last
+
+    answers, first, last = awaited(drag())
+    assert len(answers) < 50
+    assert [one["number"] for one in answers] == sorted(one["number"] for one in answers)
+    power = next(one for one in last["shown"]["limits"] if one["of"] == "peak_power")
+    assert (power["stands"], power["got"], power["text"]) == ("binds", "8.95 W", "peak_power <= 8.95 W")
+    assert last["shown"]["variables"]["current"]["value"] < first["shown"]["variables"]["current"]["value"]
+
+
+@pytest.mark.slow
+def test_the_exact_answer_is_the_one_of_run_and_comes_with_the_report(tmp_path: Path) -> None:
+    study = small_study(tmp_path)
+
+    async def settled() -> dict[str, Any]:
+        async with talking(study, tmp_path / "out") as page:
+            await page.answer("quick")
+            await page.send(kind="require", name="peak_power", texts=["<= 9 W"])
+            exact = await page.answer("exact")
+            await page.send(kind="save", file="saved.yaml")
+            await page.kind("saved")
+            return exact
+
+    exact = awaited(settled())
+    again = answer_study(tree_of_file(tmp_path / "out" / "saved.yaml"), lambda _: None).result.design
+    for name, shown in exact["shown"]["variables"].items():
+        assert shown["value"] == pytest.approx(again.values[name] * (1e3 if name == "pcl_thickness" else 1.0), rel=1e-5)
+    assert exact["shown"]["found"]
+    assert [section["name"] for section in exact["report"]["sections"]][:2] == ["requirements", "cycle"]
+
+
+@pytest.mark.slow
+def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) -> None:
+    async def superseded() -> tuple[list[tuple[int, str]], bool]:
+        async with (
+            served(small_study(tmp_path), tmp_path / "out") as (server, client),
+            client.ws_connect(f"/{TOKEN}/socket") as socket,
+        ):
+            assert server.session is not None
+            page, process = Talk(socket), server.session.solver.process
+            await page.answer("quick")
+            while server.session.solver.under_way != "exact":
+                await asyncio.sleep(0.01)
+            await page.send(kind="require", name="peak_power", texts=["<= 10 W"])
+            await page.answer("exact")
+            answers = [(one["number"], one["shown"]["stage"]) for one in page.heard if one["kind"] == "answer"]
+            return answers, server.session.solver.process == process
+
+    answers, same = awaited(superseded())
+    assert answers == [(1, "quick"), (2, "quick"), (2, "exact")]
+    assert same
+
+
+@pytest.mark.slow
+def test_where_nothing_is_feasible_the_conflict_is_said_and_the_nearest_design_shown(tmp_path: Path) -> None:
+    async def asked() -> dict[str, Any]:
+        async with talking(small_study(tmp_path), tmp_path / "out") as page:
+            await page.answer("quick")
+            await page.send(kind="require", name="response_time", texts=["<= 20 s"])
+            return await page.until(
+                lambda one: one["kind"] == "answer" and one["number"] == 2 and one["shown"]["stage"] == "exact"
+            )
+
+    shown = awaited(asked())["shown"]
+    assert not shown["found"]
+    assert "no design found that keeps every limit" in shown["status"]
+    assert shown["values"]
+    assert any(one["stands"] == "broken" for one in shown["limits"])
+
+
+@pytest.mark.slow
+def test_two_pages_share_a_study_a_design_is_pinned_and_gone_back_to(tmp_path: Path) -> None:
+    async def pinned() -> tuple[list[dict[str, Any]], dict[str, Any]]:
+        async with (
+            served(small_study(tmp_path), tmp_path / "out") as (_, client),
+            client.ws_connect(f"/{TOKEN}/socket") as one,
+            client.ws_connect(f"/{TOKEN}/socket") as two,
+        ):
+            first, second = Talk(one), Talk(two)
+            await first.kind("state")
+            await second.answer("quick")
+            await first.send(kind="pin", name="as it was")
+            pins = (await second.until(lambda told: told["kind"] == "state" and told["pins"] != []))["pins"]
+            await first.send(kind="way", way="evaluate")
+            await first.send(kind="set", name="current", text="1.1 A")
+            await second.until(lambda told: told["kind"] == "state" and _current(told) == "1.1 A")
+            await second.send(kind="recall", number=0)
+            back = await first.until(
+                lambda told: told["kind"] == "state" and told["undo"] and told["way"] == "optimize"
+            )
+            return pins, back
+
+    pins, back = awaited(pinned())
+    assert pins[0]["name"] == "as it was"
+    assert pins[0]["values"]["peak_power"].endswith("W")
+    thickness = back["controls"]["variables"][0]["text"]
+    assert float(thickness.split()[0]) == pytest.approx(float(pins[0]["values"]["pcl_thickness"].split()[0]), rel=1e-3)
+
+
+def _current(state: dict[str, Any]) -> str:
+    return str(next(one["text"] for one in state["controls"]["variables"] if one["name"] == "current"))
+
+
+@pytest.mark.slow
+def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path: Path) -> None:
+    async def killed() -> dict[str, Any]:
+        async with served(small_study(tmp_path), tmp_path / "out") as (server, client):
+            assert server.session is not None
+            async with client.ws_connect(f"/{TOKEN}/socket") as socket:
+                page = Talk(socket)
+                await page.answer("quick")
+                os.kill(server.session.solver.process, signal.SIGKILL)
+                await page.send(kind="require", name="peak_power", texts=["<= 9 W"])
+                return await page.until(lambda one: one["kind"] == "answer" and one["number"] == 2)
+
+    shown = awaited(killed())["shown"]
+    assert any(one["text"] == "peak_power <= 9 W" for one in shown["limits"])
+
+
+@pytest.mark.slow
+def test_a_quick_evaluation_is_the_exact_one_to_two_thousandths(tmp_path: Path) -> None:
+    source = open_source(small_study(tmp_path))
+    engine = Engine(source.tree)
+    for thickness in ("0.7 mm", "1 mm", "1.6 mm"):
+        state = State(way="evaluate", at={**source.first.at, "pcl_thickness": thickness})
+        engine.answer(state, "quick")
+        engine.wait()
+        quick, exact = (engine.answer(state, stage).shown["values"] for stage in ("quick", "exact"))
+        names = [row.name for row in source.study.table.supplied]
+        assert names
+        units = [one for one in zip(quick, exact, strict=True) if None not in one]
+        assert len(units) > 200
+        assert all(a == pytest.approx(b, rel=2e-3, abs=1e-2) for a, b in units)

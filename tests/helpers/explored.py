@@ -1,0 +1,93 @@
+"""A small study to explore, and a server with a client that talks to its socket."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Callable, Coroutine
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any, TypeVar
+
+from aiohttp import ClientWebSocketResponse
+from aiohttp.test_utils import TestClient, TestServer
+
+from tvimdesign.explore.server import Server
+
+Result = TypeVar("Result")
+SMALL = """
+name: Small
+mode: shear
+module: {cover: none}
+vary:
+  pcl_thickness: [0.6 mm, 2 mm]
+  current: {from: 0.8 A, to: 2.5 A, start: 1.5 A}
+require:
+  peak_power: "<= 12 W"
+  joint_damping@hot: ">= 1 N.m.s/rad"
+minimize: {response_time: 1, module_mass: 1}
+accept: [structure_temperature_margin, peltier_temperature_margin]
+solver: {cells: 8, starts: 1}
+"""
+TOKEN = "a-token-for-tests"
+LONGEST = 120.0
+"""Seconds that a test waits for a message on a busy machine."""
+
+
+def small_study(folder: Path, text: str = SMALL) -> Path:
+    """Write the study."""
+    path = folder / "small.yaml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def awaited(work: Coroutine[Any, Any, Result]) -> Result:
+    """What a coroutine comes to, in a thread of its own: this one may have Playwright's event loop running."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, work).result()
+
+
+class Talk:
+    """One page's socket: sends messages, and waits for those that are looked for."""
+
+    def __init__(self, socket: ClientWebSocketResponse) -> None:
+        self.socket = socket
+        self.heard: list[dict[str, Any]] = []
+
+    async def until(self, wanted: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        """The first message from now on that is wanted."""
+        async with asyncio.timeout(LONGEST):
+            while True:
+                message = await self.socket.receive_json()
+                self.heard.append(message)
+                if wanted(message):
+                    return message
+
+    async def kind(self, kind: str) -> dict[str, Any]:
+        """The next message of a kind."""
+        return await self.until(lambda message: message["kind"] == kind)
+
+    async def answer(self, stage: str) -> dict[str, Any]:
+        """The next answer of a stage."""
+        return await self.until(lambda one: one["kind"] == "answer" and one["shown"]["stage"] == stage)
+
+    async def send(self, **message: Any) -> None:
+        """Send a message."""
+        await self.socket.send_json(message)
+
+
+@asynccontextmanager
+async def served(study: Path, folder: Path) -> AsyncIterator[tuple[Server, TestClient]]:
+    """The study's server, and a client for it."""
+    server = Server(study, folder, token=TOKEN)
+    async with TestServer(server.app(), host="127.0.0.1") as started, TestClient(started) as client:
+        yield server, client
+
+
+@asynccontextmanager
+async def talking(study: Path, folder: Path) -> AsyncIterator[Talk]:
+    """One page of the study's server, its state heard."""
+    async with served(study, folder) as (_, client), client.ws_connect(f"/{TOKEN}/socket") as socket:
+        talk = Talk(socket)
+        await talk.kind("state")
+        yield talk

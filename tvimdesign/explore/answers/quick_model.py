@@ -1,0 +1,156 @@
+"""One module evaluated while a hand moves it: the working cycle by compiled kernels, the rest by the table's own code.
+
+Kernels take seconds to compile, in a thread beside; until they are there CVODES goes through the cycle, loosely.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Trajectory
+from tvimdesign.solve.batch.batch_model import SLOW
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
+from tvimdesign.solve.batch.phase_kernel import Steps
+from tvimdesign.study import Study, given
+
+Array = NDArray[np.float64]
+Curves = dict[str, dict[str, list[float]]]
+
+_STEPS = Steps(of_pace=10, in_window=4, close=4, first=0.125)
+_FREEZING = Steps(of_pace=28, in_window=4, close=4, first=0.125)
+"""Two thirds of the steps that tolerances take, at most: half the time, and times within 0.2 % still (a test)."""
+_LOOSE, _SAMPLES = 1e-3, 10
+_PHASES: tuple[str, ...] = ("softening", "stiffening")
+_SHOWN = 24
+"""Moments of a phase that are drawn."""
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """A module's values, SI by full name, and its curves by phase."""
+
+    values: dict[str, float]
+    curves: Curves
+
+
+class QuickModel:
+    """The modules that have the same records and options, as a function of every number."""
+
+    def __init__(self, study: Study, *, compiled: bool = True) -> None:
+        """Simulate the study's start, which sets the pace, and begin to compile."""
+        self.words = words_of(study)
+        self.points, self.cells = tuple(study.operating_points), study.solver.cells
+        self.model = DeviceFunctions(study.table, given(study), self.points, self.cells)
+        self._simulator = Simulator(self.model, _LOOSE, _SAMPLES)
+        self._kernel: CycleKernel | None = None
+        self._pace: Pace | None = None
+        self._maps = {name: _Drawn(self.model, name) for name in _PHASES if name in self.model.phases}
+        self.set_pace(self.model.start)
+        self._thread = threading.Thread(target=self._compile, daemon=True)
+        if compiled:
+            self._thread.start()
+
+    def fits(self, study: Study) -> bool:
+        """Whether a study's module differs in numbers alone."""
+        same = tuple(study.operating_points) == self.points and study.solver.cells == self.cells
+        return same and words_of(study) == self.words
+
+    def wait(self) -> bool:
+        """Wait until the kernels are compiled; whether they could be."""
+        self._thread.join()
+        return self._kernel is not None
+
+    def set_pace(self, inputs: Array) -> None:
+        """Let the kernels' steps follow a module from now on."""
+        cycle = self._simulator.run(inputs)
+        slow = SLOW * float(inputs[self.model.index["horizon"]])
+        ends = {name: cycle.values[phase.phase.ends] for name, phase in self.model.phases.items()}
+        self._pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+
+    def inputs(self, study: Study, found: Mapping[str, float] | None = None) -> Array:
+        """The vector of a study's numbers, where it starts or where an optimum was found."""
+        numbers = {**given(study), **(found or {})}
+        return np.array([float(numbers[name]) for name in self.model.names])
+
+    def evaluate(self, inputs: Array) -> Evaluated:
+        """Every output of a module, and its curves. Raises SimulationError."""
+        kernel, pace = self._kernel, self._pace
+        if kernel is None or pace is None:
+            cycle = self._simulator.run(inputs)
+            switch, lines = cycle.values, {name: (line.times, line.states) for name, line in cycle.trajectories.items()}
+        else:
+            some, courses = kernel.course(np.delete(inputs, self._fixed), pace)
+            switch = {name: some.get(name, np.inf) for name in self.model.switch_names}
+            lines = {name: _line(course) for name, course in courses.items() if course}
+        ends = {name: phase.phase.ends for name, phase in self.model.phases.items()}
+        curves: Curves = {
+            name: drawn.curves(inputs, *lines[name], switch[ends[name]])
+            for name, drawn in self._maps.items() if name in lines
+        }  # fmt: skip
+        return Evaluated({**dict(zip(self.model.names, inputs.tolist(), strict=True)),
+                          **self.model.values(inputs, switch)}, curves)  # fmt: skip
+
+    @property
+    def _fixed(self) -> int:
+        """The place of the one number that is a shape."""
+        return self.model.index["rotor_cells"]
+
+    def _compile(self) -> None:
+        moving = [name for name in self.model.names if name != "rotor_cells"]
+        try:
+            kernel = CycleKernel(self.model, moving, self.model.switch_names, _STEPS, _FREEZING, _STEPS)
+            pace = self._pace
+            if pace is not None:
+                kernel.course(np.delete(self.model.start, self._fixed), pace)  # compiled when first called
+        except NotImplementedError:
+            return  # an operation without a vector form: CVODES goes on
+        self._kernel = kernel
+
+
+class _Drawn:
+    """The curves of one phase at moments evenly spaced."""
+
+    def __init__(self, model: DeviceFunctions, name: str) -> None:
+        phase = model.phases[name]
+        self._temperatures = phase.temperatures.map(_SHOWN)
+        self._impedance = phase.impedance_now.map(_SHOWN)
+        self._power = phase.watch(["electrical_power"]).map(_SHOWN)
+        self._far_face = 3 + model.cells
+        self._sign, self._current = phase.phase.sign, model.index[phase.phase.current_input]
+
+    def curves(self, inputs: Array, times: Array, states: Array, end: float) -> dict[str, list[float]]:
+        """Time [s], temperatures [degC] of pads and layer's faces, impedance [N*m/rad] and power [W]."""
+        last = end if np.isfinite(end) else float(times[-1])
+        moments = np.linspace(0.0, last, _SHOWN)
+        line = Trajectory(times, states, np.empty(0))
+        if times[-1] <= 0.0:
+            return {}
+        at = line.at(moments / times[-1])
+        currents = np.full((1, _SHOWN), self._sign * inputs[self._current])
+        columns = np.repeat(inputs[:, None], _SHOWN, axis=1)
+        celsius = np.asarray(self._temperatures(at, currents, columns)) - ZERO_CELSIUS
+        found = {"time": moments, "hot_side": celsius[1], "near_face": celsius[2], "far_face": celsius[self._far_face]}
+        for name, function in (("joint_impedance", self._impedance), ("electrical_power", self._power)):
+            found[name] = np.asarray(function(at, currents, columns)).ravel()
+        return {name: column.tolist() for name, column in found.items()}
+
+
+def _line(course: list[tuple[float, Array]]) -> tuple[Array, Array]:
+    return np.array([time for time, _ in course]), np.column_stack([states[:, 0] for _, states in course])
+
+
+def words_of(study: Study) -> dict[str, Any]:
+    """The records and options of a module, and its count of cells, which is a shape."""
+    return {
+        name: value for name, value in given(study).items()
+        if not isinstance(value, int | float) or name == "rotor_cells"
+    }  # fmt: skip

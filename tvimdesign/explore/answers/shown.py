@@ -1,0 +1,93 @@
+"""What a page shows of a module: limits with how they stand, variables at their ends, and every value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.device import Table
+from tvimdesign.report.output.tables import NOTHING, margin_text, number
+from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words
+from tvimdesign.solve.optimizer.ratings import exceeded, kept
+from tvimdesign.solve.result import ConstraintCheck
+from tvimdesign.study import Study, given
+
+_ROUNDING = 1e-6
+"""Margin that is what a solver leaves of zero."""
+Shown = dict[str, Any]
+"""Plain data, as JSON has it."""
+
+
+def shown_design(
+    study: Study, free: Study, values: Mapping[str, float], binding: Collection[str] = (),
+    ends: Mapping[str, str] | None = None,
+) -> Shown:  # fmt: skip
+    """A module's values (SI, by full name) for the page; `free` is the study with what it varies.
+
+    `binding` are limits that press, `ends` variables that press against an end of their range.
+    """
+    table = study.table
+    return {
+        "values": [_finite(from_si(values[name], table.unit(name))) for name in value_names(free)],
+        "limits": limits_shown(study, values, binding),
+        "warnings": ratings_shown(study, values),
+        "variables": {
+            name: {"value": _finite(from_si(values[name], table.unit(name))), "end": (ends or {}).get(name, "")}
+            for name in free.vary if name in values
+        },
+    }  # fmt: skip
+
+
+def value_names(study: Study) -> list[str]:
+    """Every output whose value is shown, in the table's order."""
+    seen = {row.name for row in study.table.first_oscillations}
+    return [name for name in study.table.names(study.operating_points) if name.partition("@")[0] not in seen]
+
+
+def limits_shown(study: Study, values: Mapping[str, float], binding: Collection[str]) -> list[Shown]:
+    """Every requirement, and the rules that press or are broken; what is broken first."""
+    limits = constraints_of(study, study.table, given(study))
+    rows = [_limit(limit, values[limit.output], study.table, limit.name in binding) for limit in limits]
+    told = [row for row in rows if row["origin"] == "require" or row["stands"] != "kept"]
+    return sorted(told, key=lambda row: ("broken", "binds", "kept").index(row["stands"]))
+
+
+def _limit(limit: Constraint, value: float, table: Table, presses: bool) -> Shown:
+    is_kept = kept(limit, value, table)
+    margin = -float(limit.residual(value))
+    check = ConstraintCheck(
+        text=in_words(limit, table), output=limit.output, value=value, margin=margin, scale=limit.scale,
+        absolute=limit.absolute, kept=is_kept, worst=margin, origin=limit.origin, part_of=limit.part_of,
+    )  # fmt: skip
+    unit = table.unit(limit.output)
+    got = value if abs(margin) > _ROUNDING else limit.limit
+    stands = "broken" if not is_kept else "binds" if presses or margin <= NOTHING else "kept"
+    return {
+        "name": limit.name, "of": limit.part_of or limit.output, "sense": limit.sense, "text": check.text,
+        "got": f"{number(from_si(got, unit))} {pretty(unit)}".rstrip(), "margin": margin_text(check, table),
+        "stands": stands, "origin": limit.origin,
+    }  # fmt: skip
+
+
+def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
+    """Ratings that the module is beyond."""
+    return [
+        {"text": in_words(limit, study.table), "accepted": limit.output in study.accept}
+        for limit in exceeded(values, study.table)
+    ]
+
+
+def finite_data(data: Any) -> Any:
+    """Plain data with none in place of numbers that JSON does not have."""
+    if isinstance(data, Mapping):
+        return {name: finite_data(one) for name, one in data.items()}
+    if isinstance(data, list | tuple):
+        return [finite_data(one) for one in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
+def _finite(value: float) -> float | None:
+    """A number JSON has; what never happens is none."""
+    return float(f"{value:.7g}") if math.isfinite(value) else None

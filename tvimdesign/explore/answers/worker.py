@@ -1,0 +1,93 @@
+"""The process that solves for a page: one job at a time, read as a line of JSON, answered as lines of JSON.
+
+Run as `python -m tvimdesign.explore.answers.worker SOURCE FOLDER [SETTING...]`. An interrupt ends the job that is
+under way, as a newer one stands in its place; the process goes on.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+from pathlib import Path
+from typing import Any, TextIO
+
+from tvimdesign.base.child_process import follow_parent
+from tvimdesign.base.errors import TvimError
+from tvimdesign.explore.answers.engine import Answer, Engine, refused
+from tvimdesign.explore.answers.report_fragment import design_name, report_fragment
+from tvimdesign.explore.states.source import open_source
+from tvimdesign.explore.states.state import State
+from tvimdesign.study.design import design_json
+
+
+class _Interrupts:
+    """Interrupts while a job is under way; between jobs there is nothing to end."""
+
+    def __init__(self) -> None:
+        self.busy = self.came = False
+        signal.signal(signal.SIGINT, self._heed)
+
+    def _heed(self, *_: object) -> None:
+        if self.busy:
+            self.came = True
+            raise KeyboardInterrupt
+
+
+def main() -> None:
+    """Answer jobs until there are no more."""
+    follow_parent()
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)  # what a library prints must not stand among the answers
+    interrupts = _Interrupts()
+    source, folder, settings = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
+    engine = Engine(open_source(source, settings).tree)
+    _say(answers, {"ready": True})
+    for line in sys.stdin:
+        job = json.loads(line)
+        _say(answers, {"number": job["number"], **_done(engine, job, folder, interrupts, answers)})
+
+
+def _done(
+    engine: Engine, job: dict[str, Any], folder: Path, interrupts: _Interrupts, answers: TextIO
+) -> dict[str, Any]:
+    """What a job comes to; of one that was interrupted nothing is kept, whatever a library made of the interrupt."""
+
+    def progress(text: str) -> None:
+        _say(answers, {"number": job["number"], "progress": text})
+
+    interrupts.came, interrupts.busy = False, True
+    try:
+        try:
+            found = engine.answer(State.model_validate(job["state"]), job["stage"], progress)
+            told = _told(found, folder)
+        except TvimError as error:
+            told = {"shown": {**refused(error), "stage": job["stage"], "way": job["state"]["way"]}}
+        except Exception as error:
+            if not interrupts.came:
+                raise
+            raise KeyboardInterrupt from error
+        interrupts.busy = False
+    except KeyboardInterrupt:
+        interrupts.busy = False
+        return {"superseded": True}
+    return {"superseded": True} if interrupts.came else told
+
+
+def _told(found: Answer, folder: Path) -> dict[str, Any]:
+    told: dict[str, Any] = {"shown": found.shown}
+    if found.answered is not None:
+        design = found.answered.result.design
+        told["report"] = report_fragment(folder, found.answered)
+        told["design"] = {"name": design_name(design), "json": design_json(design).decode()}
+    return told
+
+
+def _say(answers: TextIO, told: dict[str, Any]) -> None:
+    answers.write(json.dumps(told, allow_nan=False) + "\n")
+    answers.flush()
+
+
+if __name__ == "__main__":
+    main()

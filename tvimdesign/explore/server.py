@@ -1,0 +1,132 @@
+"""The local server: a page, its files, and a socket; on the loopback address alone, to who has the token."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import json
+import secrets
+from collections.abc import Awaitable, Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from aiohttp import WSMsgType, web
+
+from tvimdesign.explore.answers.report_fragment import PARTS
+from tvimdesign.explore.explore_page import STATIC, content_policy, explore_page
+from tvimdesign.explore.session import Session
+from tvimdesign.explore.states.messages import MOST_BYTES
+
+HOST = "127.0.0.1"
+_LOCAL = {"127.0.0.1", "localhost", "[::1]"}
+_SLOWEST = 256
+"""Messages that may wait for a page that does not read; one that is further behind is let go, and comes again."""
+Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
+
+
+class Server:
+    """The pages that are open, and the session they share."""
+
+    def __init__(self, source: Path, folder: Path, settings: Sequence[str] = (), token: str = "") -> None:
+        """Nothing is opened yet; `token` is drawn unless given."""
+        self.token = token or secrets.token_urlsafe(24)
+        self._source, self._folder, self._settings = source, folder, settings
+        self._pages: set[asyncio.Queue[str]] = set()
+        self.session: Session | None = None
+
+    def app(self) -> web.Application:
+        """The application, with its session from its start to its end."""
+        app = web.Application(middlewares=[self._guard], client_max_size=MOST_BYTES)
+        base = f"/{self.token}"
+        app.router.add_get(f"{base}/", self._page)
+        app.router.add_get(f"{base}/socket", self._socket)
+        app.router.add_get(f"{base}/static/{{room}}/{{path:.+}}", self._static)
+        app.router.add_get(f"{base}/{PARTS}/{{path:.+}}", self._part)
+        app.on_startup.append(self._open)
+        app.on_cleanup.append(self._close)
+        return app
+
+    async def _open(self, _: web.Application) -> None:
+        self.session = Session(self._source, self._folder, self._send, self._settings)
+
+    async def _close(self, _: web.Application) -> None:
+        if self.session:
+            self.session.close()
+
+    def _send(self, told: dict[str, Any]) -> None:
+        """To every page; one that does not read is not waited for."""
+        text = json.dumps(told, allow_nan=False)
+        for queue in list(self._pages):
+            if queue.qsize() < _SLOWEST:
+                queue.put_nowait(text)
+            else:
+                self._pages.discard(queue)
+
+    # --- who may ask ---
+
+    @web.middleware
+    async def _guard(self, request: web.Request, handler: Handler) -> web.StreamResponse:
+        """Nothing without the token, and nothing by another host's name or page."""
+        given = request.path.split("/", 2)[1]
+        if not hmac.compare_digest(given.encode(), self.token.encode()) or not _local(request.headers.get("Host", "")):
+            raise web.HTTPNotFound
+        origin = request.headers.get("Origin")
+        if origin is not None and origin.removeprefix("http://") != request.headers.get("Host"):
+            raise web.HTTPForbidden
+        response = await handler(request)
+        response.headers.setdefault("Referrer-Policy", "no-referrer")
+        response.headers.setdefault("X-Content-Type-Options", "nosniff")
+        return response
+
+    # --- what there is ---
+
+    async def _page(self, _: web.Request) -> web.Response:
+        nonce = secrets.token_urlsafe(16)
+        headers = {"Content-Security-Policy": content_policy(nonce), "Cache-Control": "no-store"}
+        return web.Response(text=explore_page(nonce), content_type="text/html", headers=headers)
+
+    async def _static(self, request: web.Request) -> web.StreamResponse:
+        folder = STATIC.get(request.match_info["room"])
+        return _file(folder, request.match_info["path"]) if folder else web.Response(status=404)
+
+    async def _part(self, request: web.Request) -> web.StreamResponse:
+        return _file(self._folder / PARTS, request.match_info["path"])
+
+    async def _socket(self, request: web.Request) -> web.WebSocketResponse:
+        """Messages in, answers out, until the page is closed; what was done stays."""
+        socket = web.WebSocketResponse(max_msg_size=MOST_BYTES, heartbeat=20.0)
+        await socket.prepare(request)
+        session = self.session
+        assert session is not None
+        queue: asyncio.Queue[str] = asyncio.Queue()
+        answers = sorted(session.answers.values(), key=lambda one: int(one["number"]))
+        for told in (session.state_shown(), *answers):
+            queue.put_nowait(json.dumps(told, allow_nan=False))
+        self._pages.add(queue)
+        sender = asyncio.create_task(_forward(queue, socket))
+        try:
+            async for message in socket:
+                if message.type == WSMsgType.TEXT:
+                    for told in session.receive(message.data):
+                        queue.put_nowait(json.dumps(told, allow_nan=False))
+        finally:
+            self._pages.discard(queue)
+            sender.cancel()
+        return socket
+
+
+async def _forward(queue: asyncio.Queue[str], socket: web.WebSocketResponse) -> None:
+    while not socket.closed:
+        await socket.send_str(await queue.get())
+
+
+def _file(folder: Path, name: str) -> web.StreamResponse:
+    """A file within a folder; what lies outside, by dots or by a link, is not there."""
+    path = (folder / name).resolve()
+    if not path.is_relative_to(folder.resolve()) or not path.is_file():
+        raise web.HTTPNotFound
+    return web.FileResponse(path, headers={"Cache-Control": "no-cache"})
+
+
+def _local(host: str) -> bool:
+    return host.rpartition(":")[0] in _LOCAL or host in _LOCAL

@@ -1,0 +1,231 @@
+"""What happens between a page and the solver: messages become states, states become jobs, answers go to every page."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.base.units import pretty
+from tvimdesign.base.whole_files import make_folder, write_whole
+from tvimdesign.explore.answers.engine import Stage
+from tvimdesign.explore.answers.shown import value_names
+from tvimdesign.explore.answers.solver import Job, Solver, Told
+from tvimdesign.explore.parts import PartsMaker
+from tvimdesign.explore.states import messages
+from tvimdesign.explore.states.controls import controls_shown
+from tvimdesign.explore.states.history import Kept, open_kept, write_kept
+from tvimdesign.explore.states.messages import Change, Message
+from tvimdesign.explore.states.saved_study import saved_text
+from tvimdesign.explore.states.source import Source, open_source
+from tvimdesign.explore.states.state import Pinned, State, changed, tree_of
+from tvimdesign.study import Study, read_tree
+
+QUIET = 0.35
+"""Seconds without a message after which the exact answer is sought."""
+_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,80}\.yaml")
+Send = Callable[[Told], None]
+
+
+class Session:
+    """One study, explored by any count of pages at once."""
+
+    def __init__(self, source: Path, folder: Path, send: Send, settings: Sequence[str] = ()) -> None:
+        """Open the study, go on from what was kept in the folder, and start the solver. Raises InputError.
+
+        `send` hands what all pages are told on to them. To be made in an event loop.
+        """
+        self.source: Source = open_source(source, settings)
+        self.folder, self._send = folder, send
+        self.kept: Kept = open_kept(folder, self.source.text, self.source.first)
+        make_folder(folder)
+        write_kept(folder, self.kept)
+        self._since: State = self.kept.state
+        self._number = 0
+        self._timer: asyncio.TimerHandle | None = None
+        self.answers: dict[str, Told] = {}
+        """The last quick answer and the last exact one, for pages that come later."""
+        self._design: dict[str, str] | None = None
+        self.parts = PartsMaker(folder, send, self._parts_made)
+        self.solver = Solver([str(source), str(folder), *settings], self._told)
+        self._ask("quick")
+
+    def close(self) -> None:
+        """End what runs."""
+        if self._timer:
+            self._timer.cancel()
+        self.solver.close()
+
+    # --- what a page asks ---
+
+    def receive(self, text: str) -> list[Told]:
+        """Do what a message says; returns what the page that sent it is told alone."""
+        try:
+            message = messages.read_message(text)
+            return self._do(message)
+        except TvimError as error:
+            name = getattr(locals().get("message"), "name", "")
+            return [{"kind": "refused", "name": name, "words": str(error)}]
+
+    def _do(self, message: Message) -> list[Told]:
+        if isinstance(message, Change):
+            self._change(message)
+        elif isinstance(message, messages.SetWay):
+            self._become(self.kept.state.model_copy(update={"way": message.way}))
+        elif isinstance(message, messages.Step):
+            self._step(message)
+        elif isinstance(message, messages.Pin):
+            self._pin(message.name)
+        elif isinstance(message, messages.OfPin):
+            self._of_pin(message)
+        elif isinstance(message, messages.Point):
+            at = self.source.at_point(message.number)
+            self._become(self.kept.state.model_copy(update={"way": "evaluate", "at": at}))
+        elif isinstance(message, messages.Save):
+            return [self._save(message.file)]
+        elif isinstance(message, messages.Confirm):
+            self._ask("confirmed")
+        else:
+            self.parts.make(self._design if self._is_exact else None)
+        return []
+
+    def _change(self, change: Change) -> None:
+        before = self.kept.state
+        after = changed(self.source.tree, before, change, self._read("optimize"))
+        self.kept.state = after
+        if change.final:
+            self.kept.advance(after, self._since)
+            self._settle()
+        self._ask("quick")
+
+    def _become(self, after: State) -> None:
+        """A state that is not one change of a value."""
+        self.kept.advance(after, self._since)
+        self._settle()
+        self._ask("quick")
+
+    def _step(self, step: messages.Step) -> None:
+        if step.kind == "reset":
+            self._become(self.source.first)
+            return
+        if step.kind == "undo":
+            self.kept.undo()
+        else:
+            self.kept.redo()
+        self._settle()
+        self._ask("quick")
+
+    def _pin(self, name: str) -> None:
+        answer = self.answers.get("quick")
+        if answer is None or "values" not in answer["shown"] or answer["number"] != self._number:
+            raise InputError("pin: the design is still being computed; pin it when its values are there")
+        study = self._read("optimize")
+        units = [pretty(study.table.unit(one)) for one in value_names(study)]
+        numbers = zip(value_names(study), answer["shown"]["values"], units, strict=True)
+        texts = {one: "never" if value is None else f"{value:.4g} {unit}".rstrip() for one, value, unit in numbers}
+        inputs = {one: f"{told['value']:.4g} {pretty(study.table.unit(one))}".rstrip()
+                  for one, told in answer["shown"]["variables"].items() if told["value"] is not None}  # fmt: skip
+        self.kept.pin(Pinned(name=name, state=self.kept.state, values={**inputs, **texts}))
+        self._settle()
+
+    def _of_pin(self, message: messages.OfPin) -> None:
+        if message.kind == "recall":
+            self._become(self.kept.pinned(message.number).state)
+        else:
+            self.kept.unpin(message.number)
+            self._settle()
+
+    def _save(self, file: str) -> Told:
+        if not _FILE.fullmatch(file):
+            raise InputError(f"save: {file!r} is no file name; letters, digits, _ . - and .yaml at the end")
+        path = self.folder / file
+        write_whole(path, saved_text(self.source.tree, self.kept.state, self.folder).encode())
+        return {"kind": "saved", "file": file, "path": str(path)}
+
+    # --- what becomes of it ---
+
+    def _read(self, way: messages.Way | None = None) -> Study:
+        tree = tree_of(self.source.tree, self.kept.state, way)
+        return read_tree(tree, lambda _: self.source.study.table, lambda _: self.source.study.catalog)
+
+    def _settle(self) -> None:
+        """A state to come back to: kept in the file, and told to every page."""
+        self._since = self.kept.state
+        write_kept(self.folder, self.kept)
+        self._send(self.state_shown())
+
+    def state_shown(self) -> Told:
+        """All that a page needs beside answers."""
+        free = self._read("optimize")
+        return {
+            "kind": "state", "name": free.name, "mode": free.mode, "way": self.kept.state.way,
+            "optimizes": bool(free.vary), "undo": bool(self.kept.past), "redo": bool(self.kept.future),
+            "controls": controls_shown(free, self._read("evaluate"), self.kept.state),
+            "pins": [{"name": one.name, "way": one.state.way, "values": one.values} for one in self.kept.pins],
+            "quantities": [_quantity(free, name) for name in value_names(free)],
+            "asked": list(dict.fromkeys([*free.minimize, *(limit.output for limit in free.require)])),
+            "front": self.source.front_shown(), "folder": str(self.folder), "parts": self.parts.shown,
+        }  # fmt: skip
+
+    def _ask(self, stage: Stage) -> None:
+        self._number += 1
+        self.solver.ask(Job(self._number, stage, self.kept.state))
+        if stage == "quick":
+            self._wait()
+
+    def _wait(self) -> None:
+        if self._timer:
+            self._timer.cancel()
+        self._timer = asyncio.get_running_loop().call_later(QUIET, self._exact_now, self._number)
+
+    def _exact_now(self, number: int) -> None:
+        if number == self._number and not self._is_exact:
+            if self.solver.under_way is None:
+                self.solver.ask(Job(number, "exact", self.kept.state))
+            else:
+                self._wait()
+
+    @property
+    def _is_exact(self) -> bool:
+        answer = self.answers.get("exact")
+        return answer is not None and answer["number"] == self._number
+
+    def _parts_made(self) -> None:
+        """Show the assembly, if the design is still the one that is shown."""
+        if self._is_exact:
+            self.solver.ask(Job(self._number, "report", self.kept.state))
+
+    def _told(self, job: Job, told: Told) -> None:
+        if "progress" in told or told.get("superseded"):
+            if told.get("progress") and job.number == self._number:
+                self._send({"kind": "progress", "number": job.number, "text": told["progress"]})
+            return
+        if job.number < self._number and job.stage != "quick":
+            return
+        shown = told["shown"]
+        answer = {"kind": "answer", "number": job.number, "shown": shown}
+        self.answers["quick" if "values" in shown else "refused"] = answer
+        if job.stage != "quick":
+            self.answers["exact"] = {**answer, "report": told.get("report")}
+            self._design = told.get("design")
+            answer = self.answers["exact"]
+        self._follow(job, shown)
+        self._send(answer)
+
+    def _follow(self, job: Job, shown: Told) -> None:
+        """Let the hand's variables be the optimum's, so that it can be gone on from."""
+        if "at" not in shown or job.number != self._number or self.kept.state.way != "optimize":
+            return
+        if shown["at"] != self.kept.state.at:
+            self.kept.state = self.kept.state.model_copy(update={"at": shown["at"]})
+            if job.stage != "quick":
+                self._settle()
+
+
+def _quantity(study: Study, name: str) -> dict[str, Any]:
+    row = study.table.output(name.partition("@")[0])
+    return {"name": name, "unit": pretty(study.table.unit(name)), "means": row.description, "group": row.group,
+            "headline": row.headline}  # fmt: skip

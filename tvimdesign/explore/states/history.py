@@ -1,0 +1,97 @@
+"""What can be undone and done again, and how it is kept in a file that is whole at any moment."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.whole_files import write_whole
+from tvimdesign.explore.states.state import Pinned, State
+
+FILE = "explore.json"
+MOST_STEPS = 200
+MOST_PINS = 12
+
+
+class Kept(BaseModel):
+    """All that an explorer goes on from when it is opened again."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    study: str
+    """Hash of the study's file."""
+    state: State
+    past: list[State] = []
+    future: list[State] = []
+    pins: list[Pinned] = []
+
+    def advance(self, after: State, since: State) -> None:
+        """Go on to a state from the one that `since` an undo would bring back."""
+        if after != since:
+            self.past = [*self.past, since][-MOST_STEPS:]
+            self.future = []
+        self.state = after
+
+    def undo(self) -> None:
+        """One step back. Raises InputError where there is none."""
+        if not self.past:
+            raise InputError("undo: nothing was changed before")
+        self.future = [self.state, *self.future]
+        self.state = self.past.pop()
+
+    def redo(self) -> None:
+        """One step forth again. Raises InputError where there is none."""
+        if not self.future:
+            raise InputError("redo: nothing was undone")
+        self.past = [*self.past, self.state]
+        self.state = self.future.pop(0)
+
+    def pin(self, pinned: Pinned) -> None:
+        """Keep a design. Raises InputError where there are too many."""
+        if len(self.pins) >= MOST_PINS:
+            raise InputError(f"pin: {MOST_PINS} designs are pinned, the limit; let one go first")
+        self.pins = [*self.pins, pinned]
+
+    def pinned(self, number: int) -> Pinned:
+        """A design that was kept. Raises InputError for a number there is not."""
+        if number >= len(self.pins):
+            raise InputError(f"pin {number}: there are {len(self.pins)} pinned designs")
+        return self.pins[number]
+
+    def unpin(self, number: int) -> None:
+        """Let a design go."""
+        gone = self.pinned(number)
+        self.pins = [one for one in self.pins if one is not gone]
+
+
+def hash_of(text: bytes) -> str:
+    """What tells one study's file from another."""
+    return "sha256:" + hashlib.sha256(text).hexdigest()
+
+
+def open_kept(folder: Path, study: bytes, first: State) -> Kept:
+    """What was kept in a folder, or a new beginning. Raises InputError where the folder is another study's."""
+    path = folder / FILE
+    if not path.exists():
+        if folder.is_dir() and any(folder.iterdir()):
+            raise InputError(f"{folder}: holds files that are no explorer's; name another folder with --out")
+        return Kept(study=hash_of(study), state=first)
+    try:
+        kept = Kept.model_validate(json.loads(path.read_bytes()))
+    except (ValueError, ValidationError) as error:
+        raise InputError(f"{path}: not written by `tvimdesign explore`; name another folder with --out") from error
+    if kept.study != hash_of(study):
+        raise InputError(
+            f"{folder}: holds what was done with the study as it was before its file changed; --overwrite begins "
+            "again, --out names another folder"
+        )
+    return kept
+
+
+def write_kept(folder: Path, kept: Kept) -> None:
+    """Write all of it, whole. Raises OutputError."""
+    write_whole(folder / FILE, kept.model_dump_json(indent=1).encode() + b"\n")

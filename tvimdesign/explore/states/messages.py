@@ -1,0 +1,129 @@
+"""What a page may ask of the server: every message checked before anything is done with it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+
+from tvimdesign.base.errors import InputError
+
+MOST_BYTES = 100_000
+"""Of one message; the longest that a page sends are some hundred."""
+_Name = Annotated[str, Field(min_length=1, max_length=120)]
+_Text = Annotated[str, Field(max_length=500)]
+Way: TypeAlias = Literal["evaluate", "optimize"]
+
+
+class _Message(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+
+class SetValue(_Message):
+    """An input, a choice, or a value of an operating point, as text with its unit."""
+
+    kind: Literal["set"]
+    name: _Name
+    text: _Text
+    final: bool = True
+    """Whether the control was let go; what it passes through while it is dragged cannot be undone one by one."""
+
+
+class SetLimits(_Message):
+    """All limits of one required output."""
+
+    kind: Literal["require"]
+    name: _Name
+    texts: Annotated[tuple[_Text, ...], Field(max_length=10, strict=False)]
+    final: bool = True
+
+
+class SetRange(_Message):
+    """The ends of a variable's range."""
+
+    kind: Literal["range"]
+    name: _Name
+    low: _Text
+    high: _Text
+    final: bool = True
+
+
+class SetWeight(_Message):
+    """The weight of a minimised output."""
+
+    kind: Literal["weight"]
+    name: _Name
+    text: _Text
+    final: bool = True
+
+
+class SetWay(_Message):
+    """Evaluate the module under the hand, or optimise."""
+
+    kind: Literal["way"]
+    way: Way
+
+
+class Step(_Message):
+    """Back or forth in what was done, or all the way back."""
+
+    kind: Literal["undo", "redo", "reset"]
+
+
+class Pin(_Message):
+    """Keep the design that is shown, under a name."""
+
+    kind: Literal["pin"]
+    name: Annotated[str, Field(min_length=1, max_length=60)]
+
+
+class OfPin(_Message):
+    """Let a kept design go, or go back to it."""
+
+    kind: Literal["unpin", "recall"]
+    number: Annotated[int, Field(ge=0, le=1000)]
+
+
+class Point(_Message):
+    """See a point of the result's front."""
+
+    kind: Literal["point"]
+    number: Annotated[int, Field(ge=0, le=1000)]
+
+
+class Save(_Message):
+    """Write the study as a file in the folder of results."""
+
+    kind: Literal["save"]
+    file: Annotated[str, Field(min_length=1, max_length=100)]
+
+
+class Confirm(_Message):
+    """Search as `run` does: every start, every listed choice."""
+
+    kind: Literal["confirm"]
+
+
+class MakeParts(_Message):
+    """Make the exact CAD of the design that is shown."""
+
+    kind: Literal["cad"]
+
+
+Change = SetValue | SetLimits | SetRange | SetWeight
+Message = Annotated[
+    SetValue | SetLimits | SetRange | SetWeight | SetWay | Step | Pin | OfPin | Point | Save | Confirm | MakeParts,
+    Field(discriminator="kind"),
+]
+_MESSAGES: TypeAdapter[Message] = TypeAdapter(Message)
+
+
+def read_message(text: str) -> Message:
+    """Read one message. Raises InputError, naming what is wrong with it."""
+    if len(text.encode()) > MOST_BYTES:
+        raise InputError(f"message: more than {MOST_BYTES} bytes")
+    try:
+        return _MESSAGES.validate_json(text)
+    except ValidationError as error:
+        faults = (f"{'.'.join(map(str, fault['loc'])) or 'message'}: {fault['msg']}" for fault in error.errors()[:5])
+        raise InputError(f"message: {'; '.join(faults)}") from None

@@ -1,0 +1,96 @@
+"""What an explorer is opened with: a study file, or a result with the design and the front that were found."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.explore.states.state import State, beginning, refuse_other_folders
+from tvimdesign.report.output.axis_labels import axis_label
+from tvimdesign.study import Study, read_tree
+from tvimdesign.study.design import Design, read_design
+from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_values, tree_yaml
+from tvimdesign.study.written_study import written
+
+
+@dataclass(frozen=True)
+class Source:
+    """A study, where to begin in it, and the front of the result it is from."""
+
+    tree: StudyTree
+    study: Study
+    chosen: Mapping[str, Any] = field(default_factory=dict)
+    """What a design found for it has, by name."""
+    folder: Path | None = None
+    """Of the result."""
+    front: Mapping[str, Any] | None = None
+    """As in its results.json."""
+
+    @property
+    def text(self) -> bytes:
+        """What tells this study from another."""
+        return tree_yaml(self.tree).encode()
+
+    @property
+    def first(self) -> State:
+        """Where an explorer begins."""
+        way = "optimize" if self.study.vary else "evaluate"
+        return State(way=way, at=beginning(self.study, self.chosen))
+
+    def front_shown(self) -> dict[str, Any] | None:
+        """The front's points in the units people read; none of a study."""
+        if self.front is None or not self.front["points"]:
+            return None
+        names, table = list(self.front["units_of_values"]), self.study.table
+        points = [
+            {"number": one["number"], "status": one["status"], "values": [one["values"][name] for name in names]}
+            for one in self.front["points"]
+        ]
+        labels = [axis_label(name, table.unit(name)) for name in names]
+        return {"of": list(self.front["of"]), "names": names, "labels": labels, "points": points}
+
+    def at_point(self, number: int) -> dict[str, str]:
+        """The variables of a point of the front. Raises InputError for one that there is not."""
+        found = next((one for one in (self.front or {"points": []})["points"] if one["number"] == number), None)
+        if found is None or self.folder is None:
+            raise InputError(f"point {number}: the front has none of this number")
+        path = (self.folder / found["design"]).resolve()
+        if not path.is_relative_to(self.folder.resolve()):
+            raise InputError(f"point {number}: its design lies outside {self.folder}")
+        return beginning(self.study, _of_design(read_design(path)))
+
+
+def open_source(path: Path, settings: Sequence[str] = ()) -> Source:
+    """Open a study file, or the folder or design.json of a result. Raises InputError."""
+    design = path / "design.json" if path.is_dir() else path
+    if design.suffix == ".json":
+        return _result(read_design(design), design)
+    tree = tree_of_file(path, settings)
+    study = read_tree(tree)
+    refuse_other_folders(tree, study)
+    return Source(tree, study)
+
+
+def _result(design: Design, path: Path) -> Source:
+    asked = Study.model_validate(design.study)
+    tree = tree_of_values(written(asked), f"The study of {path}", Path())
+    study = read_tree(tree)
+    refuse_other_folders(tree, study)
+    return Source(tree, study, _of_design(design), path.parent, _front_of(path.parent))
+
+
+def _of_design(design: Design) -> dict[str, Any]:
+    return {**design.values, **design.choices}
+
+
+def _front_of(folder: Path) -> dict[str, Any] | None:
+    """The front of a result; none where it has none, or its results.json is another program's."""
+    try:
+        front = json.loads((folder / "results.json").read_bytes()).get("front")
+    except (OSError, ValueError, AttributeError):
+        return None
+    return front if isinstance(front, dict) and isinstance(front.get("points"), list) else None

@@ -1,0 +1,111 @@
+// The panel of controls: variables, requirements, weights, choices and inputs, each in its unit.
+import { make } from "page/dom.js";
+import { choiceKnob, numberKnob, withUnit } from "explore/knob.js";
+
+const WORDS = { binds: "binds", broken: "broken", kept: "" };
+
+/** Build the panel; `send` takes messages. */
+export function controlPanel(place, send) {
+  const knobs = new Map();
+  let shape = "";
+  let state = null;
+
+  const fieldset = (title, rows, open = true) => {
+    const legend = make("legend", {}, title);
+    if (open) return make("fieldset", {}, legend, ...rows);
+    return make("details", {}, make("summary", {}, `${title} (${rows.length})`), make("fieldset", {}, ...rows));
+  };
+  const keep = (key, knob) => { knobs.set(key, knob); return knob.row; };
+
+  function variable(one) {
+    const asked = (text, final) => send({ kind: "set", name: one.name, text, final });
+    if (one.options) return keep(one.name, choiceKnob({ ...one, label: one.name }, asked));
+    const knob = numberKnob({ ...one, label: one.name }, asked);
+    if (state.way === "optimize") {
+      const ends = ["low", "high"].map((end) => make("input", { type: "text", value: one[`${end}_text`], "aria-label": `${one.name}, ${end === "low" ? "least" : "largest"}` }));
+      const ask = () => send({ kind: "range", name: one.name, low: ends[0].value, high: ends[1].value, final: true });
+      for (const end of ends) end.addEventListener("change", ask);
+      knob.row.append(make("div", { className: "ends" }, "from", ends[0], "to", ends[1]));
+      knob.field.readOnly = true;
+      if (knob.slider) knob.slider.disabled = true;
+    }
+    return keep(one.name, knob);
+  }
+
+  function requirement(one) {
+    const asked = (text, final) => {
+      const texts = state.controls.requirements.filter(({ name }) => name === one.name)
+        .map((other) => `${other.sense} ${other.place === one.place ? text.replace(/^[<>]=\s*/, "") : other.text}`);
+      send({ kind: "require", name: one.name, texts, final });
+    };
+    const size = Math.abs(one.value) || 1;
+    const knob = numberKnob({ ...one, label: `${one.name} ${one.sense}`, low: one.value - 0.5 * size, high: one.value + 0.5 * size, before: `${one.sense} ` }, asked);
+    return keep(`${one.name} ${one.sense}`, knob);
+  }
+
+  function inputs() {
+    const rows = state.controls.inputs.map((one) => {
+      const row = keep(one.name, numberKnob({ ...one, label: one.name }, (text, final) => send({ kind: "set", name: one.name, text, final })));
+      row.dataset.words = `${one.name} ${one.means} ${one.group}`.toLowerCase();
+      return row;
+    });
+    const search = make("input", { type: "search", "aria-label": "Only inputs with" });
+    search.addEventListener("input", () => {
+      const word = search.value.trim().toLowerCase();
+      for (const row of rows) row.hidden = !row.dataset.words.includes(word);
+    });
+    const all = fieldset("Inputs", rows, false);
+    all.querySelector("fieldset").prepend(search);
+    return all;
+  }
+
+  function build() {
+    knobs.clear();
+    const { variables, requirements, weights, choices } = state.controls;
+    const weight = (one) => keep(`weight ${one.name}`, numberKnob(
+      { label: one.name, means: one.means, unit: "", text: String(one.value), low: 0, high: Math.max(5, 2 * one.value) },
+      (text, final) => send({ kind: "weight", name: one.name, text, final })));
+    const choice = (one) => keep(one.name, choiceKnob({ ...one, label: one.name }, (text) => send({ kind: "set", name: one.name, text, final: true })));
+    place.replaceChildren(
+      ...(variables.length ? [fieldset(state.way === "optimize" ? "Variables, as the optimum has them" : "Variables", variables.map(variable))] : []),
+      ...(requirements.length ? [fieldset("Requirements", requirements.map(requirement))] : []),
+      ...(weights.length ? [fieldset("Weights of what is minimised", weights.map(weight))] : []),
+      fieldset("Choices", choices.map(choice), false), inputs());
+  }
+
+  return {
+    /** Show a state; the controls themselves are built anew only where there are others. */
+    show(told) {
+      state = told;
+      const { controls } = told;
+      const now = JSON.stringify([told.way, controls.variables.map(({ name, low_text, high_text, options }) => [name, low_text, high_text, options]),
+        controls.requirements.map(({ name, sense }) => [name, sense]), controls.weights.map(({ name }) => name), controls.inputs.map(({ name }) => name)]);
+      if (now !== shape) { shape = now; build(); }
+      for (const one of controls.variables) if (told.way === "evaluate") knobs.get(one.name)?.show(one.text, parseFloat(one.text));
+      for (const one of controls.requirements) knobs.get(`${one.name} ${one.sense}`)?.show(one.text, one.value);
+      for (const one of [...controls.choices, ...controls.inputs]) knobs.get(one.name)?.show(one.text, parseFloat(one.text));
+      for (const one of controls.weights) knobs.get(`weight ${one.name}`)?.show(String(one.value), one.value);
+    },
+    /** Light up what binds and what is broken; in the way of optimising, move the variables to the optimum. */
+    answer(shown) {
+      for (const one of state.controls.requirements) {
+        const of = shown.limits.filter((limit) => limit.of === one.name && limit.sense === one.sense);
+        const how = ["broken", "binds", "kept"].find((word) => of.some(({ stands }) => stands === word)) ?? "kept";
+        const worst = of.find(({ stands }) => stands === how);
+        knobs.get(`${one.name} ${one.sense}`)?.light(how, [WORDS[how], worst ? `got ${worst.got}` : ""].filter(Boolean).join(", "));
+      }
+      for (const one of state.controls.variables) {
+        const found = shown.variables[one.name];
+        if (!found || one.options) continue;
+        if (state.way === "optimize") knobs.get(one.name)?.show(withUnit(found.value, one.unit), found.value);
+        knobs.get(one.name)?.light(found.end ? "binds" : "", found.end ? `at its ${found.end} end` : "");
+      }
+    },
+    /** Say why what was typed is refused, beside where it was typed. */
+    refuse(name, words) {
+      const found = [...knobs.entries()].find(([key]) => key === name || key.split(" ")[0] === name || key === `weight ${name}`);
+      if (found) found[1].refusal.textContent = words;
+      return Boolean(found);
+    },
+  };
+}

@@ -1,0 +1,94 @@
+// The explorer's page: what comes over the socket is shown, what a hand does is sent.
+import { button, make } from "page/dom.js";
+import { controlPanel } from "explore/controls.js";
+import { connect } from "explore/connection.js";
+import { frontOf } from "explore/front.js";
+import { limitsTable, liveCurves, outputsTable } from "explore/live.js";
+import { pinsTable } from "explore/pins.js";
+import { reportPanel } from "explore/report.js";
+
+const at = (id) => document.getElementById(id);
+const status = at("status");
+const send = (message) => {
+  if (connection.send(message)) document.documentElement.dataset.sent = String(Number(document.documentElement.dataset.sent ?? 0) + 1);
+  else status.textContent = "Not sent: there is no connection.";
+};
+const controls = controlPanel(at("controls"), send);
+const limits = limitsTable(at("limits"));
+const outputs = outputsTable(at("outputs"));
+const curves = liveCurves(at("curves"));
+const pins = pinsTable(at("pins"), at("pins-section"), send);
+const front = frontOf(at("front"), at("front-section"), send);
+const report = reportPanel(at("report"));
+let state = null;
+let last = null;
+
+const ways = Object.fromEntries([["evaluate", "Evaluate"], ["optimize", "Optimise"]].map(([way, label]) =>
+  [way, button(label, () => send({ kind: "way", way }))]));
+const undo = button("Undo", () => send({ kind: "undo" }));
+const redo = button("Redo", () => send({ kind: "redo" }));
+const parts = button("Make CAD", () => send({ kind: "cad" }));
+const confirm = button("Search every start", () => send({ kind: "confirm" }));
+const pin = button("Pin", () => send({ kind: "pin", name: `${state.pins.length + 1}` }));
+const file = make("input", { type: "text", value: "study.yaml", "aria-label": "File to save the study as", size: 14 });
+const save = button("Save as study", () => send({ kind: "save", file: file.value }));
+const told = make("span", { role: "status", "aria-live": "polite", id: "told" });
+at("toolbar").append(...Object.values(ways), undo, redo, button("Start again", () => send({ kind: "reset" })), pin, confirm, parts, file, save, told);
+addEventListener("keydown", (event) => {
+  if (!(event.ctrlKey || event.metaKey) || event.target.matches("input[type=text], input[type=search]")) return;
+  if (event.key === "z") { event.preventDefault(); send({ kind: event.shiftKey ? "redo" : "undo" }); }
+});
+
+const HEARD = {
+  state(message) {
+    state = message;
+    document.title = `${state.name}: explorer`;
+    at("title").textContent = state.name;
+    at("kind").textContent = `${state.mode} module, explorer`;
+    at("folder").textContent = `Kept in ${state.folder}.`;
+    for (const [way, one] of Object.entries(ways)) one.setAttribute("aria-pressed", String(way === state.way));
+    ways.optimize.disabled = confirm.disabled = !state.optimizes;
+    undo.disabled = !state.undo;
+    redo.disabled = !state.redo;
+    controls.show(state);
+    pins.show(state, last);
+    front.show(state);
+    HEARD.parts(state.parts);
+    if (last) show(last);
+  },
+  answer(message) {
+    document.documentElement.dataset.number = message.number;
+    document.documentElement.dataset.stage = message.shown.stage;
+    told.textContent = "";
+    if (message.shown.values) last = message.shown;
+    if (state) show(message.shown);
+    if (message.report) report.show(message.report);
+  },
+  refused({ name, words }) {
+    if (!controls.refuse(name, words)) told.textContent = words;
+  },
+  progress({ text }) { told.textContent = text; },
+  saved({ path }) { told.textContent = `Saved: ${path}`; },
+  parts({ text, busy }) {
+    parts.disabled = busy;
+    if (text) told.textContent = text;
+  },
+};
+
+function show(shown) {
+  const broken = shown.limits?.filter(({ stands }) => stands === "broken").length ?? 0;
+  const words = shown.status || (broken ? `${broken} ${broken === 1 ? "limit is" : "limits are"} broken` : "All limits kept");
+  if (status.textContent !== words) status.textContent = words;
+  status.className = `status ${shown.found === false || broken ? "bad" : shown.status ? "warn" : "good"}`;
+  if (!shown.values) return;
+  controls.answer(shown);
+  limits(shown);
+  outputs(state.quantities, state.asked, shown.values);
+  if (shown.curves) curves(shown.curves);
+  pins.show(state, shown);
+}
+
+const connection = connect((message) => HEARD[message.kind](message), (connected) => {
+  document.documentElement.dataset.connected = connected ? "yes" : "no";
+  at("connection").textContent = connected ? "" : "No connection to the server: it has ended, or restarts. What you did is kept; this page tries again by itself.";
+});

@@ -1,0 +1,146 @@
+"""One problem, built once and solved again, warm, as its limits, ranges, weights and fixed numbers move."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.device import Input
+from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
+from tvimdesign.solve.nlp.deadline import Deadline
+from tvimdesign.solve.nlp.decision_vector import DecisionVector
+from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem import Free
+from tvimdesign.solve.nlp.solver_run import Array, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study import Range, Study, given
+
+AT_END = 1e-4
+"""Share of the range, or of a limit's scale, within which a number is said to be at its end."""
+_PRESSES = 1e-6
+"""Multiplier over the objective above which a limit costs something."""
+
+
+@dataclass(frozen=True)
+class Moved:
+    """Where a moved problem has its optimum, and what holds it there."""
+
+    run: Run
+    binding: tuple[str, ...]
+    """Limits that press, by name (`holding_torque >=`), each with the requirement it is part of, if it is of one."""
+    ends: dict[str, str]
+    """Variables that press against an end of their range: `lower` or `upper`."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether IPOPT says that it is an optimum."""
+        return self.run.start.converged
+
+
+class ParametricOptimizer:
+    """A study's problem; it takes every study that differs in numbers alone."""
+
+    def __init__(self, study: Study) -> None:
+        """Build the problem. Raises InfeasibleError and InputError as `Optimizer` does."""
+        self.study = study
+        self.optimizer = Optimizer(study)
+        self._limits = {one.name: one for one in self.optimizer.problem.limits}
+        self._shape = _shape(study)
+
+    def fits(self, study: Study) -> bool:
+        """Whether nothing but numbers differs from the study that was built."""
+        return _shape(study) == self._shape
+
+    def solve(self, study: Study, last: Run | None = None, reference: Mapping[str, float] | None = None) -> Moved:
+        """The optimum of a study, from the `last` one; what is minimised is divided by `reference`.
+
+        Limits that nothing free can change are no part of the problem, and whoever asks has to look after them.
+        """
+        optimizer = self._moved(study, reference)
+        optimizer.deadline = Deadline(study.solver.time_limit)
+        own = {current.row for current in optimizer.currents}
+        ranges = {name: one for name, one in study.vary.items() if isinstance(one, Range) and name not in own}
+        within = {name: (one.lower, one.upper) for name, one in ranges.items()}
+        goal = Objective(study.minimize)
+        run = optimizer.solve(within, last, objective=goal)
+        if last is not None and not run.start.converged:
+            begin = self._clipped(last, optimizer, ranges)
+            run = optimizer.solve(within, objective=goal, begin=begin, beginning="near")
+        return Moved(run, self._binding(run, optimizer), _ends(run, optimizer))
+
+    @staticmethod
+    def _clipped(last: Run, optimizer: Optimizer, ranges: Mapping[str, Range]) -> Array:
+        """An optimum within the ranges of now: where to begin that is too far from it for its multipliers."""
+        begin = optimizer.model.start.copy()
+        for name, value in last.start.end.items():
+            ends = ranges.get(name)
+            begin[optimizer.model.index[name]] = min(max(value, ends.lower), ends.upper) if ends else value
+        return begin
+
+    def _moved(self, study: Study, reference: Mapping[str, float] | None) -> Optimizer:
+        """The built optimizer with other parameters: nothing of what was compiled changes."""
+        built = self.optimizer
+        numbers = given(study)
+        moved, model, problem = copy(built), copy(built.model), copy(built.problem)
+        model.start = np.array([float(numbers[name]) for name in model.names])
+        problem.free = tuple(_within(one, study) for one in built.problem.free)
+        moved.study, moved.model, moved.problem = study, model, problem
+        moved.reference = {**built.reference, **(reference or {})}
+        moved.margins = self._margins(constraints_of(study, study.table, model.words))
+        moved.vector = DecisionVector(problem, model)
+        return moved
+
+    def _margins(self, limits: list[Constraint]) -> dict[str, float]:
+        """How far within the built limits to stay, so that it is the moved ones that are kept."""
+        margins = {}
+        for moved in limits:
+            built = self._limits.get(moved.name)
+            if built is not None:
+                tighter = built.limit - moved.limit if built.sense == "<=" else moved.limit - built.limit
+                margins[moved.name] = tighter / built.scale
+        return margins
+
+    def _binding(self, run: Run, optimizer: Optimizer) -> tuple[str, ...]:
+        """Limits whose multiplier costs something."""
+        first = optimizer.problem.equation_count
+        prices = run.multipliers[first : first + len(optimizer.problem.limits)]
+        least = _PRESSES * abs(run.start.objective or 1.0)
+        return tuple(limit.name for limit, price in zip(optimizer.problem.limits, prices, strict=True) if price > least)
+
+
+def _within(free: Free, study: Study) -> Free:
+    """A free number between the ends of now; what its unknown is divided by stays."""
+    ends = study.vary[free.name]
+    return replace(free, lower=ends.lower, upper=ends.upper) if isinstance(ends, Range) else free
+
+
+def _ends(run: Run, optimizer: Optimizer) -> dict[str, str]:
+    """Free numbers at an end of their range that presses."""
+    found = {}
+    least = _PRESSES * abs(run.start.objective or 1.0)
+    for free, price in zip(optimizer.problem.free, run.bound_multipliers, strict=False):
+        value = run.inputs[optimizer.model.index[free.name]]
+        room = AT_END * (free.upper - free.lower)
+        if price > least and value >= free.upper - room:
+            found[free.name] = "upper"
+        elif price < -least and value <= free.lower + room:
+            found[free.name] = "lower"
+    return found
+
+
+def _shape(study: Study) -> dict[str, Any]:
+    """All of a study that is built into its problem: words and whole numbers, names of limits, signs of ranges."""
+    table = study.table
+    numbers = {row.name for row in table.inputs if isinstance(row, Input) and not row.integer}
+    values = given(study)
+    return {
+        "words": {name: value for name, value in values.items() if name.partition("@")[0] not in numbers},
+        "limits": [limit.name for limit in constraints_of(study, table, values)],
+        "vary": {name: r.lower > 0.0 if isinstance(r, Range) else r for name, r in study.vary.items()},
+        "minimize": list(study.minimize),
+        "rest": (study.mode, tuple(study.operating_points), study.profile, study.robust, study.solver),
+    }
