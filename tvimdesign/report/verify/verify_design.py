@@ -71,7 +71,7 @@ def refuse_other_parts(module: ResolvedModule) -> None:
     form = module.values.get("heater_form", "flexible")
     if form != "flexible" and module.study.mode == "compression":
         raise InputError(
-            f"verify: heater_form is {form}; FE draws rigid modules below an arc, and in a vane only pads cut to the PCL"
+            f"verify: heater_form is {form}; FE draws rigid modules below an arc, in a vane only pads cut to the PCL"
         )
 
 
