@@ -71,7 +71,7 @@ def refuse_other_parts(module: ResolvedModule) -> None:
     form = module.values.get("heater_form", "flexible")
     if form != "flexible" and module.study.mode == "compression":
         raise InputError(
-            f"verify: heater_form is {form}; in a vane FE draws only pads cut to the PCL, rigid modules below an arc alone"
+            f"verify: heater_form is {form}; in a vane FE draws only pads cut to the PCL, rigid modules below an arc"
         )
 
 
