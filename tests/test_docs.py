@@ -87,11 +87,12 @@ def test_the_study_in_the_readme_has_an_optimum() -> None:
 def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path, left_out: set[str]) -> None:
     lines = [line.split("#")[0] for line in _blocks("sh")[2].splitlines()]
     commands = [shlex.split(line)[1:] for line in lines if line.strip()]
-    assert [words[0] for words in commands] == ["new", "check", "run", "cad", "rows", "simulate", "fit", "paper-check"]
+    named = ["new", "check", "run", "cad", "rows", "simulate", "explore", "fit", "paper-check"]
+    assert [words[0] for words in commands] == named
     measured = (ROOT / "docs/how-to/measure.md").read_text().partition('title="weights.csv"\n')[2].partition("```")[0]
     (tmp_path / "weights.csv").write_text(measured)
     for words in commands:
-        if words[0] == "cad":  # the parts have their own tests; here its input is looked at
+        if words[0] in {"cad", "explore"}:  # parts and the server have their own tests; here their input is looked at
             assert (tmp_path / words[1]).exists()
             continue
         if words[0] in left_out:
