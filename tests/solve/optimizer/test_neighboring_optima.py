@@ -57,13 +57,14 @@ def _kept_within(study: Study, optimizer: Optimizer, lower: float, upper: float)
 
 
 @pytest.mark.slow
-def test_a_start_in_another_turn_ends_in_the_best_turn(study: Study, optimizer: Optimizer) -> None:
-    """Two turns away: each is an optimum of its own, which the solver does not leave."""
-    run = _run_from(optimizer, **WIDE_ARCS, **{**SOFT_SPRINGS, "coil_count": 4.36})
+def test_a_start_is_led_to_what_is_as_good_as_the_best_of_all_turns() -> None:
+    """The study's own start ends in an optimum with better ones beside it, which the solver does not leave."""
+    study = read_study(ROOT / "studies/wrist_compression.yaml")
+    optimizer = Optimizer(study)
+    run = optimizer.solve()
     (improved,) = NeighboringOptima(optimizer).improve([run])
     alone = [_kept_within(study, optimizer, turn, turn + 1.0) for turn in (3.0, 4.0, 5.0)]
-    assert run.start.objective == pytest.approx(alone[1], rel=1e-4)
-    assert improved.start.objective == pytest.approx(min(alone), rel=1e-4)
+    assert improved.start.objective <= (1.0 + 1e-4) * min(alone)
     assert improved.start.objective < (1.0 - 1e-3) * run.start.objective
     assert improved.start.by_neighbor
     assert improved.start.begin == run.start.begin
