@@ -13,9 +13,9 @@ ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-san
 """Draw 3-D without a graphics card; run as root, as in a container."""
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """Chromium of the system."""
+    """Chromium of the system; ended with each module, as its event loop would stand in the way of the server's tests."""
     if CHROMIUM is None:
         pytest.skip("no browser, so no test of the page in one: install chromium (Debian: apt-get install chromium)")
     with sync_playwright() as play:

@@ -241,6 +241,6 @@ def test_every_value_of_a_record_is_one_the_category_knows() -> None:
         "peltiers": ["seebeck", "resistance", "conductance"],
     }
     for category, values in names.items():
-        assert set(values) <= set(CATEGORIES[category].values)
+        assert set(values) <= set(CATEGORIES[category].units)
     assert kind_sheet("release").category == ""
     assert Estimate("a", "1", "", 1.0, None, None).low is None
