@@ -15,7 +15,7 @@ ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-san
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """Chromium of the system; ended with each module, as its event loop would stand in the way of the server's tests."""
+    """Chromium of the system; ended with each module, as its event loop stands in the way of the server's tests."""
     if CHROMIUM is None:
         pytest.skip("no browser, so no test of the page in one: install chromium (Debian: apt-get install chromium)")
     with sync_playwright() as play:
